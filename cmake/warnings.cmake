@@ -1,0 +1,10 @@
+# Warnings that every target of ours is built with; system headers are not.
+add_library(tureen_warnings INTERFACE)
+target_compile_options(tureen_warnings INTERFACE -Wall -Wextra -Wshadow -Wpedantic)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # False alarms on string concatenation: GCC bug 105651, mended in 13.
+  target_compile_options(tureen_warnings INTERFACE -Wno-restrict)
+endif()
+if(TUREEN_WERROR)
+  target_compile_options(tureen_warnings INTERFACE -Werror)
+endif()

@@ -1,0 +1,60 @@
+#include "formats/output.hpp"
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#ifdef _WIN32
+#include <process.h>
+#define getpid _getpid
+#else
+#include <unistd.h>
+#endif
+
+namespace tureen {
+
+Output::Output(std::filesystem::path path) : path_(std::move(path)) {
+  static std::atomic<unsigned> counter{0};
+  temporary_ = path_;
+  temporary_ += ".tmp" + std::to_string(getpid()) + "-" + std::to_string(counter++);
+  file_ = std::fopen(temporary_.c_str(), "wb");
+  if (!file_) fail("cannot be created");
+}
+
+Output::~Output() {
+  if (!file_) return;
+  std::fclose(file_);
+  std::error_code ignored;
+  std::filesystem::remove(temporary_, ignored);
+}
+
+void Output::write(std::span<const std::byte> bytes) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail("cannot be written");
+  position_ += bytes.size();
+}
+
+void Output::write(std::string_view text) { write(std::as_bytes(std::span(text))); }
+
+void Output::commit() {
+  if (std::fflush(file_) != 0) fail("cannot be written");
+  if (std::fclose(std::exchange(file_, nullptr)) != 0) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary_, ignored);
+    fail("cannot be written");
+  }
+  std::error_code error;
+  std::filesystem::rename(temporary_, path_, error);
+  if (error) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary_, ignored);
+    throw OutputError({path_.string(), {}, {}}, "cannot be replaced: " + error.message());
+  }
+}
+
+void Output::fail(const char* what) const {
+  throw OutputError({path_.string(), {}, {}}, std::string(what) + ": " + std::strerror(errno));
+}
+
+}  // namespace tureen

@@ -1,0 +1,44 @@
+// A file that appears whole or not at all: written under a temporary name, then renamed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+#include "soup/error.hpp"
+
+namespace tureen {
+
+class Output {
+ public:
+  /// Opens a temporary file beside `path`. Throws OutputError.
+  explicit Output(std::filesystem::path path);
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+  /// Removes the temporary file unless commit() was reached.
+  ~Output();
+
+  void write(std::span<const std::byte> bytes);
+  void write(std::string_view text);
+  template <class T>
+  void write_value(const T& value) {
+    write(std::as_bytes(std::span(&value, 1)));
+  }
+  std::uint64_t position() const { return position_; }
+
+  /// Flushes, closes and renames over `path`. Throws OutputError; `path` is then untouched.
+  void commit();
+
+ private:
+  [[noreturn]] void fail(const char* what) const;
+
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+  std::FILE* file_ = nullptr;
+  std::uint64_t position_ = 0;
+};
+
+}  // namespace tureen

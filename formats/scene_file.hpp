@@ -1,0 +1,34 @@
+// The one door to scene files: told by content, not only by name.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "soup/scene.hpp"
+
+namespace tureen {
+
+/// What COLOR_0 of a foreign glTF holds. The specification says linear; common Python tools write
+/// display-referred values. `automatic` decides by the file's generator and says so in the notes.
+enum class VertexColorSpace { automatic, srgb, linear };
+
+struct ReadOptions {
+  VertexColorSpace vertex_colors = VertexColorSpace::automatic;
+  /// Called now and then with the fraction done, 0..1; may throw to abandon the read.
+  std::function<void(double)> progress;
+};
+
+/// Reads any scene that we know: .glb/.gltf (ours and foreign), .off, .ply, a DiffSoup export
+/// folder, a MobileNeRF folder (or its .obj), a .pt checkpoint. The scene has no defect().
+/// Throws InputError.
+Scene read_scene(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// Writes by the extension of `path` (.glb, .off, .ply; a DiffSoup export folder where there is no
+/// extension), whole or not at all. Returns what the format cannot hold, a sentence each. Throws
+/// UsageError when the format cannot hold this scene at all or the extension is unknown, and
+/// OutputError.
+std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path);
+
+}  // namespace tureen

@@ -1,0 +1,47 @@
+// A pinhole camera in pixels, in the OpenGL convention: in view space x points right, y up, and
+// the camera looks along -z. Readers convert to this at the border and say so.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+
+namespace tureen {
+
+/// Focal lengths and principal point in pixels; (cx, cy) is measured from the top left corner of
+/// the image to the right and down, so an image of width w centred on the axis has cx = w / 2.
+/// The centre of the pixel (column, row) lies at (column + 0.5, row + 0.5).
+struct Camera {
+  std::string name;
+  int width = 0;
+  int height = 0;
+  double fx = 0, fy = 0;
+  double cx = 0, cy = 0;
+  /// Rigid: a rotation and a translation. World coordinates include the scene's origin.
+  glm::dmat4 view_from_world{1.0};
+
+  /// The camera's centre in world coordinates.
+  glm::dvec3 eye() const;
+
+  /// Columns are the camera's right, up and backward axes in world coordinates.
+  glm::dmat3 world_from_view_rotation() const;
+};
+
+/// A camera at `eye` that looks at `target`. `fov_y` is the full vertical angle in radians, the
+/// principal point is the centre. `up` parallel to the line of sight is replaced by another axis.
+Camera look_at(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 up, double fov_y, int width,
+               int height);
+
+/// The same view drawn at another size: the vertical field of view is kept, pixels stay square
+/// if they were, and a wider image shows more at the sides.
+Camera resized(const Camera& camera, int width, int height);
+
+/// Clip from view for the depth range [near, far] mapped to NDC z in [-1, 1] (OpenGL's default),
+/// with the y axis up, so that row 0 of a read-back image is the bottom row.
+glm::dmat4 clip_from_view(const Camera& camera, double near, double far);
+
+/// Clip from view with reversed depth and an infinite far plane: NDC z = 1 at `near`, 0 at
+/// infinity. Needs glClipControl(.., GL_ZERO_TO_ONE).
+glm::dmat4 clip_from_view_reversed(const Camera& camera, double near);
+
+}  // namespace tureen

@@ -1,0 +1,80 @@
+// The triangular lattice that textures one triangle (DiffSoup, arXiv 2603.27151, section 3).
+//
+// At level L the lattice has resolution n = 2^L and texels at (x, y), x, y >= 0, x + y <= n.
+// Texel (x, y) lies at barycentrics b0 = x/n (weight of vertex 0), b1 = y/n (vertex 1),
+// b2 = 1 - b0 - b1 (vertex 2). Mind level 0: its texels are, in order, vertex 2, vertex 0,
+// vertex 1. shaders/lattice.glsl states the same rule in GLSL; a test holds the two equal.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace tureen::lattice {
+
+inline constexpr int max_level = 7;
+
+constexpr int resolution(int level) { return 1 << level; }
+
+/// Texels of one triangle: 3, 6, 15, 45, 153, 561, 2145, 8385 for levels 0..7.
+constexpr std::uint32_t texel_count(int level) {
+  const std::uint32_t n = 1u << level;
+  return (n + 1) * (n + 2) / 2;
+}
+
+/// Linear index of the texel (x, y): texels are stored diagonal by diagonal, x + y = 0, 1, ..
+constexpr std::uint32_t texel_index(int x, int y) {
+  const int diagonal = x + y;
+  return static_cast<std::uint32_t>(diagonal * (diagonal + 1) / 2 + y);
+}
+
+struct Coordinates {
+  int x, y;
+};
+
+/// The inverse of texel_index. Exact for every level up to 12 (specs: i <= 10,619,134).
+inline Coordinates texel_coordinates(std::uint32_t index) {
+  const double root = std::sqrt(8.0 * index + 1.0);
+  const int diagonal = static_cast<int>((root - 1.0) / 2.0);
+  const int y = static_cast<int>(index) - diagonal * (diagonal + 1) / 2;
+  return {diagonal - y, y};
+}
+
+/// The three texels around a point and their weights, which sum to 1.
+template <class Real>
+struct Footprint {
+  std::array<std::uint32_t, 3> texels;
+  std::array<Real, 3> weights;
+};
+
+/// Piecewise-linear interpolation at barycentrics (b0, b1); continuous across lattice cells.
+/// Cells are clamped, so a point slightly outside extrapolates from the border cell: no index
+/// ever leaves [0, texel_count(level)). NaN yields a valid footprint with NaN weights.
+template <class Real>
+Footprint<Real> footprint(int level, Real b0, Real b1) {
+  const int n = resolution(level);
+  Real p = b0 * static_cast<Real>(n);
+  Real q = b1 * static_cast<Real>(n);
+  // Clamped as floats before the cast: casting a float outside int's range is undefined. The
+  // order of the arguments makes NaN come out as the lower bound.
+  const auto cell = [](Real value, int upper) {
+    return static_cast<int>(std::min(std::max(Real(0), std::floor(value)), Real(upper)));
+  };
+  const int x = cell(p, n - 1);
+  const int y = cell(q, n - 1 - x);
+  p -= static_cast<Real>(x);
+  q -= static_cast<Real>(y);
+  if (p + q > Real(1)) {
+    // On the last diagonal the fourth corner of the cell lies outside the lattice; a point there
+    // is outside the triangle by rounding alone, and the border texel stands in.
+    const int corner_y = std::min(y + 1, n - (x + 1));
+    const Real a = Real(1) - q, b = Real(1) - p;
+    return {{texel_index(x + 1, y), texel_index(x, y + 1), texel_index(x + 1, corner_y)},
+            {a, b, Real(1) - a - b}};
+  }
+  return {{texel_index(x + 1, y), texel_index(x, y + 1), texel_index(x, y)},
+          {p, q, Real(1) - p - q}};
+}
+
+}  // namespace tureen::lattice

@@ -1,0 +1,34 @@
+// A trained scene: one kind of primitive, and what is known about it.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "soup/camera.hpp"
+#include "soup/soft_triangles.hpp"
+#include "soup/triangle_soup.hpp"
+
+namespace tureen {
+
+struct SceneInfo {
+  std::string name;
+  glm::vec3 up{0.0f, 1.0f, 0.0f};  // unit length
+  glm::vec3 background{0.0f};      // display-referred
+  std::string source;              // the method or format it came from, for people
+  std::vector<std::string> notes;  // what reading it assumed or lost, a sentence each
+};
+
+struct Scene {
+  std::variant<TriangleSoup, SoftTriangles> primitives;
+  std::vector<Camera> cameras;
+  glm::dvec3 origin{0.0};  // world = origin + position
+  SceneInfo info;
+};
+
+/// The soup to draw: the scene's own, or what becomes of its soft triangles (to_opaque), with a
+/// sentence on what that loses added to info.notes. The scene holds a TriangleSoup afterwards.
+TriangleSoup& opaque_soup(Scene& scene);
+
+}  // namespace tureen
