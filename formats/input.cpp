@@ -83,8 +83,7 @@ void Input::fail_at(std::uint64_t byte, const std::string& reason) const {
 }
 
 void Input::fail_truncated(std::uint64_t count, std::size_t each, const char* what) const {
-  const std::string want =
-      each == 1 ? plural(count) : std::to_string(count) + " x " + plural(each);
+  const std::string want = each == 1 ? plural(count) : std::to_string(count) + " x " + plural(each);
   fail(std::string(what) + " cut short: " + want + " expected, " + plural(remaining()) + " left");
 }
 

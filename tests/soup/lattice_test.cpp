@@ -67,8 +67,9 @@ TEST(Lattice, AffineFunctionsAreReproduced) {
 // specs T1: points on and just outside the edges never leave the lattice.
 TEST(Lattice, PointsOutsideStayWithinTheTexels) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  const float values[] = {-1e30f, -0.3f, -1e-7f, 0.0f,        0.3f, 0.5f, 1.0f,
-                          std::nextafter(1.0f, 2.0f), 1.0f + 1e-6f, 1.3f, 1e30f, nan};
+  const float values[] = {-1e30f,       -0.3f, -1e-7f, 0.0f,
+                          0.3f,         0.5f,  1.0f,   std::nextafter(1.0f, 2.0f),
+                          1.0f + 1e-6f, 1.3f,  1e30f,  nan};
   for (int level = 0; level <= lattice::max_level; ++level)
     for (const float b0 : values)
       for (const float b1 : values)
