@@ -78,7 +78,7 @@ struct FindDefect {
           image.pixels.size() != std::size_t(image.width) * image.height)
         return std::string("a texture image is empty or of the wrong size");
     for (const UvMaterial& material : textures.materials)
-      if (const Defect found = defect_of(material, textures)) return found;
+      if (Defect found = defect_of(material, textures)) return found;
     if (textures.mlp && !textures.vertex_rgba.empty())
       return std::string("vertex colours beside a color MLP mean nothing");
     if (textures.mlp) return tureen::defect(*textures.mlp, 8);
