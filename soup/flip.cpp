@@ -45,6 +45,7 @@ class Linearise {
 
 /// XYZ / white from linear sRGB: the CIE matrix of sRGB's primaries under D65 from their
 /// chromaticities (x, y) with each row divided by its sum, so that white is (1, 1, 1).
+/// The authors' program rounds the matrix in the fifth digit, which moves a mean by about 1e-6.
 glm::dmat3 relative_xyz_from_rgb() {
   const auto column = [](double x, double y) { return glm::dvec3(x / y, 1.0, (1 - x - y) / y); };
   const glm::dmat3 primaries(column(0.64, 0.33), column(0.30, 0.60), column(0.15, 0.06));
