@@ -1,15 +1,83 @@
-// What is drawn for this scene on this device, and what was left out.
+// What is drawn for this scene on this device, and what was left out. Made once, without GL; the
+// pipelines below obey it. specs: every row that the sentences name is proven by a test against the
+// plan made with `specialise = false`.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "runtime/color_mlp_source.hpp"
+#include "runtime/draw_order.hpp"
+#include "soup/triangle_soup.hpp"
+
 namespace tureen {
 
+/// What of a device a plan depends on.
+struct DeviceLimits {
+  int max_texture_size = 4096;
+  int max_array_layers = 256;
+  bool clip_control = false;
+};
+
+enum class PipelineKind {
+  tureen,     // visibility pass, then shading of covered pixels; or forward
+  published,  // a likeness of the published DiffSoup viewer, the baseline that speed is held against
+};
+
+enum class ShadingSite {
+  forward,   // colour in the only pass
+  deferred,  // a visibility pass names the winning fragment, a shading pass colours it
+};
+
+struct PlanPreferences {
+  PipelineKind pipeline = PipelineKind::tureen;
+  /// Without it nothing is left out: every face is alpha-tested, every pixel shaded, network weights
+  /// are uniforms.
+  bool specialise = true;
+  bool reversed_depth = true;       // where the device can
+  std::optional<ShadingSite> site;  // the plan's own choice when absent
+};
+
+/// How the texels of a lattice lie on the device.
+struct LatticePlan {
+  /// Every face has this level and the texels follow each other in slot order; -1: a table says
+  /// where the texels of each slot lie.
+  int uniform_level = -1;
+  /// Level of each slot on the device, below the soup's where a face is affine. Empty when the
+  /// texels are uploaded as the soup has them.
+  std::vector<std::uint8_t> levels;
+};
+
 struct RenderPlan {
-  /// For people, in order: how the scene is drawn, then one for each thing left out, with the
-  /// measured margin.
+  PipelineKind pipeline = PipelineKind::tureen;
+  ShadingSite site = ShadingSite::deferred;
+  bool reversed_depth = false;
+
+  /// The faces that are drawn, by their slot on the device: opaque ones first, near ones together.
+  std::vector<std::uint32_t> faces;
+  /// Slots below this need no alpha test.
+  std::size_t opaque_count = 0;
+  /// Runs of slots that are drawn together; none straddles opaque_count.
+  std::vector<Cluster> clusters;
+
+  bool flat_colors = false;        // one colour a face says it all, whatever the soup stores
+  bool color_mlp = false;          // the network runs
+  bool weights_as_constants = false;
+  bool depth_rejects_background = false;
+  int harmonics_degree = 0;
+  FeatureRanges feature_ranges;    // of what the network sees, for weights_as_constants
+  LatticePlan lattice;
+
+  /// For people: how the scene is drawn, then a sentence for each thing left out, with the measured
+  /// margin.
   std::vector<std::string> sentences;
 };
+
+/// The soup must have no defect(). Throws UsageError when the published pipeline is asked for and
+/// cannot draw this soup.
+RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
+                     const PlanPreferences& preferences = {});
 
 }  // namespace tureen

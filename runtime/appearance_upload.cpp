@@ -1,0 +1,265 @@
+#include "runtime/appearance_upload.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "runtime/lattice_upload.hpp"
+#include "soup/lattice.hpp"
+
+namespace tureen {
+
+namespace {
+
+/// Colours as bytes where that loses nothing, as floats otherwise.
+TexelStore color_store(const TexelLayout& layout, std::uint64_t count, const std::string& what,
+                       const std::function<glm::vec4(std::uint64_t)>& color) {
+  const auto as_byte = [](float value) { return std::clamp(std::round(value * 255.0f), 0.0f, 255.0f); };
+  bool bytes = true;
+  for (std::uint64_t i = 0; bytes && i < count; ++i) {
+    const glm::vec4 value = color(i);
+    for (int c = 0; c < 4; ++c) bytes = bytes && as_byte(value[c]) / 255.0f == value[c];
+  }
+  if (bytes)
+    return TexelStore(layout, texel_formats::rgba8, count, what,
+                      [&](std::uint64_t first, std::span<std::byte> out) {
+                        for (std::size_t i = 0; i < out.size(); ++i)
+                          out[i] = std::byte(as_byte(color(first + i / 4)[int(i % 4)]));
+                      });
+  return TexelStore(layout, texel_formats::rgba32f, count, what,
+                    [&](std::uint64_t first, std::span<std::byte> out) {
+                      for (std::size_t i = 0; i < out.size() / 16; ++i) {
+                        const glm::vec4 value = color(first + i);
+                        std::memcpy(&out[16 * i], &value, 16);
+                      }
+                    });
+}
+
+class Uploader {
+ public:
+  Uploader(const TriangleSoup& soup, const RenderPlan& plan, const TexelLayout& layout)
+      : soup_(soup), plan_(plan), layout_(layout) {
+    result_.constants = {{"TEXEL_ROW_BITS", std::to_string(layout.row_bits)},
+                         {"TEXEL_LAYER_BITS", std::to_string(layout.layer_bits)},
+                         {"ALPHA_THRESHOLD", "0.5"},
+                         {"COLOR_MLP", plan.color_mlp ? "1" : "0"}};
+  }
+
+  DeviceAppearance run() {
+    std::visit([this](const auto& appearance) { upload(appearance); }, soup_.appearance);
+    return std::move(result_);
+  }
+
+ private:
+  void include(const char* file) { result_.glsl += std::string("#include \"") + file + "\"\n"; }
+  void add(const char* name, TexelStore store) {
+    result_.samplers.push_back({name, std::move(store)});
+  }
+  std::uint64_t slots() const { return plan_.faces.size(); }
+  std::uint32_t vertex_of(std::uint64_t corner) const {
+    return soup_.triangles[plan_.faces[corner / 3]][int(corner % 3)];
+  }
+
+  void add_mlp(const ColorMlp& mlp, const FeatureRanges& ranges) {
+    if (!plan_.color_mlp) return;
+    result_.mlp = color_mlp_source(
+        mlp, plan_.weights_as_constants ? MlpWeights::constants : MlpWeights::uniforms, ranges);
+    if (mlp.encoding == DirectionEncoding::harmonics2) result_.constants["HARMONICS_DEGREE"] = "2";
+    result_.glsl += result_.mlp.text;
+  }
+
+  void upload_face_colors(const std::function<glm::vec4(std::uint32_t)>& color_of_face) {
+    include("appearance_face_colors.glsl");
+    add("colors", color_store(layout_, slots(), "face colours", [&](std::uint64_t slot) {
+          return color_of_face(plan_.faces[slot]);
+        }));
+  }
+
+  void upload(const FaceColors& colors) {
+    upload_face_colors([&](std::uint32_t face) { return colors.rgba[face]; });
+  }
+
+  void upload(const VertexColors& colors) {
+    if (plan_.flat_colors)
+      return upload_face_colors(
+          [&](std::uint32_t face) { return colors.rgba[soup_.triangles[face].x]; });
+    include("appearance_vertex_colors.glsl");
+    add("colors", color_store(layout_, 3 * slots(), "vertex colours", [&](std::uint64_t corner) {
+          return colors.rgba[vertex_of(corner)];
+        }));
+  }
+
+  void upload(const Harmonics& sh) {
+    include("appearance_harmonics.glsl");
+    const bool per_vertex = sh.domain == Harmonics::Domain::vertex;
+    const int stored = harmonics_count(sh.degree), kept = harmonics_count(plan_.harmonics_degree);
+    result_.constants["HARMONICS_DEGREE"] = std::to_string(plan_.harmonics_degree);
+    result_.constants["HARMONICS_PER_VERTEX"] = per_vertex ? "1" : "0";
+    result_.constants["VIEW_SIGN"] = sh.view == ViewConvention::surface_to_eye ? "1.0" : "-1.0";
+    const std::uint64_t elements = per_vertex ? 3 * slots() : slots();
+    const auto element_of = [&](std::uint64_t i) -> std::uint64_t {
+      return per_vertex ? vertex_of(i) : plan_.faces[i];
+    };
+    add("coefficients",
+        TexelStore(layout_, texel_formats::rgb32f, elements * std::uint64_t(kept), "harmonics",
+                   [&](std::uint64_t first, std::span<std::byte> out) {
+                     for (std::size_t i = 0; i < out.size() / 12; ++i) {
+                       const std::uint64_t texel = first + i;
+                       const std::uint64_t element = element_of(texel / std::uint64_t(kept));
+                       std::memcpy(&out[12 * i],
+                                   &sh.coefficients[element * std::uint64_t(stored) +
+                                                    texel % std::uint64_t(kept)],
+                                   12);
+                     }
+                   }));
+    add("anchors", TexelStore(layout_, texel_formats::rgb32f, elements, "harmonics anchors",
+                              [&](std::uint64_t first, std::span<std::byte> out) {
+                                for (std::size_t i = 0; i < out.size() / 12; ++i) {
+                                  const glm::vec3 point = anchor(first + i, per_vertex);
+                                  std::memcpy(&out[12 * i], &point, 12);
+                                }
+                              }));
+  }
+
+  static int harmonics_count(int degree) { return (degree + 1) * (degree + 1); }
+
+  glm::vec3 anchor(std::uint64_t element, bool per_vertex) const {
+    if (per_vertex) return soup_.positions[vertex_of(element)];
+    glm::dvec3 sum(0.0);
+    for (int k = 0; k < 3; ++k)
+      sum += glm::dvec3(soup_.positions[soup_.triangles[plan_.faces[element]][k]]);
+    return glm::vec3(sum / 3.0);
+  }
+
+  void upload(const LatticeTexture& texture) {
+    if (plan_.flat_colors)
+      return upload_face_colors([&](std::uint32_t face) {
+        const std::uint32_t texel = texture.patches[face].first_texel;
+        return glm::vec4(texture.value(texel, 0), texture.value(texel, 1), texture.value(texel, 2),
+                         1.0f);
+      });
+    LatticeStores stores = upload_lattice(texture, plan_, layout_);
+    include("appearance_lattice.glsl");
+    result_.constants["LATTICE_LEVEL"] = std::to_string(plan_.lattice.uniform_level);
+    add("features0", std::move(stores.features0));
+    if (plan_.color_mlp) add("features1", std::move(stores.features1));
+    if (plan_.opaque_count < plan_.faces.size()) add("alphas", std::move(stores.alphas));
+    if (plan_.lattice.uniform_level < 0) add("patches", std::move(stores.patches));
+    if (texture.mlp) add_mlp(*texture.mlp, plan_.feature_ranges);
+  }
+
+  void upload(const UvTextures& textures) {
+    include("appearance_uv.glsl");
+    result_.constants["VERTEX_TINT"] = textures.vertex_rgba.empty() ? "0" : "1";
+    upload_images(textures);
+    add("coordinates",
+        TexelStore(layout_, texel_formats::rg32f, 3 * slots(), "texture coordinates",
+                   [&](std::uint64_t first, std::span<std::byte> out) {
+                     for (std::size_t i = 0; i < out.size() / 8; ++i)
+                       std::memcpy(&out[8 * i], &textures.uv[vertex_of(first + i)], 8);
+                   }));
+    if (!textures.vertex_rgba.empty())
+      add("tints", color_store(layout_, 3 * slots(), "vertex colours", [&](std::uint64_t corner) {
+            return textures.vertex_rgba[vertex_of(corner)];
+          }));
+    std::vector<std::uint32_t> material_of_slot(slots());
+    for (std::size_t slot = 0; slot < slots(); ++slot)
+      material_of_slot[slot] = textures.material_of_face[plan_.faces[slot]];
+    add("material_of_face",
+        TexelStore::from(layout_, texel_formats::r32ui, std::span<const std::uint32_t>(material_of_slot),
+                         "face materials"));
+    if (textures.mlp) add_mlp(*textures.mlp, plan_.feature_ranges);
+  }
+
+  /// The images one after another in one store (two where there are features), and the materials,
+  /// three texels each, that say where an image lies and how it is read; the flags are those of
+  /// shaders/appearance_uv.glsl.
+  void upload_images(const UvTextures& textures) {
+    std::vector<glm::uvec4> table;
+    std::vector<const Image8*> firsts, seconds;
+    std::vector<std::uint64_t> starts;
+    std::uint64_t texels = 0;
+    for (const UvMaterial& material : textures.materials) {
+      glm::uvec4 entry(0, 1, 1, 0);
+      if (!material.images.empty()) {
+        const Image8* image = &textures.images[material.images[0]];
+        // Materials that share their images share the texels.
+        const Image8* second = textures.mlp ? &textures.images[material.images[1]] : nullptr;
+        std::size_t known = 0;
+        while (known < firsts.size() && (firsts[known] != image || seconds[known] != second)) ++known;
+        if (known == firsts.size()) {
+          firsts.push_back(image);
+          seconds.push_back(second);
+          starts.push_back(texels);
+          texels += image->pixels.size();
+        }
+        entry = glm::uvec4(std::uint32_t(starts[known]), image->width, image->height, 1u);
+      }
+      if (material.filter == UvMaterial::Filter::linear) entry.w |= 2u;
+      entry.w |= std::uint32_t(material.wrap_u) << 2 | std::uint32_t(material.wrap_v) << 4 |
+                 std::uint32_t(material.mask_channel) << 6;
+      glm::uvec4 factor;
+      std::memcpy(&factor, &material.factor, sizeof factor);
+      glm::uvec4 threshold(0);
+      std::memcpy(&threshold.x, &material.mask_threshold, sizeof threshold.x);
+      table.insert(table.end(), {entry, factor, threshold});
+    }
+    add("texels0", image_store(firsts, starts, texels));
+    if (textures.mlp) add("texels1", image_store(seconds, starts, texels));
+    add("materials", TexelStore::from(layout_, texel_formats::rgba32ui,
+                                      std::span<const glm::uvec4>(table), "materials"));
+  }
+
+  TexelStore image_store(const std::vector<const Image8*>& images,
+                         const std::vector<std::uint64_t>& starts, std::uint64_t texels) const {
+    return TexelStore(layout_, texel_formats::rgba8, texels, "texture images",
+                      [&](std::uint64_t first, std::span<std::byte> out) {
+                        std::uint64_t count = out.size() / 4;
+                        std::byte* destination = out.data();
+                        auto image = std::size_t(std::upper_bound(starts.begin(), starts.end(), first) -
+                                                 starts.begin()) - 1;
+                        while (count > 0) {
+                          const auto& pixels = images[image]->pixels;
+                          const std::uint64_t offset = first - starts[image];
+                          const std::uint64_t n = std::min<std::uint64_t>(count, pixels.size() - offset);
+                          std::memcpy(destination, &pixels[offset], n * 4);
+                          destination += n * 4;
+                          first += n;
+                          count -= n;
+                          ++image;
+                        }
+                      });
+  }
+
+  const TriangleSoup& soup_;
+  const RenderPlan& plan_;
+  const TexelLayout& layout_;
+  DeviceAppearance result_;
+};
+
+}  // namespace
+
+std::size_t DeviceAppearance::device_bytes() const {
+  std::size_t total = 0;
+  for (const Sampler& sampler : samplers) total += sampler.store.device_bytes();
+  return total;
+}
+
+void DeviceAppearance::bind(const gl::Program& program) const {
+  for (std::size_t unit = 0; unit < samplers.size(); ++unit) {
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glBindTexture(GL_TEXTURE_2D_ARRAY, samplers[unit].store.texture());
+    program.set(samplers[unit].name, static_cast<int>(unit));
+  }
+  if (!mlp.weights.empty()) {
+    program.set("mlp_weights", std::span<const glm::mat4>(mlp.weights));
+    program.set("mlp_biases", std::span<const glm::vec4>(mlp.biases));
+  }
+}
+
+DeviceAppearance upload_appearance(const TriangleSoup& soup, const RenderPlan& plan,
+                                   const TexelLayout& layout) {
+  return Uploader(soup, plan, layout).run();
+}
+
+}  // namespace tureen

@@ -1,0 +1,25 @@
+// Which faces need an alpha test, and which can never be seen.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "soup/triangle_soup.hpp"
+
+namespace tureen {
+
+enum class FaceAlpha : std::uint8_t {
+  opaque,       // every fragment exists
+  cut_out,      // to be tested
+  transparent,  // no fragment exists
+};
+
+/// One a face, decided from the data. Interpolated alpha stays between the values that it is
+/// interpolated from, so the smallest and the largest decide, exactly (specs 06, O1 and O2).
+std::vector<FaceAlpha> classify_alpha(const TriangleSoup& soup);
+
+/// False for a face that no rasteriser can draw: a corner that is not finite, or an area of nothing
+/// (specs 05, G1).
+bool drawable(const TriangleSoup& soup, std::uint32_t face);
+
+}  // namespace tureen

@@ -1,0 +1,139 @@
+#include "runtime/gl/context.hpp"
+
+#include <cstdio>
+#include <stdexcept>
+
+#include "runtime/gl/api.hpp"
+#include "runtime/gl/platform.hpp"
+#include "soup/error.hpp"
+
+namespace tureen::gl {
+
+namespace {
+
+class ExternalPlatform final : public Context::Platform {
+ public:
+  explicit ExternalPlatform(Context::GetProcAddress loader)
+      : get_proc_address_(loader) {}
+  void make_current() override {}
+  Context::GetProcAddress get_proc_address() const override { return get_proc_address_; }
+  Backend backend() const override { return Backend::external; }
+
+ private:
+  Context::GetProcAddress get_proc_address_;
+};
+
+std::string text_of(GLenum name) {
+  const auto* text = reinterpret_cast<const char*>(glGetString(name));
+  return text ? text : "unknown";
+}
+
+int integer_of(GLenum name) {
+  GLint value = 0;
+  glGetIntegerv(name, &value);
+  return value;
+}
+
+bool contains(const std::string& text, const char* part) {
+  return text.find(part) != std::string::npos;
+}
+
+#ifndef NDEBUG
+void APIENTRY report(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message,
+                     const void*) {
+  // Performance hints and notices are not ours to mend.
+  if (type == GL_DEBUG_TYPE_ERROR) std::fprintf(stderr, "OpenGL: %s\n", message);
+}
+#endif
+
+Capabilities query_capabilities(Api api) {
+  Capabilities result;
+  result.api = api;
+  result.major = integer_of(GL_MAJOR_VERSION);
+  result.minor = integer_of(GL_MINOR_VERSION);
+  result.renderer = text_of(GL_RENDERER);
+  result.version = text_of(GL_VERSION);
+  const bool desktop = api == Api::desktop;
+  const int version = 10 * result.major + result.minor;
+  if (version < (desktop ? 33 : 30))
+    throw ContextError("OpenGL " + result.version + " is too old: 3.3 core or ES 3.0 is needed");
+  result.clip_control =
+      desktop ? glClipControl != nullptr && version >= 45 : glClipControlEXT != nullptr;
+  result.multi_draw = desktop;
+  result.software = contains(result.renderer, "llvmpipe") ||
+                    contains(result.renderer, "softpipe") ||
+                    contains(result.renderer, "SwiftShader");
+  result.max_texture_size = integer_of(GL_MAX_TEXTURE_SIZE);
+  result.max_array_layers = integer_of(GL_MAX_ARRAY_TEXTURE_LAYERS);
+  return result;
+}
+
+}  // namespace
+
+#ifndef NDEBUG
+void check(const char* where) {
+  if (const GLenum error = glGetError(); error != GL_NO_ERROR)
+    throw std::logic_error(std::string("OpenGL error ") + std::to_string(error) + " in " + where);
+}
+#endif
+
+Context Context::create(const ContextRequest& request) {
+  std::string tried;
+  const auto attempt = [&](auto create_platform,
+                           const char* name) -> std::unique_ptr<Platform> {
+    try {
+      return create_platform(request);
+    } catch (const ContextError& error) {
+      tried += std::string(tried.empty() ? "" : "; ") + name + ": " + error.reason();
+      return nullptr;
+    }
+  };
+  std::unique_ptr<Platform> platform;
+  if (request.backend != Backend::osmesa) platform = attempt(create_egl, "EGL");
+  if (!platform && request.backend != Backend::egl) platform = attempt(create_osmesa, "OSMesa");
+  if (!platform)
+    throw ContextError("no OpenGL context can be had (" + tried +
+                       "). Install a GPU driver with EGL, or Mesa's software renderer: on Debian "
+                       "and Ubuntu, apt-get install libegl1 libgl1-mesa-dri, or libosmesa6");
+  return Context(std::move(platform), request.api);
+}
+
+Context Context::external(GetProcAddress get_proc_address, Api api) {
+  return Context(std::make_unique<ExternalPlatform>(get_proc_address), api);
+}
+
+Context::Context(std::unique_ptr<Platform> platform, Api api) : platform_(std::move(platform)) {
+  capabilities_.api = api;
+  make_current();
+  capabilities_ = query_capabilities(api);
+#ifndef NDEBUG
+  if (glDebugMessageCallback) {
+    glEnable(GL_DEBUG_OUTPUT);
+    glDebugMessageCallback(report, nullptr);
+  }
+#endif
+}
+
+Context::Context(Context&&) noexcept = default;
+Context& Context::operator=(Context&&) noexcept = default;
+Context::~Context() = default;
+
+void Context::make_current() {
+  platform_->make_current();
+  // glad keeps one table of functions; another library's context needs its own in it.
+  const auto load = reinterpret_cast<GLADloadfunc>(platform_->get_proc_address());
+  const int loaded = capabilities_.api == Api::es ? gladLoadGLES2(load) : gladLoadGL(load);
+  if (!loaded) throw ContextError("the context does not yield the OpenGL functions");
+}
+
+Backend Context::backend() const { return platform_->backend(); }
+
+std::string Context::description() const {
+  static constexpr const char* names[] = {"automatic", "EGL", "OSMesa", "external"};
+  return std::string(names[static_cast<int>(backend())]) +
+         (capabilities_.api == Api::es ? ", OpenGL ES " : ", OpenGL ") +
+         std::to_string(capabilities_.major) + "." + std::to_string(capabilities_.minor) +
+         (capabilities_.api == Api::es ? "" : " core");
+}
+
+}  // namespace tureen::gl

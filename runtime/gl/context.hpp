@@ -1,0 +1,73 @@
+// A current OpenGL context without a window: EGL surfaceless or OSMesa, both loaded at run time so
+// that one program runs where either is missing; or a context that somebody else made current.
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace tureen::gl {
+
+enum class Backend { automatic, egl, osmesa, external };
+enum class Api { desktop, es };
+
+struct ContextRequest {
+  Backend backend = Backend::automatic;  // EGL first, then OSMesa
+  Api api = Api::desktop;
+  /// The version asked for; drivers may give a higher compatible one. 0 asks for the highest.
+  int major = 0;
+  int minor = 0;
+};
+
+/// What a context can do, as far as we care.
+struct Capabilities {
+  Api api = Api::desktop;
+  int major = 0;
+  int minor = 0;
+  std::string renderer;  // GL_RENDERER
+  std::string version;   // GL_VERSION
+  bool clip_control = false;
+  bool multi_draw = false;
+  bool software = false;  // llvmpipe, softpipe or SwiftShader: timer queries mislead there
+  int max_texture_size = 0;
+  int max_array_layers = 0;
+};
+
+class Context {
+ public:
+  /// Creates a context and makes it current. Throws ContextError with what was tried and what to
+  /// install.
+  static Context create(const ContextRequest& request);
+
+  using GetProcAddress = void* (*)(const char* name);
+  /// Takes over a context that is current on this thread (a window's); never destroys it.
+  static Context external(GetProcAddress get_proc_address, Api api);
+
+  Context(Context&&) noexcept;
+  Context& operator=(Context&&) noexcept;
+  ~Context();
+
+  /// Makes this context current on the calling thread and loads its functions.
+  void make_current();
+
+  Backend backend() const;
+  const Capabilities& capabilities() const { return capabilities_; }
+  /// "EGL, OpenGL 4.5 core" and the like.
+  std::string description() const;
+
+  /// A context of one library; implemented in context_egl.cpp and context_osmesa.cpp.
+  class Platform {
+   public:
+    virtual ~Platform() = default;
+    virtual void make_current() = 0;
+    virtual GetProcAddress get_proc_address() const = 0;
+    virtual Backend backend() const = 0;
+  };
+
+ private:
+  Context(std::unique_ptr<Platform> platform, Api api);
+
+  std::unique_ptr<Platform> platform_;
+  Capabilities capabilities_;
+};
+
+}  // namespace tureen::gl

@@ -1,0 +1,99 @@
+// OSMesa: Mesa's software rasteriser drawing into our memory. Its header clashes with GL loaders,
+// so the few declarations we need stand here. Mesa 25.1 and later no longer have it.
+#include <array>
+#include <string>
+#include <vector>
+
+#include "runtime/gl/platform.hpp"
+#include "soup/error.hpp"
+
+namespace tureen::gl {
+
+namespace {
+
+using OSMesaContext = void*;
+
+// From GL/osmesa.h.
+constexpr int osmesa_format = 0x22;
+constexpr int osmesa_rgba = 0x1908;
+constexpr int osmesa_depth_bits = 0x30;
+constexpr int osmesa_profile = 0x33;
+constexpr int osmesa_core_profile = 0x34;
+constexpr int osmesa_major_version = 0x36;
+constexpr int osmesa_minor_version = 0x37;
+constexpr unsigned gl_unsigned_byte = 0x1401;
+
+SharedLibrary open_library() {
+  // 8 is Debian's and Fedora's name, 6 the one before it.
+  try {
+    return SharedLibrary("libOSMesa.so.8");
+  } catch (const ContextError&) {
+    return SharedLibrary("libOSMesa.so.6");
+  }
+}
+
+struct OsMesa {
+  SharedLibrary library = open_library();
+  OSMesaContext (*create_context)(const int*, OSMesaContext);
+  void (*destroy_context)(OSMesaContext);
+  unsigned char (*make_current)(OSMesaContext, void*, unsigned, int, int);
+  void* (*get_proc_address)(const char*);
+
+  OsMesa() {
+    library.load(create_context, "OSMesaCreateContextAttribs");
+    library.load(destroy_context, "OSMesaDestroyContext");
+    library.load(make_current, "OSMesaMakeCurrent");
+    library.load(get_proc_address, "OSMesaGetProcAddress");
+  }
+};
+
+const OsMesa& osmesa() {
+  static const OsMesa loaded;
+  return loaded;
+}
+
+class OsMesaPlatform final : public Context::Platform {
+ public:
+  explicit OsMesaPlatform(OSMesaContext context) : context_(context) {}
+  ~OsMesaPlatform() override {
+    osmesa().make_current(nullptr, nullptr, 0, 0, 0);
+    osmesa().destroy_context(context_);
+  }
+  void make_current() override {
+    // The window that OSMesa insists on; everything is drawn into framebuffers of our own.
+    if (!osmesa().make_current(context_, window_.data(), gl_unsigned_byte, 1, 1))
+      throw ContextError("OSMesaMakeCurrent failed");
+  }
+  Context::GetProcAddress get_proc_address() const override { return osmesa().get_proc_address; }
+  Backend backend() const override { return Backend::osmesa; }
+
+ private:
+  OSMesaContext context_;
+  std::array<unsigned char, 4> window_{};
+};
+
+}  // namespace
+
+std::unique_ptr<Context::Platform> create_osmesa(const ContextRequest& request) {
+  if (request.api == Api::es) throw ContextError("OSMesa makes no OpenGL ES contexts");
+  struct Version {
+    int major, minor;
+  };
+  // 4.6 yields no context, 4.5 the highest that Mesa's software rasteriser knows.
+  const std::vector<Version> versions =
+      request.major > 0 ? std::vector<Version>{{request.major, request.minor}}
+                        : std::vector<Version>{{4, 5}, {4, 1}, {3, 3}};
+  for (const Version version : versions) {
+    const int attributes[] = {osmesa_format,        osmesa_rgba,         osmesa_depth_bits,    24,
+                              osmesa_profile,       osmesa_core_profile, osmesa_major_version,
+                              version.major,        osmesa_minor_version, version.minor,       0};
+    if (OSMesaContext context = osmesa().create_context(attributes, nullptr)) {
+      auto platform = std::make_unique<OsMesaPlatform>(context);
+      platform->make_current();
+      return platform;
+    }
+  }
+  throw ContextError("OSMesa offers no OpenGL 3.3 core context");
+}
+
+}  // namespace tureen::gl

@@ -1,0 +1,79 @@
+// Move-only ownership of GL objects. Nothing here binds on construction beyond what it must, and
+// nothing keeps GL state but what its name says. The context must be current, also on destruction.
+#pragma once
+
+#include <utility>
+
+#include "runtime/gl/api.hpp"
+
+namespace tureen::gl {
+
+/// One GL name; `Traits` says how it is made and deleted. Move assignment swaps.
+template <class Traits>
+class Object {
+ public:
+  /// No object: id() is 0.
+  Object() = default;
+  static Object create() {
+    Object object;
+    object.id_ = Traits::create();
+    return object;
+  }
+  Object(Object&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+  Object& operator=(Object&& other) noexcept {
+    std::swap(id_, other.id_);
+    return *this;
+  }
+  ~Object() {
+    if (id_) Traits::destroy(id_);
+  }
+  GLuint id() const { return id_; }
+  explicit operator bool() const { return id_ != 0; }
+
+ private:
+  GLuint id_ = 0;
+};
+
+struct BufferTraits {
+  static GLuint create() {
+    GLuint id;
+    glGenBuffers(1, &id);
+    return id;
+  }
+  static void destroy(GLuint id) { glDeleteBuffers(1, &id); }
+};
+struct TextureTraits {
+  static GLuint create() {
+    GLuint id;
+    glGenTextures(1, &id);
+    return id;
+  }
+  static void destroy(GLuint id) { glDeleteTextures(1, &id); }
+};
+struct FramebufferTraits {
+  static GLuint create() {
+    GLuint id;
+    glGenFramebuffers(1, &id);
+    return id;
+  }
+  static void destroy(GLuint id) { glDeleteFramebuffers(1, &id); }
+};
+struct VertexArrayTraits {
+  static GLuint create() {
+    GLuint id;
+    glGenVertexArrays(1, &id);
+    return id;
+  }
+  static void destroy(GLuint id) { glDeleteVertexArrays(1, &id); }
+};
+struct ProgramTraits {
+  static GLuint create() { return glCreateProgram(); }
+  static void destroy(GLuint id) { glDeleteProgram(id); }
+};
+
+using Buffer = Object<BufferTraits>;
+using Texture = Object<TextureTraits>;
+using Framebuffer = Object<FramebufferTraits>;
+using VertexArray = Object<VertexArrayTraits>;
+
+}  // namespace tureen::gl

@@ -1,0 +1,83 @@
+#include "runtime/gl/program.hpp"
+
+#include <glm/gtc/type_ptr.hpp>
+#include <sstream>
+
+#include "soup/error.hpp"
+
+namespace tureen::gl {
+
+namespace {
+
+std::string numbered(const std::string& source) {
+  std::istringstream lines(source);
+  std::string line, result;
+  for (int number = 1; std::getline(lines, line); ++number)
+    result += std::to_string(number) + ": " + line + "\n";
+  return result;
+}
+
+/// A compiled shader, deleted at the end of the scope: the program keeps it alive as long as needed.
+class Shader {
+ public:
+  Shader(GLenum stage, const std::string& source) : id_(glCreateShader(stage)) {
+    const char* text = source.c_str();
+    glShaderSource(id_, 1, &text, nullptr);
+    glCompileShader(id_);
+    GLint compiled = 0;
+    glGetShaderiv(id_, GL_COMPILE_STATUS, &compiled);
+    if (compiled) return;
+    char log[4096] = "";
+    glGetShaderInfoLog(id_, sizeof log, nullptr, log);
+    glDeleteShader(id_);
+    throw ContextError("the driver rejects a shader: " + std::string(log) + numbered(source));
+  }
+  Shader(const Shader&) = delete;
+  Shader& operator=(const Shader&) = delete;
+  ~Shader() { glDeleteShader(id_); }
+  GLuint id() const { return id_; }
+
+ private:
+  GLuint id_;
+};
+
+}  // namespace
+
+Program::Program(const std::string& vertex_source, const std::string& fragment_source)
+    : object_(Object<ProgramTraits>::create()) {
+  const Shader vertex(GL_VERTEX_SHADER, vertex_source);
+  const Shader fragment(GL_FRAGMENT_SHADER, fragment_source);
+  glAttachShader(object_.id(), vertex.id());
+  glAttachShader(object_.id(), fragment.id());
+  glLinkProgram(object_.id());
+  GLint linked = 0;
+  glGetProgramiv(object_.id(), GL_LINK_STATUS, &linked);
+  if (linked) return;
+  char log[4096] = "";
+  glGetProgramInfoLog(object_.id(), sizeof log, nullptr, log);
+  throw ContextError("the driver cannot link a program: " + std::string(log));
+}
+
+void Program::set(const char* name, int value) const { glUniform1i(location(name), value); }
+void Program::set(const char* name, float value) const { glUniform1f(location(name), value); }
+void Program::set(const char* name, const glm::vec2& value) const {
+  glUniform2fv(location(name), 1, glm::value_ptr(value));
+}
+void Program::set(const char* name, const glm::vec3& value) const {
+  glUniform3fv(location(name), 1, glm::value_ptr(value));
+}
+void Program::set(const char* name, const glm::vec4& value) const {
+  glUniform4fv(location(name), 1, glm::value_ptr(value));
+}
+void Program::set(const char* name, const glm::mat4& value) const {
+  glUniformMatrix4fv(location(name), 1, GL_FALSE, glm::value_ptr(value));
+}
+void Program::set(const char* name, std::span<const glm::mat4> values) const {
+  glUniformMatrix4fv(location(name), static_cast<GLsizei>(values.size()), GL_FALSE,
+                     glm::value_ptr(values.front()));
+}
+void Program::set(const char* name, std::span<const glm::vec4> values) const {
+  glUniform4fv(location(name), static_cast<GLsizei>(values.size()), glm::value_ptr(values.front()));
+}
+
+}  // namespace tureen::gl

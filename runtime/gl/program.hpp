@@ -1,0 +1,40 @@
+// A linked shader program and its uniforms by name.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+#include <string>
+
+#include "runtime/gl/objects.hpp"
+
+namespace tureen::gl {
+
+class Program {
+ public:
+  Program() = default;
+  /// Compiles and links complete sources (with their version line). A failure is our own bug or a
+  /// driver's: throws ContextError with the driver's log and the numbered source.
+  Program(const std::string& vertex_source, const std::string& fragment_source);
+
+  void use() const { glUseProgram(object_.id()); }
+
+  // Uniforms of the program in use; a name that the linker has removed is ignored.
+  void set(const char* name, int value) const;
+  void set(const char* name, float value) const;
+  void set(const char* name, const glm::vec2& value) const;
+  void set(const char* name, const glm::vec3& value) const;
+  void set(const char* name, const glm::vec4& value) const;
+  void set(const char* name, const glm::mat4& value) const;
+  void set(const char* name, std::span<const glm::mat4> values) const;
+  void set(const char* name, std::span<const glm::vec4> values) const;
+
+ private:
+  GLint location(const char* name) const { return glGetUniformLocation(object_.id(), name); }
+
+  Object<ProgramTraits> object_;
+};
+
+}  // namespace tureen::gl

@@ -1,0 +1,33 @@
+// What a lattice texture holds, measured: the plan leaves out what it does not.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "runtime/color_mlp_source.hpp"
+#include "soup/triangle_soup.hpp"
+
+namespace tureen {
+
+struct LatticeTraits {
+  FeatureRanges ranges;  // of each feature over the faces looked at
+  std::size_t constant_faces = 0;
+  /// One a face looked at, in their order: the largest error of any feature, in feature units, that
+  /// interpolating the face's three corner texels makes anywhere on it. Infinite where that would
+  /// move the cut-out: where alpha is neither at least 1/2 throughout nor affine up to rounding.
+  /// Lattice interpolation is linear between texels, so the bound holds everywhere on the face.
+  std::vector<float> affine_residual;
+  bool shares_texels = false;  // some texels belong to more than one of these faces
+  int lowest_level = 0;
+  int highest_level = 0;
+};
+
+/// Looks at `faces` of a soup with this texture. O(texels).
+LatticeTraits measure(const LatticeTexture& texture, std::span<const std::uint32_t> faces);
+
+/// How much a change of the features by one can change the colour: an upper bound (the product of
+/// the layers' largest absolute row sums, the sigmoid's slope 1/4, and the blend). 1 without an MLP.
+double color_gain(const LatticeTexture& texture);
+
+}  // namespace tureen

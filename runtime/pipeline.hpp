@@ -1,0 +1,46 @@
+// A way to turn a planned soup into pixels of a target. Internal to runtime/: users want Renderer.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <memory>
+
+#include "runtime/clip_range.hpp"
+#include "runtime/gl/context.hpp"
+#include "runtime/gl/objects.hpp"
+#include "runtime/plan.hpp"
+#include "soup/camera.hpp"
+
+namespace tureen {
+
+/// One frame's camera, relative to the soup's origin.
+struct FrameCamera {
+  Camera camera;
+  glm::dvec3 eye;  // relative to the origin
+  ClipRange range;
+};
+
+class Pipeline {
+ public:
+  virtual ~Pipeline() = default;
+
+  /// Makes the targets for this size. Called before the first frame and when the size changes.
+  virtual void resize(int width, int height) = 0;
+  virtual void draw(const FrameCamera& frame, const glm::vec4& background) = 0;
+
+  /// The framebuffer with the finished colours, RGBA8, row 0 at the bottom.
+  virtual GLuint color_framebuffer() const = 0;
+  /// The framebuffer with (slot, barycentrics) as RG32UI, or 0 where the pipeline has none.
+  virtual GLuint visibility_framebuffer() const { return 0; }
+  /// Buffers and textures of the scene, not the targets.
+  virtual std::size_t device_bytes() const = 0;
+};
+
+std::unique_ptr<Pipeline> make_tureen_pipeline(const gl::Capabilities& capabilities,
+                                               const DeviceLimits& limits, const TriangleSoup& soup,
+                                               const RenderPlan& plan);
+std::unique_ptr<Pipeline> make_published_pipeline(const gl::Capabilities& capabilities,
+                                                  const DeviceLimits& limits,
+                                                  const TriangleSoup& soup, const RenderPlan& plan);
+
+}  // namespace tureen

@@ -1,0 +1,102 @@
+#include "runtime/renderer.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "runtime/clip_range.hpp"
+#include "runtime/pipeline.hpp"
+
+namespace tureen {
+
+struct Renderer::State {
+  RenderPlan plan;  // pipeline refers to it
+  Bounds bounds;
+  glm::dvec3 origin;
+  glm::vec4 background;
+  std::unique_ptr<Pipeline> pipeline;
+  int width = 0, height = 0;
+};
+
+DeviceLimits device_limits(const gl::Capabilities& capabilities) {
+  return {.max_texture_size = capabilities.max_texture_size,
+          .max_array_layers = capabilities.max_array_layers,
+          .clip_control = capabilities.clip_control};
+}
+
+Renderer::Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
+                   const RenderOptions& options)
+    : state_(std::make_unique<State>()) {
+  const gl::Capabilities& capabilities = context.capabilities();
+  const DeviceLimits limits = options.limits.value_or(device_limits(capabilities));
+  state_->plan = make_plan(soup, limits, options.plan);
+  state_->bounds = bounds(soup);
+  state_->origin = origin;
+  state_->background = options.background;
+  state_->pipeline = state_->plan.pipeline == PipelineKind::published
+                         ? make_published_pipeline(capabilities, limits, soup, state_->plan)
+                         : make_tureen_pipeline(capabilities, limits, soup, state_->plan);
+}
+
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+const RenderPlan& Renderer::plan() const { return state_->plan; }
+
+void Renderer::set_background(glm::vec4 background) { state_->background = background; }
+
+void Renderer::draw(const Camera& camera) {
+  assert(camera.width > 0 && camera.height > 0);
+  if (camera.width != state_->width || camera.height != state_->height) {
+    state_->pipeline->resize(camera.width, camera.height);
+    state_->width = camera.width;
+    state_->height = camera.height;
+  }
+  const glm::dvec3 eye = camera.eye() - state_->origin;
+  state_->pipeline->draw({camera, eye, clip_range(state_->bounds, eye)}, state_->background);
+}
+
+void Renderer::finish() const { glFinish(); }
+
+Image8 Renderer::read_color() const {
+  const int width = state_->width, height = state_->height;
+  Image8 image(width, height);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, state_->pipeline->color_framebuffer());
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
+  for (int y = 0; y < height / 2; ++y)
+    std::swap_ranges(&image.at(0, y), &image.at(0, y) + width, &image.at(0, height - 1 - y));
+  return image;
+}
+
+std::vector<std::uint32_t> Renderer::read_faces() const {
+  const GLuint framebuffer = state_->pipeline->visibility_framebuffer();
+  if (!framebuffer) return {};
+  const auto width = std::size_t(state_->width), height = std::size_t(state_->height);
+  std::vector<glm::uvec2> fragments(width * height);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glReadPixels(0, 0, state_->width, state_->height, GL_RG_INTEGER, GL_UNSIGNED_INT,
+               fragments.data());
+  std::vector<std::uint32_t> faces(fragments.size());
+  for (std::size_t y = 0; y < height; ++y)
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::uint32_t slot = fragments[(height - 1 - y) * width + x].x;
+      faces[y * width + x] = slot == no_face ? no_face : state_->plan.faces[slot];
+    }
+  return faces;
+}
+
+void Renderer::blit_to(unsigned framebuffer) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, state_->pipeline->color_framebuffer());
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  glBlitFramebuffer(0, 0, state_->width, state_->height, 0, 0, state_->width, state_->height,
+                    GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+}
+
+std::size_t Renderer::device_bytes() const { return state_->pipeline->device_bytes(); }
+
+}  // namespace tureen

@@ -1,0 +1,75 @@
+// A soup on a device, drawn frame by frame.
+//
+// What it does not do: windows, input, loading files, choosing cameras. The context it was made with
+// must be current for every call, and on destruction.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "runtime/gl/context.hpp"
+#include "runtime/plan.hpp"
+#include "soup/camera.hpp"
+#include "soup/image.hpp"
+#include "soup/triangle_soup.hpp"
+
+namespace tureen {
+
+class Pipeline;
+
+struct RenderOptions {
+  PlanPreferences plan;
+  /// What pixels without a face become: display-referred colour, and alpha (0 for transparent).
+  glm::vec4 background{0.0f, 0.0f, 0.0f, 1.0f};
+  /// Pretend that the device can do no more than this (tests, forecasts).
+  std::optional<DeviceLimits> limits;
+};
+
+DeviceLimits device_limits(const gl::Capabilities& capabilities);
+
+/// Names no face in read_faces().
+inline constexpr std::uint32_t no_face = 0xffffffffu;
+
+class Renderer {
+ public:
+  /// Plans and uploads; the soup is not needed afterwards. It must have no defect(). Throws
+  /// DeviceLimitError with a forecast when it does not fit, UsageError as make_plan does.
+  Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
+           const RenderOptions& options = {});
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+
+  const RenderPlan& plan() const;
+
+  void set_background(glm::vec4 background);
+
+  /// Draws one frame of camera.width x camera.height into a target of its own; returns before the
+  /// device has finished. Asserts a positive size.
+  void draw(const Camera& camera);
+
+  /// Waits for the device.
+  void finish() const;
+
+  /// The last frame. Row 0 is the top row. Waits for the device.
+  Image8 read_color() const;
+
+  /// The face that each pixel of the last frame shows, row 0 on top, no_face where none does. Empty
+  /// when the plan shades forward.
+  std::vector<std::uint32_t> read_faces() const;
+
+  /// Copies the last frame into a framebuffer of the same size (0 is the window).
+  void blit_to(unsigned framebuffer) const;
+
+  /// Bytes of the scene's buffers and textures, without the targets.
+  std::size_t device_bytes() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace tureen

@@ -1,0 +1,24 @@
+// Complete GLSL for a context from the files of shaders/: the version line, precisions, constants
+// from a typed configuration, and #include "file" resolved (each file once).
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "runtime/gl/context.hpp"
+
+namespace tureen {
+
+struct ShaderSource {
+  std::string_view file;  // such as "shading.frag"
+  /// Becomes `#define NAME VALUE`.
+  std::map<std::string, std::string> constants;
+  /// Texts that stand for #include files of these names (generated code).
+  std::map<std::string, std::string> generated;
+};
+
+/// Asserts that every included file exists.
+std::string assemble(const ShaderSource& source, gl::Api api);
+
+}  // namespace tureen

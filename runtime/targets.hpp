@@ -1,0 +1,29 @@
+// Textures and framebuffers of the window's size.
+#pragma once
+
+#include <initializer_list>
+
+#include "runtime/gl/objects.hpp"
+#include "runtime/texel_store.hpp"
+
+namespace tureen {
+
+struct TargetFormat {
+  GLenum internal_format, format, type;
+};
+
+namespace target_formats {
+inline constexpr TargetFormat rgba8{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
+inline constexpr TargetFormat rg32ui{GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT};
+inline constexpr TargetFormat depth24{GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT};
+inline constexpr TargetFormat depth32f{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT};
+}  // namespace target_formats
+
+/// A texture to draw into; nearest sampling.
+gl::Texture make_target(const TargetFormat& format, int width, int height);
+
+/// Throws ContextError when the device cannot draw into these together. `colors` become attachments
+/// 0, 1, ..; all of them are drawn to.
+gl::Framebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint depth);
+
+}  // namespace tureen

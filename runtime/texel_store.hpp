@@ -1,0 +1,76 @@
+// A linear array of texels on the device, as long as a scene needs: rows in the layers of a 2D array
+// texture. shaders/texel_store.glsl finds a texel by its index.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+
+#include "runtime/gl/objects.hpp"
+#include "runtime/plan.hpp"
+
+namespace tureen {
+
+/// How the index is cut into column, row and layer. The same for every store of a device. A layer of
+/// 2^21 texels wastes at most 8 MiB of RGBA8 at the end and lets 256 layers, the least that any
+/// device has, hold 2^29 texels.
+struct TexelLayout {
+  int row_bits = 12;    // 4096 columns, 2048 on devices that have no more
+  int layer_bits = 9;  // rows of a layer
+  int max_layers = 256;
+
+  static TexelLayout of(const DeviceLimits& limits);
+  std::uint64_t texels_per_layer() const { return std::uint64_t(1) << (row_bits + layer_bits); }
+  /// The most texels that one store can hold.
+  std::uint64_t capacity() const { return texels_per_layer() * std::uint64_t(max_layers); }
+};
+
+struct TexelFormat {
+  GLenum internal_format, format, type;
+  std::size_t bytes;  // of a texel
+};
+
+namespace texel_formats {
+inline constexpr TexelFormat r8{GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1};
+inline constexpr TexelFormat rgba8{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+inline constexpr TexelFormat r32f{GL_R32F, GL_RED, GL_FLOAT, 4};
+inline constexpr TexelFormat rg32f{GL_RG32F, GL_RG, GL_FLOAT, 8};
+inline constexpr TexelFormat rgb32f{GL_RGB32F, GL_RGB, GL_FLOAT, 12};
+inline constexpr TexelFormat rgba32f{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
+inline constexpr TexelFormat r32ui{GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
+inline constexpr TexelFormat rg32ui{GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 8};
+inline constexpr TexelFormat rgba32ui{GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16};
+}  // namespace texel_formats
+
+class TexelStore {
+ public:
+  TexelStore() = default;
+  /// `fill(first, out)` writes the texels from `first` on, out.size() / format.bytes of them; it is
+  /// called with growing `first`, so that a store larger than memory can hold twice can be made.
+  /// Throws DeviceLimitError with what would fit; `what` names the contents there.
+  TexelStore(const TexelLayout& layout, const TexelFormat& format, std::uint64_t count,
+             const std::string& what,
+             const std::function<void(std::uint64_t first, std::span<std::byte> out)>& fill);
+
+  /// From memory: values.size_bytes() / format.bytes texels.
+  template <class T>
+  static TexelStore from(const TexelLayout& layout, const TexelFormat& format,
+                         std::span<const T> values, const std::string& what) {
+    const auto bytes = std::as_bytes(values);
+    return TexelStore(layout, format, bytes.size() / format.bytes, what,
+                      [&](std::uint64_t first, std::span<std::byte> out) {
+                        std::copy_n(bytes.data() + first * format.bytes, out.size(), out.data());
+                      });
+  }
+
+  GLuint texture() const { return texture_.id(); }
+  std::size_t device_bytes() const { return device_bytes_; }
+
+ private:
+  gl::Texture texture_;
+  std::size_t device_bytes_ = 0;
+};
+
+}  // namespace tureen

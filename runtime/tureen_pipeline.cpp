@@ -1,0 +1,216 @@
+// Our frame: a visibility pass that names the winning fragment of each pixel, then a shading pass
+// over the covered pixels; or, for cheap appearances, colour at once.
+#include "runtime/appearance_upload.hpp"
+#include "runtime/geometry.hpp"
+#include "runtime/pipeline.hpp"
+#include "runtime/shader_source.hpp"
+#include "runtime/targets.hpp"
+
+namespace tureen {
+
+namespace {
+
+constexpr std::uint32_t no_slot = 0xffffffffu;
+
+class TureenPipeline final : public Pipeline {
+ public:
+  TureenPipeline(const gl::Capabilities& capabilities, const DeviceLimits& limits,
+                 const TriangleSoup& soup, const RenderPlan& plan)
+      : plan_(plan),
+        multi_draw_(capabilities.multi_draw),
+        appearance_(upload_appearance(soup, plan, TexelLayout::of(limits))),
+        geometry_(soup, plan.faces),
+        nothing_(gl::VertexArray::create()) {
+    const bool forward = plan.site == ShadingSite::forward;
+    const char* fragment = forward ? "forward.frag" : "visibility.frag";
+    const std::size_t cut_out = plan.faces.size() - plan.opaque_count;
+    if (plan.opaque_count > 0)
+      opaque_ = program(capabilities.api, "geometry.vert", fragment, {{"ALPHA_TEST", "0"}});
+    if (cut_out > 0)
+      cut_out_ = program(capabilities.api, "geometry.vert", fragment, {{"ALPHA_TEST", "1"}});
+    if (!forward)
+      shading_ = program(
+          capabilities.api, "full_screen.vert", "shading.frag",
+          {{"NO_FACE", "0xffffffffu"},
+           {"DEPTH_REJECTS_BACKGROUND", plan.depth_rejects_background ? "1" : "0"}});
+    gl::check("TureenPipeline");
+  }
+
+  void resize(int width, int height) override {
+    width_ = width;
+    height_ = height;
+    depth_ = make_target(plan_.reversed_depth ? target_formats::depth32f : target_formats::depth24,
+                         width, height);
+    color_ = make_target(target_formats::rgba8, width, height);
+    color_framebuffer_ = make_framebuffer({color_.id()}, depth_.id());
+    if (plan_.site == ShadingSite::deferred) {
+      visible_ = make_target(target_formats::rg32ui, width, height);
+      visibility_framebuffer_ = make_framebuffer({visible_.id()}, depth_.id());
+    }
+    gl::check("resize");
+  }
+
+  void draw(const FrameCamera& frame, const glm::vec4& background) override {
+    glViewport(0, 0, width_, height_);
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_DITHER);
+    glDisable(GL_SCISSOR_TEST);
+    glEnable(GL_DEPTH_TEST);
+    if (plan_.reversed_depth) set_clip_control(true);
+    if (plan_.site == ShadingSite::forward) {
+      draw_forward(frame, background);
+    } else {
+      draw_visibility(frame);
+      draw_shading(frame, background);
+    }
+    if (plan_.reversed_depth) set_clip_control(false);
+    gl::check("draw");
+  }
+
+  GLuint color_framebuffer() const override { return color_framebuffer_.id(); }
+  GLuint visibility_framebuffer() const override { return visibility_framebuffer_.id(); }
+  std::size_t device_bytes() const override {
+    return appearance_.device_bytes() + geometry_.device_bytes();
+  }
+
+ private:
+  gl::Program program(gl::Api api, const char* vertex, const char* fragment,
+                      const std::map<std::string, std::string>& constants) const {
+    ShaderSource source{.file = fragment,
+                        .constants = appearance_.constants,
+                        .generated = {{"appearance.glsl", appearance_.glsl}}};
+    source.constants.insert(constants.begin(), constants.end());
+    return gl::Program(assemble({.file = vertex, .constants = {}, .generated = {}}, api),
+                       assemble(source, api));
+  }
+
+  static void set_clip_control(bool zero_to_one) {
+    const GLenum depth = zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE;
+#ifndef __EMSCRIPTEN__
+    if (glClipControl)
+      glClipControl(GL_LOWER_LEFT, depth);
+    else
+      glClipControlEXT(GL_LOWER_LEFT, depth);
+#else
+    (void)depth;
+#endif
+  }
+
+  void clear_depth() const {
+    glDepthMask(GL_TRUE);
+    const float far = plan_.reversed_depth ? 0.0f : 1.0f;
+    glClearBufferfv(GL_DEPTH, 0, &far);
+    glDepthFunc(plan_.reversed_depth ? GL_GREATER : GL_LESS);
+  }
+
+  void draw_visibility(const FrameCamera& frame) {
+    glBindFramebuffer(GL_FRAMEBUFFER, visibility_framebuffer_.id());
+    const GLuint empty[4] = {no_slot, 0, 0, 0};
+    glClearBufferuiv(GL_COLOR, 0, empty);
+    clear_depth();
+    draw_geometry(frame);
+  }
+
+  void draw_forward(const FrameCamera& frame, const glm::vec4& background) {
+    glBindFramebuffer(GL_FRAMEBUFFER, color_framebuffer_.id());
+    glClearBufferfv(GL_COLOR, 0, &background[0]);
+    clear_depth();
+    draw_geometry(frame);
+  }
+
+  /// Opaque faces first: they are cheap and hide the others.
+  void draw_geometry(const FrameCamera& frame) {
+    geometry_.bind();
+    const auto& clusters = plan_.clusters;
+    std::size_t opaque_clusters = 0;
+    while (opaque_clusters < clusters.size() &&
+           clusters[opaque_clusters].first_slot < plan_.opaque_count)
+      ++opaque_clusters;
+    const std::span all(clusters);
+    if (opaque_clusters > 0) draw_clusters(opaque_, all.first(opaque_clusters), frame);
+    if (opaque_clusters < clusters.size())
+      draw_clusters(cut_out_, all.subspan(opaque_clusters), frame);
+  }
+
+  void draw_clusters(const gl::Program& program, std::span<const Cluster> clusters,
+                     const FrameCamera& frame) {
+    program.use();
+    appearance_.bind(program);
+    Geometry::set_camera(program, frame,
+                         plan_.reversed_depth
+                             ? clip_from_view_reversed(frame.camera, frame.range.near)
+                             : clip_from_view(frame.camera, frame.range.near, frame.range.far));
+    set_rays(program, frame);
+    const glm::dvec3 forward = -frame.camera.world_from_view_rotation()[2];
+    order_.sort(clusters, glm::vec3(frame.eye), glm::vec3(forward));
+    const auto first = order_.first_vertices(), count = order_.vertex_counts();
+#ifndef __EMSCRIPTEN__
+    if (multi_draw_) {
+      glMultiDrawArrays(GL_TRIANGLES, first.data(), count.data(), static_cast<GLsizei>(first.size()));
+      return;
+    }
+#endif
+    for (std::size_t i = 0; i < first.size(); ++i)
+      glDrawArrays(GL_TRIANGLES, first[i], count[i]);
+  }
+
+  void draw_shading(const FrameCamera& frame, const glm::vec4& background) {
+    glBindFramebuffer(GL_FRAMEBUFFER, color_framebuffer_.id());
+    glDepthMask(GL_FALSE);
+    if (plan_.depth_rejects_background) {
+      glClearBufferfv(GL_COLOR, 0, &background[0]);
+      // The triangle lies at the cleared depth: it passes exactly where something nearer was drawn.
+      glDepthFunc(plan_.reversed_depth ? GL_LESS : GL_GREATER);
+    } else {
+      glDepthFunc(GL_ALWAYS);
+    }
+    shading_.use();
+    appearance_.bind(shading_);
+    set_rays(shading_, frame);
+    set_eye(shading_, frame.eye);
+    shading_.set("background", background);
+    shading_.set("background_depth", plan_.reversed_depth ? 0.0f : 1.0f);
+    const int unit = appearance_.unit_count();
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glBindTexture(GL_TEXTURE_2D, visible_.id());
+    shading_.set("visible", unit);
+    glBindVertexArray(nothing_.id());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDepthMask(GL_TRUE);
+  }
+
+  /// The uniforms of view_direction.glsl: window y runs up, image y down.
+  static void set_rays(const gl::Program& program, const FrameCamera& frame) {
+    const Camera& camera = frame.camera;
+    const glm::dmat3 axes = camera.world_from_view_rotation();
+    const glm::dvec3 per_column = axes[0] / camera.fx;
+    const glm::dvec3 per_row = axes[1] / camera.fy;
+    const glm::dvec3 at_corner =
+        -axes[2] - camera.cx * per_column - (camera.height - camera.cy) * per_row;
+    program.set("ray_at_corner", glm::vec3(at_corner));
+    program.set("ray_per_column", glm::vec3(per_column));
+    program.set("ray_per_row", glm::vec3(per_row));
+  }
+
+  const RenderPlan& plan_;
+  bool multi_draw_;
+  DeviceAppearance appearance_;
+  Geometry geometry_;
+  gl::VertexArray nothing_;
+  gl::Program opaque_, cut_out_, shading_;
+  FrontToBack order_;
+  int width_ = 0, height_ = 0;
+  gl::Texture depth_, visible_, color_;
+  gl::Framebuffer visibility_framebuffer_, color_framebuffer_;
+};
+
+}  // namespace
+
+std::unique_ptr<Pipeline> make_tureen_pipeline(const gl::Capabilities& capabilities,
+                                               const DeviceLimits& limits, const TriangleSoup& soup,
+                                               const RenderPlan& plan) {
+  return std::make_unique<TureenPipeline>(capabilities, limits, soup, plan);
+}
+
+}  // namespace tureen

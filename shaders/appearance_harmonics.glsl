@@ -1,0 +1,35 @@
+// Colour max(0, 1/2 + sum_i Y_i(d) c_i) of a face (HARMONICS_PER_VERTEX 0: d at the centroid) or of
+// each corner, interpolated (1). VIEW_SIGN is +1 for surface-to-eye coefficients, -1 for
+// eye-to-surface ones.
+#include "harmonics.glsl"
+#include "texel_store.glsl"
+
+uniform sampler2DArray coefficients;  // HARMONICS_COUNT texels an element
+uniform sampler2DArray anchors;       // the point of an element that d is taken at
+uniform vec3 eye_high, eye_low;       // their sum is the eye, relative to the soup's origin
+
+vec3 element_color(uint element) {
+  vec3 anchor = texelFetch(anchors, texel_position(element), 0).xyz;
+  vec3 to_eye = -((anchor - eye_high) - eye_low);
+  float distance = length(to_eye);
+  // At the eye itself there is no direction: any will do, as long as it is not NaN (specs V5).
+  vec3 d = distance > 0.0 ? VIEW_SIGN * to_eye / distance : vec3(0.0, 0.0, 1.0);
+  float basis[HARMONICS_COUNT];
+  harmonics_basis(d, basis);
+  vec3 sum = vec3(0.5);
+  for (int i = 0; i < HARMONICS_COUNT; ++i)
+    sum += basis[i] *
+           texelFetch(coefficients, texel_position(element * uint(HARMONICS_COUNT) + uint(i)), 0).rgb;
+  return max(sum, 0.0);
+}
+
+bool fragment_exists(uint face, vec2 b) { return true; }
+
+vec3 fragment_color(uint face, vec2 b, vec3 to_eye) {
+#if HARMONICS_PER_VERTEX
+  return min(b.x * element_color(3u * face) + b.y * element_color(3u * face + 1u) +
+             (1.0 - b.x - b.y) * element_color(3u * face + 2u), 1.0);
+#else
+  return min(element_color(face), 1.0);
+#endif
+}

@@ -1,0 +1,14 @@
+// One colour a corner, interpolated.
+#include "texel_store.glsl"
+
+uniform sampler2DArray colors;  // three texels a face
+
+vec4 interpolated_color(uint face, vec2 b) {
+  return b.x * texelFetch(colors, texel_position(3u * face), 0) +
+         b.y * texelFetch(colors, texel_position(3u * face + 1u), 0) +
+         (1.0 - b.x - b.y) * texelFetch(colors, texel_position(3u * face + 2u), 0);
+}
+
+bool fragment_exists(uint face, vec2 b) { return interpolated_color(face, b).a >= ALPHA_THRESHOLD; }
+
+vec3 fragment_color(uint face, vec2 b, vec3 to_eye) { return interpolated_color(face, b).rgb; }

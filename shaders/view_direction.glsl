@@ -1,0 +1,9 @@
+// The direction from a pixel's surface to the eye, from the camera's axes: no inverse matrix, no
+// dependence on the depth range or on where the camera stands (specs 05, section 3, V1).
+uniform vec3 ray_at_corner;   // world direction, eye to surface, through window position (0, 0)
+uniform vec3 ray_per_column;  // how it changes a pixel to the right
+uniform vec3 ray_per_row;     // and a pixel up
+
+vec3 direction_to_eye(vec2 window) {
+  return -normalize(ray_at_corner + window.x * ray_per_column + window.y * ray_per_row);
+}
