@@ -31,4 +31,17 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options =
 /// OutputError.
 std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path);
 
+/// One line of the table of formats, for help texts.
+struct FormatInfo {
+  std::string name;         // "OFF"
+  std::string description;  // what it holds, in a few words
+  std::vector<std::string>
+      extensions;  // with the point; the first is the usual one; none: a folder
+  bool can_read = false;
+  bool can_write = false;
+};
+
+/// Every format that read_scene and write_scene know.
+std::vector<FormatInfo> known_formats();
+
 }  // namespace tureen

@@ -1,0 +1,157 @@
+#include "formats/plain_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "soup/error.hpp"
+
+namespace tureen {
+
+namespace {
+
+std::string counted(std::uint64_t count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+/// Brings every component into [0, 1]; how many lay outside.
+std::uint64_t clamp_colors(std::vector<glm::vec4>& rgba) {
+  std::uint64_t clamped = 0;
+  for (glm::vec4& color : rgba)
+    for (int c = 0; c < 4; ++c) {
+      if (color[c] >= 0.0f && color[c] <= 1.0f) continue;
+      color[c] = color[c] > 1.0f ? 1.0f : 0.0f;  // NaN compares false and becomes 0
+      ++clamped;
+    }
+  return clamped;
+}
+
+}  // namespace
+
+void MeshBuilder::reserve_faces(std::size_t count) { triangles_.reserve(count); }
+
+void MeshBuilder::add_corner(std::uint32_t vertex) {
+  if (corners_ == 0) {
+    first_triangle_ = triangles_.size();
+    fan_[0] = vertex;
+  } else if (corners_ >= 2) {
+    triangles_.emplace_back(fan_[0], fan_[1], vertex);
+  }
+  fan_[1] = vertex;
+  ++corners_;
+}
+
+void MeshBuilder::end_face() {
+  if (corners_ < 3) ++too_small_;
+  if (corners_ > 3) ++polygons_;
+  if (face_rgba_.empty()) return;
+  uncolored_ += triangles_.size() - face_rgba_.size();
+  face_rgba_.resize(triangles_.size(), no_color);
+}
+
+void MeshBuilder::end_face(const glm::vec4& rgba) {
+  if (corners_ < 3) {
+    ++too_small_;
+    return;
+  }
+  if (corners_ > 3) ++polygons_;
+  if (face_rgba_.empty()) {
+    // The first colour: the triangles before it had none.
+    face_rgba_.reserve(triangles_.capacity());
+    face_rgba_.resize(first_triangle_, no_color);
+    uncolored_ = first_triangle_;
+  }
+  face_rgba_.resize(triangles_.size(), rgba);
+}
+
+void MeshBuilder::add_triangle(glm::uvec3 triangle) {
+  triangles_.push_back(triangle);
+  corners_ = 3;
+  end_face();
+}
+
+Scene MeshBuilder::finish(std::string name, std::string source) {
+  Scene scene;
+  scene.info.name = std::move(name);
+  scene.info.up = assumed_up;
+  std::vector<std::string>& notes = scene.info.notes;
+  notes.push_back(assumed_up_note(source));
+  if (polygons_ > 0)
+    notes.push_back(counted(polygons_, "polygon", "polygons") +
+                    " of more than three corners became fans of triangles.");
+  if (too_small_ > 0)
+    notes.push_back(counted(too_small_, "face", "faces") +
+                    " of fewer than three corners left out.");
+
+  const std::uint64_t clamped = clamp_colors(vertex_rgba) + clamp_colors(face_rgba_);
+  if (clamped > 0)
+    notes.push_back(counted(clamped, "colour component", "colour components") +
+                    " outside 0..1 clamped.");
+
+  TriangleSoup soup;
+  soup.positions = std::move(positions);
+  soup.triangles = std::move(triangles_);
+  if (!vertex_rgba.empty()) {
+    if (!face_rgba_.empty())
+      notes.push_back("The file colours vertices and faces; the face colours are left out.");
+    soup.appearance = VertexColors{std::move(vertex_rgba)};
+  } else {
+    if (face_rgba_.empty())
+      notes.push_back("The file holds no colours; everything is drawn grey (0.8).");
+    else if (uncolored_ > 0)
+      notes.push_back(
+          counted(uncolored_, "triangle has no colour and is", "triangles have no colour and are") +
+          " drawn grey (0.8).");
+    face_rgba_.resize(soup.triangles.size(), no_color);
+    soup.appearance = FaceColors{std::move(face_rgba_)};
+  }
+  scene.primitives = std::move(soup);
+  scene.info.source = std::move(source);
+  return scene;
+}
+
+PlainMesh::PlainMesh(const Scene& scene, const std::string& format) {
+  if (const auto* soft = std::get_if<SoftTriangles>(&scene.primitives)) {
+    OpaqueResult opaque = to_opaque(*soft);
+    lost = std::move(opaque.notes);
+    own_ = std::move(opaque.soup);
+    soup_ = &*own_;
+  } else {
+    soup_ = &std::get<TriangleSoup>(scene.primitives);
+  }
+  if (!face_rgba() && !vertex_rgba())
+    throw UsageError(format + " cannot hold " + appearance_name(soup_->appearance));
+  if (scene.info.up != assumed_up)
+    lost.push_back(format + " knows no up axis; readers will assume (0, 0, 1).");
+  if (scene.info.background != glm::vec3(0.0f))
+    lost.push_back(format + " holds no background colour.");
+  if (!scene.cameras.empty()) lost.push_back(format + " holds no cameras.");
+  if (scene.origin != glm::dvec3(0.0))
+    lost.push_back(format + " holds no origin: positions are written relative to it.");
+}
+
+const std::vector<glm::vec4>* PlainMesh::face_rgba() const {
+  const auto* colors = std::get_if<FaceColors>(&soup_->appearance);
+  return colors ? &colors->rgba : nullptr;
+}
+
+const std::vector<glm::vec4>* PlainMesh::vertex_rgba() const {
+  const auto* colors = std::get_if<VertexColors>(&soup_->appearance);
+  return colors ? &colors->rgba : nullptr;
+}
+
+std::string assumed_up_note(const std::string& format) {
+  return format + " knows no up axis; (0, 0, 1) is assumed.";
+}
+
+bool are_bytes(const std::vector<glm::vec4>& rgba) {
+  return std::all_of(rgba.begin(), rgba.end(), [](const glm::vec4& color) {
+    for (int c = 0; c < 4; ++c) {
+      if (!(color[c] >= 0.0f && color[c] <= 1.0f)) return false;
+      if (color[c] != std::floor(color[c] * 255.0f + 0.5f) / 255.0f) return false;
+    }
+    return true;
+  });
+}
+
+}  // namespace tureen

@@ -1,0 +1,137 @@
+// The table of formats, and the two functions that go through it. Adding a format is one entry.
+#include "formats/scene_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <span>
+
+#include "formats/input.hpp"
+#include "formats/off.hpp"
+
+namespace tureen {
+
+namespace {
+
+/// What is known of a path before any reader is chosen.
+struct Candidate {
+  std::filesystem::path path;
+  bool is_folder = false;
+  std::span<const std::byte> head;  // the first bytes of a file, as many as there are
+};
+
+/// Enough for the longest signature and for some comments before the first word of an OFF.
+constexpr std::size_t head_size = 4096;
+
+struct Format {
+  const char* name;
+  const char* description;
+  std::vector<const char*> extensions;  // lower case; none for a folder
+  bool (*recognises)(const Candidate&);
+  Scene (*read)(const std::filesystem::path&, const ReadOptions&);  // null: only written
+  std::vector<std::string> (*write)(const Scene&, const std::filesystem::path&);  // null: only read
+};
+
+/// In the order in which they are asked whether they recognise a file.
+const std::vector<Format>& formats() {
+  static const std::vector<Format> table{
+      {"OFF",
+       "triangles with a colour a face or a vertex, as text (OFF, COFF)",
+       {".off", ".coff"},
+       [](const Candidate& c) { return !c.is_folder && is_off(c.head); },
+       [](const std::filesystem::path& path, const ReadOptions& o) { return read_off(path, o); },
+       write_off},
+  };
+  return table;
+}
+
+std::string extension_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+bool has_extension(const Format& format, const std::string& extension) {
+  return std::any_of(format.extensions.begin(), format.extensions.end(),
+                     [&](const char* known) { return extension == known; });
+}
+
+/// "OFF (.off), PLY (.ply) and DiffSoup export (folder)", of the formats that `can` do something.
+template <class Can>
+std::string listed(Can&& can) {
+  std::vector<std::string> names;
+  for (const Format& format : formats()) {
+    if (!can(format)) continue;
+    std::string name = std::string(format.name) + " (";
+    for (std::size_t i = 0; i < format.extensions.size(); ++i)
+      name += (i ? ", " : "") + std::string(format.extensions[i]);
+    names.push_back(name + (format.extensions.empty() ? "folder)" : ")"));
+  }
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " and ") + names[i];
+  return text;
+}
+
+/// By content first; by name where no format recognises the content, so that the reader that the
+/// name promises says what is wrong with it.
+const Format& format_to_read(const Candidate& candidate) {
+  for (const Format& format : formats())
+    if (format.read && format.recognises(candidate)) return format;
+  const std::string extension = extension_of(candidate.path);
+  for (const Format& format : formats())
+    if (format.read && !candidate.is_folder && has_extension(format, extension)) return format;
+  throw InputError({candidate.path.string(), {}, {}},
+                   std::string("not a ") + (candidate.is_folder ? "folder" : "file") +
+                       " of a kind that we read: " +
+                       listed([](const Format& format) { return format.read != nullptr; }));
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& path, const ReadOptions& options) {
+  Candidate candidate{path, std::filesystem::is_directory(path), {}};
+  std::array<std::byte, head_size> head;
+  if (!candidate.is_folder) {
+    Input input = Input::open(path);
+    candidate.head = std::span(head).first(input.read_some(head));
+  }
+  const Format& format = format_to_read(candidate);
+  Scene scene = format.read(path, options);
+
+  const std::string extension = extension_of(path);
+  const auto promises = [&](const Format& other) { return has_extension(other, extension); };
+  if (!candidate.is_folder && !promises(format) &&
+      std::any_of(formats().begin(), formats().end(), promises))
+    scene.info.notes.push_back("The name ends in " + extension + ", but the content is " +
+                               format.name + ".");
+  if (const auto* soup = std::get_if<TriangleSoup>(&scene.primitives))
+    if (const auto reason = defect(*soup)) throw InputError({path.string(), {}, {}}, *reason);
+  return scene;
+}
+
+std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path) {
+  const std::string extension = extension_of(path);
+  for (const Format& format : formats())
+    if (format.write &&
+        (extension.empty() ? format.extensions.empty() : has_extension(format, extension)))
+      return format.write(scene, path);
+  throw UsageError((extension.empty() ? "no extension tells which format to write"
+                                      : "no format that we write ends in " + extension) +
+                   std::string("; written are ") +
+                   listed([](const Format& format) { return format.write != nullptr; }));
+}
+
+std::vector<FormatInfo> known_formats() {
+  std::vector<FormatInfo> infos;
+  for (const Format& format : formats())
+    infos.push_back({format.name,
+                     format.description,
+                     {format.extensions.begin(), format.extensions.end()},
+                     format.read != nullptr,
+                     format.write != nullptr});
+  return infos;
+}
+
+}  // namespace tureen

@@ -1,0 +1,64 @@
+// Small helpers of the format tests: texts as inputs, folders that vanish, messages to assert.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "formats/input.hpp"
+#include "soup/error.hpp"
+#include "soup/scene.hpp"
+
+namespace tureen::testing {
+
+/// `text` must outlive the Input.
+inline Input input_of(const std::string& text, const std::string& name = "test.file") {
+  return Input::memory(name, std::as_bytes(std::span(text)));
+}
+
+/// A folder of this test alone, empty at first, removed at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    path_ = std::filesystem::path(TUREEN_BINARY_DIR) / "tests_tmp" /
+            (std::string(test->test_suite_name()) + "." + test->name());
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// What `call` throws as an InputError, place and reason in one line; "" where it throws nothing.
+template <class Call>
+std::string input_error(Call&& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+inline const TriangleSoup& soup_of(const Scene& scene) {
+  return std::get<TriangleSoup>(scene.primitives);
+}
+inline const std::vector<glm::vec4>& face_rgba(const Scene& scene) {
+  return std::get<FaceColors>(soup_of(scene).appearance).rgba;
+}
+inline const std::vector<glm::vec4>& vertex_rgba(const Scene& scene) {
+  return std::get<VertexColors>(soup_of(scene).appearance).rgba;
+}
+
+}  // namespace tureen::testing

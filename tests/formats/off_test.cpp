@@ -1,0 +1,273 @@
+#include "formats/off.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <random>
+#include <string>
+
+#include "formats/format_testing.hpp"
+#include "formats/truncation.hpp"
+
+namespace tureen {
+namespace {
+
+using namespace testing;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const std::string data_folder = std::string(TUREEN_SOURCE_DIR) + "/../shared/data/";
+
+Scene read_text(const std::string& text) {
+  Input input = input_of(text, "folder/plant.off");
+  return read_off(input);
+}
+
+std::string message_of(const std::string& text) {
+  return input_error([&] { read_text(text); });
+}
+
+const std::string triangle = "0 0 0\n1 0 0\n0 1 0\n";
+
+TEST(Off, ReadsTriangleSplattingsCoff) {
+  const Scene scene =
+      read_text("COFF\n3 1 0\n-0.37933099269866943 0 1\n1 0 0\n0 1 0\n3 0 1 2 127 139 60 255\n");
+  const TriangleSoup& soup = soup_of(scene);
+  EXPECT_THAT(soup.positions, ElementsAre(glm::vec3(-0.37933099269866943f, 0, 1),
+                                          glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)));
+  EXPECT_THAT(soup.triangles, ElementsAre(glm::uvec3(0, 1, 2)));
+  EXPECT_THAT(face_rgba(scene),
+              ElementsAre(glm::vec4(127 / 255.0f, 139 / 255.0f, 60 / 255.0f, 1.0f)));
+  EXPECT_EQ(scene.info.name, "plant");
+  EXPECT_EQ(scene.info.up, glm::vec3(0, 0, 1));
+  EXPECT_THAT(scene.info.notes, ElementsAre("OFF knows no up axis; (0, 0, 1) is assumed."));
+}
+
+TEST(Off, ReadsHeadersOfAllKinds) {
+  for (const std::string header :
+       {"OFF\n3 1 0\n", "OFF 3 1 0\n", "OFF3 1\n",
+        "# note\n\n \tOFF # word\r\n\r\n3\n1 2 # counts\n", "OFF\r3 1 3\r"})
+    EXPECT_EQ(soup_of(read_text(header + triangle + "3 0 1 2\n")).triangles.size(), 1u) << header;
+}
+
+TEST(Off, FansPolygonsAndCopiesTheirColour) {
+  const Scene scene = read_text(
+      "OFF 5 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 2 0\n"
+      "4 0 1 2 3 0.25 0.5 0.75\n2 0 1\n5 4 3 2 1 0 1.0 0.0 0.0 0.5");
+  EXPECT_THAT(soup_of(scene).triangles,
+              ElementsAre(glm::uvec3(0, 1, 2), glm::uvec3(0, 2, 3), glm::uvec3(4, 3, 2),
+                          glm::uvec3(4, 2, 1), glm::uvec3(4, 1, 0)));
+  const glm::vec4 a(0.25f, 0.5f, 0.75f, 1.0f), b(1, 0, 0, 0.5f);
+  EXPECT_THAT(face_rgba(scene), ElementsAre(a, a, b, b, b));
+  EXPECT_THAT(scene.info.notes,
+              Contains("2 polygons of more than three corners became fans of triangles."));
+  EXPECT_THAT(scene.info.notes, Contains("1 face of fewer than three corners left out."));
+}
+
+TEST(Off, DrawsUncolouredFacesGrey) {
+  const Scene some = read_text("OFF 3 3 0\n" + triangle + "3 0 1 2\n3 0 1 2 255 0 0\n3 2 1 0 7\n");
+  const glm::vec4 grey(0.8f, 0.8f, 0.8f, 1.0f);
+  EXPECT_THAT(face_rgba(some), ElementsAre(grey, glm::vec4(1, 0, 0, 1), grey));
+  EXPECT_THAT(some.info.notes, Contains("2 triangles have no colour and are drawn grey (0.8)."));
+  EXPECT_THAT(
+      some.info.notes,
+      Contains("The colours of 1 face are numbers of a colour map, which OFF does not hold."));
+  const Scene none = read_text("OFF 3 1 0\n" + triangle + "3 0 1 2\n");
+  EXPECT_THAT(face_rgba(none), ElementsAre(grey));
+  EXPECT_THAT(none.info.notes,
+              Contains("The file holds no colours; everything is drawn grey (0.8)."));
+}
+
+TEST(Off, ReadsVertexColours) {
+  const Scene bytes =
+      read_text("COFF 3 1 0\n0 0 0 255 0 51 255\n1 0 0 0 0 0 0\n0 1 0 1 1 1 1\n3 0 1 2 1 2 3\n");
+  EXPECT_THAT(vertex_rgba(bytes),
+              ElementsAre(glm::vec4(1, 0, 51 / 255.0f, 1), glm::vec4(0), glm::vec4(1 / 255.0f)));
+  EXPECT_THAT(bytes.info.notes,
+              Contains("The file colours vertices and faces; the face colours are left out."));
+  const Scene floats = read_text("OFF 3 1 0\n0 0 0 1 0 0\n1 0 0 0.5 0 0\n0 1 0 1 1 1\n3 0 1 2\n");
+  EXPECT_THAT(vertex_rgba(floats),
+              ElementsAre(glm::vec4(1, 0, 0, 1), glm::vec4(0.5f, 0, 0, 1), glm::vec4(1)));
+}
+
+TEST(Off, TellsBytesFromFloatsOverTheWholeFile) {
+  const auto colors = [](const std::string& first, const std::string& second) {
+    return face_rgba(
+        read_text("OFF 4 2 0\n" + triangle + "1 1 0\n4 0 1 3 2 " + first + "\n3 0 1 2 " + second));
+  };
+  const glm::vec4 dark(1 / 255.0f, 0, 0, 1), red(1, 0, 0, 1);
+  EXPECT_THAT(colors("1 0 0", "2 0 0"), ElementsAre(dark, dark, glm::vec4(2 / 255.0f, 0, 0, 1)));
+  EXPECT_THAT(colors("1 0 0", "0.5 0 0"), ElementsAre(red, red, glm::vec4(0.5f, 0, 0, 1)));
+  EXPECT_THAT(colors("1 0 0", "0 0 0"), ElementsAre(red, red, glm::vec4(0, 0, 0, 1)));
+  EXPECT_THAT(colors("1 0 0 1", "0 0 0 0"), ElementsAre(red, red, glm::vec4(0)));
+}
+
+TEST(Off, ClampsFloatColoursWithANote) {
+  const Scene scene = read_text("OFF 3 1 0\n" + triangle + "3 0 1 2 1.5 -0.5 nan");
+  EXPECT_THAT(face_rgba(scene), ElementsAre(glm::vec4(1, 0, 0, 1)));
+  EXPECT_THAT(scene.info.notes, Contains("3 colour components outside 0..1 clamped."));
+}
+
+TEST(Off, KeepsPositionsThatAreNotFinite) {
+  const Scene scene = read_text("OFF 3 1 0\nnan 0 0\n-inf 1e99 0\n0 0 0\n3 0 1 2\n");
+  EXPECT_TRUE(std::isnan(soup_of(scene).positions[0].x));
+  EXPECT_EQ(soup_of(scene).positions[1], glm::vec3(-INFINITY, INFINITY, 0));
+}
+
+TEST(Off, NotesTrailingText) {
+  const Scene scene = read_text("OFF 3 1 0\n" + triangle + "3 0 1 2\n# fine\n\nmore\n");
+  EXPECT_THAT(scene.info.notes, Contains("Text after the last face, from line 8 on, is ignored."));
+}
+
+TEST(Off, RefusesByNameAndPlace) {
+  const std::string at = "folder/plant.off:";
+  EXPECT_EQ(message_of(""), at + "1: the file is empty, OFF or COFF is expected");
+  EXPECT_EQ(message_of("PLY\n"), at + "1: does not begin with OFF or COFF");
+  EXPECT_EQ(message_of("OFFSET 1"),
+            at + "1: 'SET' where the number of vertices is expected: not a whole number");
+  EXPECT_EQ(
+      message_of("NOFF\n"),
+      at + "1: NOFF is a kind of OFF that we do not read: with normals; write it as OFF or COFF");
+  EXPECT_THAT(message_of("STCNOFF 1"),
+              HasSubstr("STCNOFF is a kind of OFF that we do not read: with texture coordinates"));
+  EXPECT_THAT(message_of("4OFF 1"), HasSubstr("4OFF is a kind"));
+  EXPECT_THAT(message_of("nOFF 1"), HasSubstr("with points of any dimension"));
+  EXPECT_EQ(message_of("OFF BINARY\n\0\0\0\1"), at + "1: binary OFF is not read; write it as text");
+  EXPECT_EQ(message_of("OFF\n"), at + "2: the file ends after its first word");
+  EXPECT_EQ(message_of("OFF\n-1 0 0"),
+            at + "2: the number of vertices of -1 is outside 0..4294967295");
+  EXPECT_EQ(message_of("OFF\n4000000000 1 0\n"),
+            at + "2: 4000000000 vertices and 1 faces do not fit into the 1 bytes that follow");
+  EXPECT_EQ(message_of("OFF 3 1 0 9\n" + triangle + "3 0 1 2"),
+            at + "1: more than the numbers of vertices, faces and edges on this line: '9'");
+  EXPECT_EQ(message_of("OFF 3 1 0\n0 0 0\n1 0\n0 1 0 0 0\n3 0 1 2"),
+            at + "3: the line ends where a vertex coordinate is expected");
+  EXPECT_EQ(message_of("OFF 3 1 0\n0 0 0 0\n1 0 0\n0 1 0\n3 0 1 2"),
+            at + "2: a vertex of 4 numbers, expected x y z and, for a colour, r g b or r g b a");
+  EXPECT_EQ(message_of("OFF 3 1 0\n0 0 0\n1 0 0 9\n0 1 0\n3 0 1 2"),
+            at + "3: a vertex of 4 numbers, but the first one has 3");
+  EXPECT_EQ(message_of("OFF 3 1 0\n" + triangle + "3 0 1 3\n"),
+            at + "5: face 0 names vertex 3 of 3");
+  EXPECT_EQ(message_of("OFF 3 1 0\n" + triangle + "3 0 -1 2\n"),
+            at + "5: face 0 names vertex -1 of 3");
+  EXPECT_EQ(message_of("OFF 3 1 0\n" + triangle + "3 0 1\n"),
+            at + "5: the line ends where a vertex index is expected");
+  EXPECT_EQ(message_of("OFF 3 1 0\n" + triangle + "-3 0 1 2\n"),
+            at + "5: a face's number of corners of -3 is outside 0..4294967295");
+  EXPECT_EQ(message_of("OFF 3 1 0\n" + triangle + "3 0 1 2 1 1\n"),
+            at + "5: a face colour of 2 numbers, expected r g b or r g b a");
+  EXPECT_EQ(message_of("OFF 3 1 0\n" + triangle + "3 0 1 2 300 1 1\n"),
+            at + "5: a colour component of 300 is outside 0..255");
+  EXPECT_EQ(message_of("OFF 3 2 0\n" + triangle + "3 0 1 2 3\n"),
+            at + "6: the file ends before face 1 of 2");
+}
+
+TEST(Off, SurvivesTruncationAndDamage) {
+  const std::string text =
+      "COFF # c\n4 2 0\n0 0.5 0 1 2 3 255\n1 0 -1e3 1 2 3 4\n0 1 0 5 6 7 8\n9 9 9 1 1 1 1\n"
+      "3 0 1 2 0.5 1 1\n4 0 1 2 3 1 0 0 1\n";
+  const auto read = [](std::span<const std::byte> bytes) {
+    Input input = Input::memory("damaged.off", bytes);
+    const Scene scene = read_off(input);
+    EXPECT_EQ(defect(soup_of(scene)), std::nullopt);
+  };
+  const auto bytes = std::as_bytes(std::span(text));
+  // Cut anywhere in the last colour, what is left may still be a colour or none.
+  const Survival cut = survive_truncation(bytes, read);
+  EXPECT_GE(cut.refused, bytes.size() - 9);
+  const Survival damaged = survive_damage(bytes, read);
+  EXPECT_GT(damaged.refused, 0u);
+  EXPECT_GT(damaged.read, 0u);
+}
+
+TEST(Off, RoundTripsBitForBit_seed5) {
+  std::mt19937 random(5);
+  const auto uniform = [&] { return float(random()) / 4294967296.0f; };
+  for (const bool by_vertex : {false, true}) {
+    TriangleSoup soup;
+    for (int i = 0; i < 300; ++i)
+      soup.positions.emplace_back(uniform() - 0.5f, uniform() * 1e-30f, (uniform() - 0.5f) * 1e20f);
+    for (std::uint32_t t = 0; t < 100; ++t) soup.triangles.emplace_back(3 * t, random() % 300, 2);
+    std::vector<glm::vec4> rgba;
+    for (int i = 0; i < (by_vertex ? 300 : 100); ++i) {
+      glm::vec4 color;
+      for (int c = 0; c < 4; ++c) color[c] = float(random() % 256) / 255.0f;
+      if (i % 2) color.a = 1.0f;
+      rgba.push_back(color);
+    }
+    if (by_vertex)
+      soup.appearance = VertexColors{rgba};
+    else
+      soup.appearance = FaceColors{rgba};
+    Scene scene;
+    scene.info.up = {0, 0, 1};
+    scene.primitives = soup;
+    TemporaryFolder folder;
+    EXPECT_THAT(write_off(scene, folder / "a.off"), ElementsAre());
+    const Scene again = read_off(folder / "a.off");
+    EXPECT_EQ(soup_of(again).positions, soup.positions);
+    EXPECT_EQ(soup_of(again).triangles, soup.triangles);
+    EXPECT_EQ(by_vertex ? vertex_rgba(again) : face_rgba(again), rgba);
+  }
+}
+
+TEST(Off, SaysWhatWritingLoses) {
+  Scene scene;
+  scene.origin = {1, 0, 0};
+  scene.info.background = glm::vec3(1);
+  scene.cameras.resize(1);
+  TriangleSoup soup;
+  soup.positions.resize(3);
+  soup.triangles.emplace_back(0, 1, 2);
+  soup.appearance = FaceColors{{glm::vec4(0.5f, 0, 0, 0.5f)}};
+  scene.primitives = soup;
+  TemporaryFolder folder;
+  EXPECT_THAT(write_off(scene, folder / "a.off"),
+              ElementsAre("OFF knows no up axis; readers will assume (0, 0, 1).",
+                          "OFF holds no background colour.", "OFF holds no cameras.",
+                          "OFF holds no origin: positions are written relative to it.",
+                          "OFF holds colours in 8 bits: they are rounded."));
+  // Half up: an alpha of one half stays drawn.
+  EXPECT_THAT(face_rgba(read_off(folder / "a.off")),
+              ElementsAre(glm::vec4(128 / 255.0f, 0, 0, 128 / 255.0f)));
+}
+
+TEST(Off, ReportsProgress) {
+  std::string text = "OFF 200000 0 0\n";
+  for (int i = 0; i < 200000; ++i) text += "0 0 0\n";
+  std::vector<double> fractions;
+  ReadOptions options;
+  options.progress = [&](double fraction) { fractions.push_back(fraction); };
+  Input input = input_of(text);
+  read_off(input, options);
+  ASSERT_EQ(fractions.size(), 3u);
+  EXPECT_NEAR(fractions[1], 131072.0 / 200000.0, 0.001);
+}
+
+TEST(Off, ReadsTheRealFicus) {
+  const std::string path = data_folder + "soups/ficus_2dts.off";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
+  const Scene scene = read_off(path);
+  EXPECT_EQ(soup_of(scene).triangles.size(), 33417u);
+  EXPECT_EQ(soup_of(scene).positions.size(), 100251u);
+  EXPECT_EQ(face_rgba(scene).front(), glm::vec4(162 / 255.0f, 155 / 255.0f, 127 / 255.0f, 1));
+  EXPECT_THAT(scene.info.notes, ElementsAre("OFF knows no up axis; (0, 0, 1) is assumed."));
+}
+
+TEST(Off, HostileFilesEndWell) {
+  const std::string folder = data_folder + "hostile/off/";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
+  EXPECT_THAT(input_error([&] { read_off(folder + "empty.off"); }),
+              HasSubstr("empty.off:1: the file is empty"));
+  EXPECT_THAT(input_error([&] { read_off(folder + "invalid.off"); }),
+              HasSubstr("invalid.off:7: the line ends where a vertex index is expected"));
+  const Scene scene = read_off(folder + "whitespace.off");
+  EXPECT_EQ(soup_of(scene).triangles.size(), 12u);
+  EXPECT_EQ(face_rgba(scene)[3], glm::vec4(0.3f, 0.4f, 0.0f, 0.75f));
+}
+
+}  // namespace
+}  // namespace tureen

@@ -1,0 +1,77 @@
+#include "formats/scene_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include "formats/format_testing.hpp"
+
+namespace tureen {
+namespace {
+
+using namespace testing;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+const std::string off_text = "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+TEST(SceneFile, TellsFormatsByContentBeforeName) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.off", off_text);
+  write_text(folder / "b.glb", off_text);
+  write_text(folder / "c", off_text);
+  EXPECT_THAT(read_scene(folder / "a.off").info.notes, Not(Contains(HasSubstr("content"))));
+  EXPECT_EQ(soup_of(read_scene(folder / "b.glb")).triangles.size(), 1u);
+  EXPECT_EQ(soup_of(read_scene(folder / "c")).triangles.size(), 1u);
+}
+
+TEST(SceneFile, AsksTheNameWhereTheContentSaysNothing) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.OFF", "");
+  EXPECT_THAT(input_error([&] { read_scene(folder / "a.OFF"); }),
+              HasSubstr("a.OFF:1: the file is empty, OFF or COFF is expected"));
+}
+
+TEST(SceneFile, ListsWhatIsReadWhereNothingFits) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.txt", "hello");
+  const std::string message = input_error([&] { read_scene(folder / "a.txt"); });
+  EXPECT_THAT(message, HasSubstr("a.txt: not a file of a kind that we read: "));
+  for (const FormatInfo& format : known_formats()) {
+    if (format.can_read) {
+      EXPECT_THAT(message, HasSubstr(format.name));
+    }
+  }
+  EXPECT_THAT(input_error([&] { read_scene(folder / ""); }),
+              HasSubstr("not a folder of a kind that we read: "));
+  EXPECT_THAT(input_error([&] { read_scene(folder / "nothing"); }), HasSubstr("no such file"));
+}
+
+TEST(SceneFile, WritesByExtension) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.off", off_text);
+  const Scene scene = read_scene(folder / "a.off");
+  for (const FormatInfo& format : known_formats()) {
+    if (!format.can_write || format.extensions.empty()) continue;
+    const auto path = folder / ("b" + format.extensions.front());
+    write_scene(scene, path);
+    EXPECT_EQ(soup_of(read_scene(path)).positions, soup_of(scene).positions) << format.name;
+  }
+  try {
+    write_scene(scene, folder / "b.xyz");
+    ADD_FAILURE() << "wrote an unknown extension";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("no format that we write ends in .xyz; written are "));
+    EXPECT_THAT(error.what(), HasSubstr("OFF (.off, .coff)"));
+  }
+}
+
+}  // namespace
+}  // namespace tureen

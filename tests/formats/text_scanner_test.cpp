@@ -1,0 +1,109 @@
+#include "formats/text_scanner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "formats/format_testing.hpp"
+
+namespace tureen {
+namespace {
+
+using testing::input_error;
+using testing::input_of;
+
+TEST(TextScanner, ReadsLineByLine) {
+  const std::string text = "  word 1.5\t-7 # comment\r\n\n\r# only a comment\n3\v4\f5";
+  Input input = input_of(text);
+  TextScanner scanner(input, {.comment = '#'});
+  EXPECT_EQ(scanner.read_word("a word"), "word");
+  EXPECT_EQ(scanner.read_float("a float"), 1.5f);
+  EXPECT_FALSE(scanner.at_line_end());
+  EXPECT_EQ(scanner.read_integer("an integer"), -7);
+  EXPECT_TRUE(scanner.at_line_end());
+  EXPECT_TRUE(scanner.next_content());
+  EXPECT_EQ(scanner.line(), 5u);
+  EXPECT_EQ(scanner.read_integer("three", 3, 3), 3);
+  EXPECT_EQ(scanner.read_integer("four"), 4);
+  EXPECT_EQ(scanner.remaining(), 2u);
+  EXPECT_EQ(scanner.read_integer("five"), 5);
+  EXPECT_TRUE(scanner.at_line_end());
+  EXPECT_FALSE(scanner.next_line());
+  EXPECT_FALSE(scanner.next_content());
+}
+
+TEST(TextScanner, CountsEveryKindOfLineBreak) {
+  const std::string text = "a\nb\rc\r\nd\n\re";
+  Input input = input_of(text);
+  TextScanner scanner(input);
+  std::vector<std::pair<std::string, std::uint64_t>> words;
+  while (scanner.next_content()) {
+    std::string word = scanner.read_word("a word");
+    words.emplace_back(word, scanner.line());
+  }
+  const std::vector<std::pair<std::string, std::uint64_t>> expected{
+      {"a", 1}, {"b", 2}, {"c", 3}, {"d", 4}, {"e", 6}};
+  EXPECT_EQ(words, expected);
+}
+
+TEST(TextScanner, NamesLineAndReason) {
+  const auto message = [](const std::string& text, auto&& read) {
+    Input input = input_of(text);
+    TextScanner scanner(input, {.comment = '#', .first_line = 10});
+    return input_error([&] { read(scanner); });
+  };
+  const auto number = [](TextScanner& s) { s.read_float("an x"); };
+  EXPECT_EQ(message("abc", number), "test.file:10: 'abc' where an x is expected: not a number");
+  EXPECT_EQ(message("1.5x 2", number), "test.file:10: '1.5x' where an x is expected: not a number");
+  EXPECT_EQ(message(" \n1", number), "test.file:10: the line ends where an x is expected");
+  EXPECT_EQ(message("#1", number), "test.file:10: the file ends where an x is expected");
+  EXPECT_EQ(message(std::string("\0", 1), number),
+            "test.file:10: a NUL byte where an x is expected");
+  EXPECT_EQ(message(std::string(2000, '1'), number),
+            "test.file:10: an x has more than 1024 characters");
+  EXPECT_EQ(message("\x01\xff", number), "test.file:10: '..' where an x is expected: not a number");
+  EXPECT_EQ(message("\n1.5", [](TextScanner& s) { s.next_line(), s.read_integer("a count"); }),
+            "test.file:11: '1.5' where a count is expected: not a whole number");
+  EXPECT_EQ(message("99999999999999999999", [](TextScanner& s) { s.read_integer("a count"); }),
+            "test.file:10: '99999999999999999999' where a count is expected: not a whole number");
+  EXPECT_EQ(message("-1", [](TextScanner& s) { s.read_integer("a count", 0, 9); }),
+            "test.file:10: a count of -1 is outside 0..9");
+  EXPECT_EQ(message("1 2 3", [](TextScanner& s) { s.read_integer("x"), s.expect_line_end("x"); }),
+            "test.file:10: more than x on this line: '2'");
+}
+
+TEST(TextScanner, SeesTheSameNumbersAsAStreamAcrossWindows_seed4) {
+  // Blanks, comments and line breaks of random length, so that window borders fall everywhere.
+  std::mt19937 random(4);
+  std::string text;
+  std::vector<float> expected;
+  std::size_t lines = 1;
+  while (text.size() < 5 * TextScanner::window) {
+    const int kind = int(random() % 40);
+    if (kind == 0) {
+      text += "#" + std::string(random() % 3000, '9') + "\r\n";
+      ++lines;
+    } else if (kind == 1) {
+      text += std::string(random() % 3000, ' ');
+    } else if (kind == 2) {
+      text += "\n";
+      ++lines;
+    }
+    expected.push_back(float(int(random())) / 1024.0f);
+    text += " " + float_text(expected.back());
+  }
+  text += std::string(2 * TextScanner::window, ' ');
+  Input input = input_of(text);
+  TextScanner scanner(input, {.comment = '#'});
+  std::vector<float> got;
+  while (scanner.next_content()) got.push_back(scanner.read_float("a number"));
+  EXPECT_EQ(got, expected);
+  EXPECT_EQ(scanner.line(), lines);
+  EXPECT_EQ(scanner.remaining(), 0u);
+}
+
+}  // namespace
+}  // namespace tureen
