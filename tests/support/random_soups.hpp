@@ -1,0 +1,59 @@
+// Small soups of every appearance, made to order from a seed, that mix the ordinary with what
+// breaks renderers: faces that are opaque, transparent, constant or affine, needles, faces without
+// area, faces through the eye.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "soup/camera.hpp"
+#include "soup/triangle_soup.hpp"
+#include "support/random.hpp"
+
+namespace tureen::test {
+
+enum class Kind {
+  face_colors,
+  vertex_colors,
+  face_harmonics,
+  vertex_harmonics,
+  lattice,      // features are the colour
+  lattice_mlp,  // features feed a color MLP
+  uv_textures,
+  uv_textures_mlp,
+};
+
+inline constexpr std::array all_kinds = {
+    Kind::face_colors, Kind::vertex_colors, Kind::face_harmonics, Kind::vertex_harmonics,
+    Kind::lattice,     Kind::lattice_mlp,   Kind::uv_textures,    Kind::uv_textures_mlp};
+
+std::string to_string(Kind kind);
+
+struct SoupOptions {
+  Kind kind = Kind::face_colors;
+  int faces = 200;
+  /// Vertices are centre + size * N(0, 1), centres uniform in the unit ball.
+  double size = 0.15;
+  bool shared_vertices = false;  // faces draw their vertices from a common pool
+  bool degenerate = false;       // mixes in faces without area and needles
+  int level = -1;                // of the lattice, 0..7; -1 mixes them
+  bool float_texels = false;
+  int degree = 3;  // of the harmonics
+  ViewConvention view = ViewConvention::eye_to_surface;
+  UvMaterial::Filter filter = UvMaterial::Filter::linear;
+};
+
+/// The soup has no defect(). Equal for equal arguments.
+TriangleSoup random_soup(std::uint64_t seed, const SoupOptions& options);
+
+/// DiffSoup's 16-16-16-3 for lattices: blends by channel 3, harmonics of the direction.
+ColorMlp random_lattice_mlp(Random& random);
+
+/// MobileNeRF's 11-16-16-3 for pairs of feature images: no blend, the bare direction.
+ColorMlp random_uv_mlp(Random& random);
+
+/// Looks at the unit ball from outside, from any side, with an off-centre principal point.
+Camera random_camera(Random& random, int width, int height);
+
+}  // namespace tureen::test
