@@ -1,10 +1,10 @@
 #include "formats/checkpoint.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -277,7 +277,13 @@ bool is_checkpoint(std::span<const std::byte> head) {
 }
 
 Scene read_checkpoint(const std::filesystem::path& path, const ReadOptions& options) {
-  TorchArchive archive(path);
+  Scene scene = read_checkpoint(Input::open(path), options);
+  scene.info.name = path.stem().string();
+  return scene;
+}
+
+Scene read_checkpoint(Input input, const ReadOptions& options) {
+  TorchArchive archive(std::move(input));
   const auto has = [&](const char* key) { return archive.find(key) != nullptr; };
   Scene scene;
   if (has("feat_acc"))
@@ -290,7 +296,6 @@ Scene read_checkpoint(const std::filesystem::path& path, const ReadOptions& opti
     archive.fail(
         "a torch file of another kind: neither \"feat_acc\" (DiffSoup) nor \"triangles_points\" "
         "(Triangle Splatting) is among its keys");
-  scene.info.name = path.stem().string();
   if (options.progress) options.progress(1.0);
   return scene;
 }

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <span>
 
+#include "formats/input.hpp"
 #include "formats/scene_file.hpp"
 
 namespace tureen {
@@ -25,5 +26,6 @@ bool is_checkpoint(std::span<const std::byte> head);
 /// done (they read themselves back with an opacity of at least 0.9999): harmonics on shared
 /// vertices. What was assumed is in info.notes. Throws InputError.
 Scene read_checkpoint(const std::filesystem::path& path, const ReadOptions& options = {});
+Scene read_checkpoint(Input input, const ReadOptions& options = {});
 
 }  // namespace tureen

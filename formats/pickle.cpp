@@ -270,7 +270,7 @@ class Machine {
     std::snprintf(code, sizeof code, "0x%02x", opcode);
     const char* known = refused_opcode_name(opcode);
     fail(std::string("the pickle opcode ") + (known ? known : "unknown") + " (" + code +
-         ") is not one that torch.save needs: refused, nothing was executed");
+         ") is not on the list of those that are read: refused, nothing was executed");
   }
 
   std::string_view take(std::uint64_t count, const char* what) {

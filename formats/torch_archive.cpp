@@ -109,8 +109,8 @@ bool is_contiguous(const TorchTensor& tensor) {
   return true;
 }
 
-Input open_zip(const std::filesystem::path& path) {
-  Input input = Input::open(path);
+Input expect_zip(Input input) {
+  input.seek(0);
   std::array<std::byte, 2> head;
   if (input.read_some(head) == 2 && head[0] == std::byte(0x80) && head[1] == std::byte(2))
     input.fail_at(0, "saved in the format of torch before 1.6: load it and save it again there");
@@ -134,7 +134,7 @@ std::string shape_text(const std::vector<std::uint64_t>& shape) {
   return text + "]";
 }
 
-TorchArchive::TorchArchive(const std::filesystem::path& path) : zip_(open_zip(path)) {
+TorchArchive::TorchArchive(Input input) : zip_(expect_zip(std::move(input))) {
   const ZipEntry* data = nullptr;
   constexpr std::string_view suffix = "/data.pkl";
   for (const ZipEntry& entry : zip_.entries()) {

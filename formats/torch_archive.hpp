@@ -7,7 +7,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -39,7 +38,7 @@ std::string shape_text(const std::vector<std::uint64_t>& shape);
 class TorchArchive {
  public:
   /// Throws InputError, also for a pickle with anything that is not on the list (formats/pickle).
-  explicit TorchArchive(const std::filesystem::path& path);
+  explicit TorchArchive(Input input);
 
   const Pickle& pickle() const { return *pickle_; }
   /// The value under `key` of the dict that the file holds, or null.
