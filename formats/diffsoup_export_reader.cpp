@@ -1,0 +1,193 @@
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "formats/diffsoup_export.hpp"
+#include "formats/diffsoup_mesh.hpp"
+#include "formats/json_file.hpp"
+#include "formats/png.hpp"
+#include "soup/lattice.hpp"
+
+namespace tureen {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Meta {
+  int level = 5;
+  glm::vec3 up{0.0f, -1.0f, 0.0f};
+  glm::vec3 background{0.0f};
+  std::optional<std::uint64_t> faces, vertices;
+  bool ours = false;
+};
+
+Meta read_meta(const fs::path& path, std::vector<std::string>& notes) {
+  Meta meta;
+  if (!fs::exists(path)) {
+    notes.emplace_back("meta.json is missing: level 5, up -y and a black background are assumed");
+    return meta;
+  }
+  Input input = Input::open(path);
+  const nlohmann::json json = read_json(input);
+  const std::string& file = input.name();
+  const auto fail = [&](const char* reason) { throw InputError({file, {}, {}}, reason); };
+  if (!json.is_object()) fail("not a JSON object");
+  const auto vector = [&](const char* key, glm::vec3 otherwise) {
+    if (!json.contains(key)) return otherwise;
+    const auto numbers = json_floats(json[key], 3, file, key);
+    return glm::vec3(numbers[0], numbers[1], numbers[2]);
+  };
+  const auto count = [&](const char* key) -> std::optional<std::uint64_t> {
+    if (!json.contains(key)) return std::nullopt;
+    if (!json[key].is_number_unsigned()) fail("num_faces or num_verts is not a count");
+    return json[key].get<std::uint64_t>();
+  };
+  if (json.contains("level")) {
+    const nlohmann::json& level = json["level"];
+    if (!level.is_number_integer() || level < 0 || level > lattice::max_level)
+      fail("\"level\" is not an integer from 0 to 7");
+    meta.level = level.get<int>();
+  } else {
+    notes.emplace_back("meta.json names no level: 5 is assumed");
+  }
+  meta.up = vector("up", meta.up);
+  // In double: squares of floats overflow otherwise.
+  const double length = glm::length(glm::dvec3(meta.up));
+  if (!(length > 0)) fail("\"up\" has no direction");
+  meta.up = glm::vec3(glm::dvec3(meta.up) / length);
+  meta.background = vector("background", meta.background);
+  meta.faces = count("num_faces");
+  meta.vertices = count("num_verts");
+  meta.ours = json.contains("writer") && json["writer"] == "tureen";
+  return meta;
+}
+
+void expect_count(const fs::path& mesh, std::optional<std::uint64_t> said, std::size_t have,
+                  const char* what) {
+  if (said && *said != have)
+    throw InputError({mesh.string(), {}, {}}, std::to_string(have) + " " + what +
+                                                  ", but meta.json says " + std::to_string(*said));
+}
+
+/// One of the two images, with as many texels as `texels` and a remainder below one row.
+Image8 read_lut(const fs::path& path, std::uint64_t texels) {
+  Input input = Input::open(path);
+  const auto bytes = input.read_rest();
+  // Bit depth and colour type of IHDR, always the first chunk. Anything else than 8 and 6 would be
+  // decoded into RGBA with values that nobody stored.
+  constexpr std::array<unsigned char, 8> signature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  if (bytes.size() < 26 || std::memcmp(bytes.data(), signature.data(), signature.size()) != 0)
+    input.fail_at(0, "not a PNG image");
+  if (bytes[24] != std::byte(8) || bytes[25] != std::byte(6))
+    input.fail_at(24, "not a PNG of four channels of 8 bits");
+  const auto big_endian = [&](std::size_t at) {
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      value = value << 8 | std::to_integer<std::uint64_t>(bytes[at + i]);
+    return value;
+  };
+  const std::uint64_t width = big_endian(16), height = big_endian(20);
+  const std::uint64_t expected = width == 0 ? 0 : (texels + width - 1) / width;
+  if (width == 0 || height != expected)
+    input.fail_at(16, std::to_string(width) + " x " + std::to_string(height) +
+                          " pixels cannot be " + std::to_string(texels) + " texels in rows of " +
+                          std::to_string(width) + ": " + std::to_string(expected) +
+                          " rows expected");
+  return decode_image(bytes, input.name());
+}
+
+ColorMlp read_mlp(const fs::path& path) {
+  Input input = Input::open(path);
+  const nlohmann::json json = read_json(input);
+  const auto layer = [&](const char* weights, const char* biases, int inputs, int outputs) {
+    const auto count = static_cast<std::size_t>(inputs) * static_cast<std::size_t>(outputs);
+    return DenseLayer{
+        inputs, outputs,
+        json_floats(json_at(json, weights, input.name()), count, input.name(), weights),
+        json_floats(json_at(json, biases, input.name()), static_cast<std::size_t>(outputs),
+                    input.name(), biases)};
+  };
+  return {
+      .layers = {layer("W1", "b1", 16, 16), layer("W2", "b2", 16, 16), layer("W3", "b3", 16, 3)},
+      .encoding = DirectionEncoding::harmonics2,
+      .view = ViewConvention::surface_to_eye,
+      .blend_channel = 3};
+}
+
+/// The rule that diffsoup_export.hpp states.
+void restore_truncated_half(std::vector<std::uint8_t>& texels, std::vector<std::string>& notes) {
+  constexpr std::size_t channels = LatticeTexture::channels, alpha = LatticeTexture::features;
+  std::array<std::size_t, 256> histogram{};
+  for (std::size_t i = alpha; i < texels.size(); i += channels) ++histogram[texels[i]];
+  if (histogram[127] <= histogram[126] + histogram[128]) return;
+  for (std::size_t i = alpha; i < texels.size(); i += channels)
+    if (texels[i] == 127) texels[i] = 128;
+  char text[256];
+  std::snprintf(text, sizeof text,
+                "%zu of %zu texels have an alpha byte of 127, and hardly any 126 or 128: taken for "
+                "a truncated 1/2 and made 128, so that they are drawn as in training",
+                histogram[127], texels.size() / channels);
+  notes.emplace_back(text);
+}
+
+}  // namespace
+
+bool is_diffsoup_export(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::is_regular_file(folder / "mesh.ply", ignored) &&
+         fs::is_regular_file(folder / "lut0.png", ignored);
+}
+
+Scene read_diffsoup_export(const fs::path& folder, const ReadOptions& options) {
+  Scene scene;
+  const Meta meta = read_meta(folder / "meta.json", scene.info.notes);
+  const fs::path mesh_path = folder / "mesh.ply";
+  Input mesh_input = Input::open(mesh_path);
+  DiffSoupMesh mesh = read_diffsoup_mesh(mesh_input);
+  const std::size_t faces = mesh.triangles.size();
+  expect_count(mesh_path, meta.faces, faces, "faces");
+  expect_count(mesh_path, meta.vertices, mesh.positions.size(), "vertices");
+  if (faces == 0) throw InputError({mesh_path.string(), {}, {}}, "no faces");
+  const std::uint64_t per_face = lattice::texel_count(meta.level);
+  const std::uint64_t count = faces * per_face;
+  if (count > max_image_pixels)
+    throw InputError({mesh_path.string(), {}, {}},
+                     std::to_string(count) + " texels are beyond what we read");
+
+  LatticeTexture texture;
+  texture.mlp = read_mlp(folder / "mlp_weights.json");
+  std::vector<std::uint8_t> texels;
+  const std::array<fs::path, 2> luts{folder / "lut0.png", folder / "lut1.png"};
+  for (std::size_t half = 0; half < luts.size(); ++half) {
+    if (options.progress) options.progress(0.1 + 0.45 * double(half));
+    const Image8 image = read_lut(luts[half], count);
+    // Only now is it certain that the files hold what mesh.ply promised.
+    texels.resize(static_cast<std::size_t>(count) * LatticeTexture::channels);
+    for (std::size_t i = 0; i < count; ++i)
+      std::memcpy(&texels[i * LatticeTexture::channels + 4 * half], &image.pixels[i], 4);
+  }
+  if (!meta.ours) restore_truncated_half(texels, scene.info.notes);
+  texture.texels = std::move(texels);
+  texture.patches.resize(faces);
+  for (std::size_t t = 0; t < faces; ++t)
+    texture.patches[t] = {static_cast<std::uint32_t>(t * per_face),
+                          static_cast<std::uint32_t>(meta.level)};
+
+  scene.primitives = TriangleSoup{.positions = std::move(mesh.positions),
+                                  .triangles = std::move(mesh.triangles),
+                                  .appearance = std::move(texture)};
+  scene.info.name = fs::path(folder / "").parent_path().filename().string();
+  scene.info.source = "DiffSoup export";
+  scene.info.up = meta.up;
+  scene.info.background = meta.background;
+  if (options.progress) options.progress(1.0);
+  return scene;
+}
+
+}  // namespace tureen
