@@ -8,6 +8,7 @@
 
 #include "formats/input.hpp"
 #include "formats/off.hpp"
+#include "formats/ply.hpp"
 
 namespace tureen {
 
@@ -41,6 +42,12 @@ const std::vector<Format>& formats() {
        [](const Candidate& c) { return !c.is_folder && is_off(c.head); },
        [](const std::filesystem::path& path, const ReadOptions& o) { return read_off(path, o); },
        write_off},
+      {"PLY",
+       "triangles with a colour a face or a vertex, ascii or binary",
+       {".ply"},
+       [](const Candidate& c) { return !c.is_folder && is_ply(c.head); },
+       [](const std::filesystem::path& path, const ReadOptions& o) { return read_ply(path, o); },
+       write_ply},
   };
   return table;
 }

@@ -25,10 +25,12 @@ const std::string off_text = "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 TEST(SceneFile, TellsFormatsByContentBeforeName) {
   const TemporaryFolder folder;
   write_text(folder / "a.off", off_text);
-  write_text(folder / "b.glb", off_text);
+  write_text(folder / "b.ply", off_text);
   write_text(folder / "c", off_text);
   EXPECT_THAT(read_scene(folder / "a.off").info.notes, Not(Contains(HasSubstr("content"))));
-  EXPECT_EQ(soup_of(read_scene(folder / "b.glb")).triangles.size(), 1u);
+  const Scene misnamed = read_scene(folder / "b.ply");
+  EXPECT_EQ(soup_of(misnamed).triangles.size(), 1u);
+  EXPECT_THAT(misnamed.info.notes, Contains("The name ends in .ply, but the content is OFF."));
   EXPECT_EQ(soup_of(read_scene(folder / "c")).triangles.size(), 1u);
 }
 

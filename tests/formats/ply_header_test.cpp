@@ -1,0 +1,111 @@
+#include "formats/ply_header.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "formats/format_testing.hpp"
+
+namespace tureen {
+namespace {
+
+using testing::input_error;
+using testing::input_of;
+
+PlyHeader read(const std::string& text) {
+  Input input = input_of(text, "a.ply");
+  return read_ply_header(input);
+}
+
+std::string message(const std::string& text) {
+  return input_error([&] { read(text); });
+}
+
+TEST(PlyHeader, ReadsElementsAndProperties) {
+  const std::string text =
+      "ply\ncomment one\nformat binary_big_endian 1.0\nobj_info two\n\nelement vertex 2\n"
+      "property double x\nproperty list uint8 int16 neighbours\nelement face 0\nend_header\n";
+  const PlyHeader header = read(text + std::string(100, '\n'));
+  EXPECT_EQ(header.encoding, PlyHeader::Encoding::big_endian);
+  EXPECT_EQ(header.body, text.size());
+  EXPECT_EQ(header.body_line, 11u);
+  ASSERT_EQ(header.elements.size(), 2u);
+  const PlyElement& vertex = header.elements[0];
+  EXPECT_EQ(vertex.name, "vertex");
+  EXPECT_EQ(vertex.count, 2u);
+  EXPECT_EQ(vertex.line, 6u);
+  EXPECT_EQ(vertex.least_bytes(false), 9u);
+  ASSERT_EQ(vertex.properties.size(), 2u);
+  EXPECT_EQ(vertex.properties[0].type, PlyType::float64);
+  EXPECT_FALSE(vertex.properties[0].count_type);
+  EXPECT_EQ(vertex.properties[1].type, PlyType::int16);
+  EXPECT_EQ(vertex.properties[1].count_type, PlyType::uint8);
+  EXPECT_EQ(vertex.find("neighbours"), 1u);
+  EXPECT_EQ(vertex.find("y"), std::nullopt);
+  EXPECT_EQ(header.find("face"), &header.elements[1]);
+  EXPECT_EQ(header.find("edge"), nullptr);
+}
+
+TEST(PlyHeader, KnowsEveryTypeName) {
+  const std::pair<const char*, PlyType> names[] = {
+      {"char", PlyType::int8},      {"int8", PlyType::int8},       {"uchar", PlyType::uint8},
+      {"uint8", PlyType::uint8},    {"short", PlyType::int16},     {"int16", PlyType::int16},
+      {"ushort", PlyType::uint16},  {"uint16", PlyType::uint16},   {"int", PlyType::int32},
+      {"int32", PlyType::int32},    {"uint", PlyType::uint32},     {"uint32", PlyType::uint32},
+      {"float", PlyType::float32},  {"float32", PlyType::float32}, {"double", PlyType::float64},
+      {"float64", PlyType::float64}};
+  for (const auto& [name, type] : names) {
+    const PlyHeader header = read("ply\nformat ascii 1.0\nelement a 0\nproperty " +
+                                  std::string(name) + " p\nend_header\n");
+    EXPECT_EQ(header.elements[0].properties[0].type, type) << name;
+  }
+}
+
+TEST(PlyHeader, EndsWhereItsOwnLineBreakEnds) {
+  // The body begins with a line feed, which only belongs to a header of CR LF.
+  for (const std::string line_break : {"\n", "\r\n", "\r"}) {
+    std::string text;
+    for (const char* line : {"ply", "format ascii 1.0", "end_header"}) text += line + line_break;
+    EXPECT_EQ(read(text + "\n\n").body, text.size());
+  }
+}
+
+TEST(PlyHeader, RefusesByLineAndReason) {
+  const std::string start = "ply\nformat ascii 1.0\n";
+  EXPECT_EQ(message(""), "a.ply:1: does not begin with a line of 'ply'");
+  EXPECT_EQ(message("plywood\n"), "a.ply:1: does not begin with a line of 'ply'");
+  EXPECT_EQ(message("ply\n"), "a.ply:1: 'format' is expected after the first line");
+  EXPECT_EQ(message("ply\nelement vertex 0\n"),
+            "a.ply:2: 'format' is expected after the first line");
+  EXPECT_EQ(message("ply\nformat ascii\n"), "a.ply:2: a line of 'format' that is cut short");
+  EXPECT_EQ(message("ply\nformat binary_mixed_endian 1.0\n"),
+            "a.ply:2: the encoding 'binary_mixed_endian' is none that we know");
+  EXPECT_EQ(message("ply\nformat ascii 2.0\n"), "a.ply:2: PLY of version '2.0', not 1.0");
+  EXPECT_EQ(message(start), "a.ply:2: the header ends without 'end_header'");
+  EXPECT_EQ(message(start + "end_header"), "a.ply:3: the header ends without 'end_header'");
+  EXPECT_EQ(message(start + "end_header x\n"), "a.ply:3: 'x' after a line of 'end_header'");
+  EXPECT_EQ(message(start + "\x01odd\n"),
+            "a.ply:3: '.odd' where element, property or end_header is expected");
+  EXPECT_EQ(message(start + "element vertex 4 5\n"), "a.ply:3: '5' after a line of 'element'");
+  EXPECT_EQ(message(start + "element vertex 4x\n"),
+            "a.ply:3: '4x' where the number of elements is expected");
+  EXPECT_EQ(message(start + "element vertex -1\n"),
+            "a.ply:3: the number of 'vertex' elements, -1, is outside 0..4294967295");
+  EXPECT_EQ(message(start + "element vertex 4294967296\n"),
+            "a.ply:3: the number of 'vertex' elements, 4294967296, is outside 0..4294967295");
+  EXPECT_EQ(message(start + "element a 0\nelement a 0\n"), "a.ply:4: a second element 'a'");
+  EXPECT_EQ(message(start + "property int x\n"), "a.ply:3: a property before any element");
+  EXPECT_EQ(message(start + "element a 0\nproperty float16 x\n"),
+            "a.ply:4: the type 'float16' is none that we know");
+  EXPECT_EQ(message(start + "element a 0\nproperty list float int x\n"),
+            "a.ply:4: a list counted in 'float', not in whole numbers");
+  EXPECT_EQ(message(start + "element a 0\nproperty list int x\n"),
+            "a.ply:4: a line of 'property list' that is cut short");
+  EXPECT_EQ(message(start + "element a 4000000000\nproperty int x\nend_header\n1"),
+            "a.ply:3: 4000000000 'a' elements take at least 8000000000 bytes, but only 1 follow");
+  EXPECT_EQ(message(start + std::string(2 << 20, '\n')),
+            "a.ply:1048557: no 'end_header' within the first 1 MiB");
+}
+
+}  // namespace
+}  // namespace tureen

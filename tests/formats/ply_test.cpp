@@ -1,0 +1,382 @@
+#include "formats/ply.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <random>
+#include <string>
+
+#include "formats/format_testing.hpp"
+#include "formats/truncation.hpp"
+
+namespace tureen {
+namespace {
+
+using namespace testing;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const std::string data_folder = std::string(TUREEN_SOURCE_DIR) + "/../shared/data/";
+
+Scene read_bytes(const std::string& text) {
+  Input input = input_of(text, "folder/plant.ply");
+  return read_ply(input);
+}
+
+std::string message_of(const std::string& text) {
+  return input_error([&] { read_bytes(text); });
+}
+
+/// A PLY put together value by value, in any encoding.
+class Builder {
+ public:
+  explicit Builder(const std::string& encoding, const std::string& line_break = "\n")
+      : encoding_(encoding), break_(line_break) {
+    line("ply");
+    line("format " + encoding + " 1.0");
+  }
+  Builder& line(const std::string& text) {
+    text_ += text + break_;
+    return *this;
+  }
+  template <class T>
+  Builder& value(T v) {
+    if (encoding_ == "ascii") {
+      text_ += (text_.back() == '\n' ? "" : " ") + std::to_string(v);
+    } else {
+      char bytes[sizeof v];
+      std::memcpy(bytes, &v, sizeof v);
+      if (encoding_ == "binary_big_endian") std::reverse(bytes, bytes + sizeof v);
+      text_.append(bytes, sizeof v);
+    }
+    return *this;
+  }
+  Builder& end_row() {
+    if (encoding_ == "ascii") text_ += break_;
+    return *this;
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string encoding_, break_, text_;
+};
+
+/// Every scalar type, odd orders, extra properties and lists, an unknown element before the rest.
+std::string rich_file(const std::string& encoding, const std::string& line_break) {
+  Builder b(encoding, line_break);
+  for (const char* line :
+       {"comment made by hand", "element weather 2", "property uint rain",
+        "property list uchar double wind", "obj_info more", "element face 2", "property ushort red",
+        "property short gap", "property list int8 uint16 vertex_index", "property ushort blue",
+        "property ushort green", "property float64 area", "element vertex 4", "property double z",
+        "property list uint int tags", "property int16 y", "property float x", "property int8 gap",
+        "end_header"})
+    b.line(line);
+  b.value(std::uint32_t(4000000000u)).value(std::uint8_t(2)).value(1.5).value(-2.5).end_row();
+  b.value(std::uint32_t(1)).value(std::uint8_t(0)).end_row();
+  const auto face = [&](std::uint16_t red, std::vector<std::uint16_t> corners, std::uint16_t blue,
+                        std::uint16_t green) {
+    b.value(red).value(std::int16_t(-9)).value(std::int8_t(corners.size()));
+    for (const std::uint16_t corner : corners) b.value(corner);
+    b.value(blue).value(green).value(0.25).end_row();
+  };
+  face(65535, {0, 1, 2, 3}, 13107, 0);
+  face(0, {3, 2, 0}, 0, 65535);
+  for (int v = 0; v < 4; ++v) {
+    b.value(v * 0.5).value(std::uint32_t(v));
+    for (int k = 0; k < v; ++k) b.value(std::int32_t(-k));
+    b.value(std::int16_t(-v)).value(float(v) + 0.25f).value(std::int8_t(7)).end_row();
+  }
+  return b.text();
+}
+
+TEST(Ply, ReadsAnyOrderTypeAndEncoding) {
+  for (const std::string encoding : {"ascii", "binary_little_endian", "binary_big_endian"})
+    for (const std::string line_break : {"\n", "\r\n"}) {
+      SCOPED_TRACE(encoding + (line_break.size() == 2 ? " CR LF" : " LF"));
+      const Scene scene = read_bytes(rich_file(encoding, line_break));
+      const TriangleSoup& soup = soup_of(scene);
+      EXPECT_THAT(soup.positions, ElementsAre(glm::vec3(0.25f, 0, 0), glm::vec3(1.25f, -1, 0.5f),
+                                              glm::vec3(2.25f, -2, 1), glm::vec3(3.25f, -3, 1.5f)));
+      EXPECT_THAT(soup.triangles,
+                  ElementsAre(glm::uvec3(0, 1, 2), glm::uvec3(0, 2, 3), glm::uvec3(3, 2, 0)));
+      const glm::vec4 a(1.0f, 0.0f, 13107.0f / 65535.0f, 1.0f), c(0, 1, 0, 1);
+      EXPECT_THAT(face_rgba(scene), ElementsAre(a, a, c));
+      EXPECT_EQ(scene.info.name, "plant");
+      EXPECT_EQ(scene.info.up, glm::vec3(0, 0, 1));
+      EXPECT_THAT(scene.info.notes,
+                  Contains("1 polygon of more than three corners became fans of triangles."));
+    }
+}
+
+const std::string ascii = "ply\nformat ascii 1.0\n";
+const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
+const std::string vertices3 = "element vertex 3\n" + xyz;
+const std::string faces1 = "element face 1\nproperty list uchar int vertex_indices\n";
+const std::string body3 = "0 0 0\n1 0 0\n0 1 0\n";
+
+TEST(Ply, ReadsVertexColours) {
+  const Scene bytes =
+      read_bytes(ascii + vertices3 +
+                 "property uchar diffuse_red\nproperty uchar green\nproperty uchar blue\nproperty "
+                 "uchar alpha\n" +
+                 faces1 +
+                 "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n"
+                 "0 0 0 255 0 51 0\n1 0 0 1 2 3 4\n0 1 0 0 0 0 255\n3 0 1 2 9 9 9\n");
+  EXPECT_THAT(vertex_rgba(bytes),
+              ElementsAre(glm::vec4(1, 0, 51 / 255.0f, 0),
+                          glm::vec4(1 / 255.0f, 2 / 255.0f, 3 / 255.0f, 4 / 255.0f),
+                          glm::vec4(0, 0, 0, 1)));
+  EXPECT_THAT(bytes.info.notes,
+              Contains("The file colours vertices and faces; the face colours are left out."));
+  const Scene floats = read_bytes(
+      ascii + vertices3 + "property float red\nproperty double green\nproperty float blue\n" +
+      faces1 + "end_header\n0 0 0 1 0.5 0\n1 0 0 2 nan 3\n0 1 0 0 0 0\n3 0 1 2\n");
+  EXPECT_THAT(vertex_rgba(floats),
+              ElementsAre(glm::vec4(1, 0.5f, 0, 1), glm::vec4(1, 0, 1, 1), glm::vec4(0, 0, 0, 1)));
+  EXPECT_THAT(floats.info.notes, Contains("3 colour components outside 0..1 clamped."));
+}
+
+TEST(Ply, ReadsTriangleStrips) {
+  const Scene scene =
+      read_bytes(ascii + "element vertex 5\n" + xyz +
+                 "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" + body3 +
+                 "1 1 0\n2 2 2\n9 0 1 2 3 -1 4 3 2 -1\n");
+  EXPECT_THAT(soup_of(scene).triangles,
+              ElementsAre(glm::uvec3(0, 1, 2), glm::uvec3(2, 1, 3), glm::uvec3(4, 3, 2)));
+  EXPECT_EQ(face_rgba(scene).size(), 3u);
+}
+
+TEST(Ply, KeepsPositionsThatAreNotFinite) {
+  const Scene scene =
+      read_bytes(ascii + vertices3 + faces1 + "end_header\nnan 0 0\n-inf 0 0\n0 0 0\n3 0 1 2\n");
+  EXPECT_TRUE(std::isnan(soup_of(scene).positions[0].x));
+  EXPECT_EQ(soup_of(scene).positions[1].x, -INFINITY);
+}
+
+TEST(Ply, NotesTrailingBytes) {
+  const std::string text = ascii + vertices3 + faces1 + "end_header\n" + body3 + "3 0 1 2\n";
+  EXPECT_THAT(read_bytes(text + "\n \nxyz").info.notes,
+              Contains("3 bytes after the last element ignored."));
+  EXPECT_THAT(read_bytes(text + "\n \n").info.notes,
+              ElementsAre(HasSubstr("no up axis"), HasSubstr("no colours")));
+  EXPECT_THAT(read_bytes(rich_file("binary_big_endian", "\n") + "xyz\n").info.notes,
+              Contains("4 bytes after the last element ignored."));
+}
+
+TEST(Ply, RefusesWhatIsNotTriangles) {
+  const std::string splat =
+      "property float f_dc_0\nproperty float scale_0\nproperty float scale_1\n";
+  EXPECT_EQ(
+      message_of(ascii + "element vertex 1\n" + xyz + splat +
+                 "property float scale_2\nproperty float rot_0\nend_header\n0 0 0 0 0 0 0 0\n"),
+      "folder/plant.ply:3: element 'vertex' holds 3D Gaussian splats, not triangles: a "
+      "radiance field of 1 Gaussians and no faces, which is not drawn");
+  EXPECT_THAT(message_of(ascii + "element vertex 1\n" + xyz + splat +
+                         "property float rot_0\nend_header\n0 0 0 0 0 0 0\n"),
+              HasSubstr("2D Gaussian splats, not triangles"));
+  EXPECT_EQ(message_of(ascii + vertices3 + "end_header\n" + body3),
+            "folder/plant.ply:3: element 'vertex' is a point cloud: 3 vertices and no faces, "
+            "nothing to draw");
+  EXPECT_EQ(message_of(ascii + faces1 + "end_header\n3 0 1 2\n"),
+            "folder/plant.ply:5: has no element 'vertex'");
+}
+
+TEST(Ply, RefusesByPlaceAndReason) {
+  const std::string at = "folder/plant.ply:";
+  const std::string head = ascii + vertices3 + faces1 + "end_header\n";  // body from line 10 on
+  EXPECT_EQ(message_of(head + "0 0 0\n1 0\n0 1 0\n3 0 1 2\n"),
+            at + "11: the line ends where a property is expected");
+  EXPECT_EQ(message_of(head + "0 0 0 7\n1 0 0\n0 1 0\n3 0 1 2\n"),
+            at + "10: more than the properties of its element on this line: '7'");
+  EXPECT_EQ(message_of(head + body3 + "\n\n\n\n"),
+            at + "17: the file ends before its last 'face' element");
+  EXPECT_EQ(message_of(head + body3 + "3 0 1 3\n"), at + "13: 'face' 0 names vertex 3 of 3");
+  EXPECT_EQ(message_of(head + body3 + "3 0 -1 1\n"), at + "13: 'face' 0 names vertex -1 of 3");
+  EXPECT_EQ(message_of(head + body3 + "256 0 1 1\n"),
+            at + "13: a property of 256 is outside 0..255");
+  EXPECT_EQ(message_of(head + body3 + "200 0 1 1\n"),
+            at + "13: a list 'vertex_indices' of 200 values in the last 7 bytes of the file");
+  EXPECT_EQ(message_of(ascii + "element vertex 0\nproperty ushort x\nproperty ushort z\n" + faces1 +
+                       "end_header\n3 0 0 0\n"),
+            at + "3: element 'vertex' lacks 'y'");
+  EXPECT_EQ(message_of(ascii + "element vertex 1\n" + xyz + "property float x\n" + faces1 +
+                       "end_header\n0 0 0 0\n3 0 0 0\n"),
+            at + "3: element 'vertex' has a second property 'x'");
+  EXPECT_EQ(message_of(ascii + "element vertex 1\nproperty list int int x\n" + faces1 +
+                       "end_header\n0 0 0 0\n3 0 0 0\n"),
+            at + "3: element 'vertex' has a list 'x'");
+  EXPECT_EQ(message_of(ascii + vertices3 + "property uchar red\n" + faces1 + "end_header\n" +
+                       body3 + body3),
+            at + "3: element 'vertex' has colours that lack 'green'");
+  EXPECT_THAT(message_of(ascii + vertices3 + "property int red\n" + faces1 + "end_header\n" +
+                         body3 + body3),
+              HasSubstr("a colour 'red' of a type whose scale is not defined"));
+  EXPECT_EQ(message_of(ascii + vertices3 + "element face 1\nproperty int id\nend_header\n" + body3 +
+                       "1\n"),
+            at + "7: element 'face' lacks 'vertex_indices'");
+  EXPECT_EQ(message_of(ascii + vertices3 +
+                       "element face 1\nproperty list int float vertex_index\nend_header\n" +
+                       body3 + "1\n"),
+            at + "7: element 'face' has 'vertex_index' that are no list of whole numbers");
+
+  Builder b("binary_little_endian");
+  b.line("element vertex 1")
+      .line("property char x")
+      .line("property char y")
+      .line("property char z");
+  b.line("element face 2").line("property list char int vertex_indices").line("end_header");
+  const std::string start = b.text();
+  b.value(std::int8_t(0)).value(std::int8_t(0)).value(std::int8_t(0));
+  const auto byte = [&](std::size_t n) {
+    return "folder/plant.ply: byte " + std::to_string(start.size() + n) + ": ";
+  };
+  Builder negative = b;
+  negative.value(std::int8_t(-2)).value(0).value(0).value(0);
+  EXPECT_EQ(message_of(negative.text()), byte(4) + "a list 'vertex_indices' of -2 values");
+  Builder index = b;
+  index.value(std::int8_t(3)).value(0).value(0).value(77).value(std::int8_t(0));
+  EXPECT_EQ(message_of(index.text()), byte(16) + "'face' 0 names vertex 77 of 1");
+  Builder shorter = b;
+  shorter.value(std::int8_t(3)).value(0).value(0).value(0);
+  EXPECT_EQ(message_of(shorter.text()), byte(16) + "the file ends within its 'face' elements");
+}
+
+TEST(Ply, SurvivesTruncationAndDamage) {
+  const auto read = [](std::span<const std::byte> bytes) {
+    Input input = Input::memory("damaged.ply", bytes);
+    const Scene scene = read_ply(input);
+    EXPECT_EQ(defect(soup_of(scene)), std::nullopt);
+  };
+  for (const std::string encoding : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+    SCOPED_TRACE(encoding);
+    const std::string text = rich_file(encoding, "\n");
+    const auto bytes = std::as_bytes(std::span(text));
+    const Survival cut = survive_truncation(bytes, read);
+    // Every byte of a binary body is needed; a text may lose its last line break.
+    EXPECT_EQ(cut.read, encoding == "ascii" ? 1u : 0u);
+    EXPECT_GT(cut.refused, 0u);
+    const Survival damaged = survive_damage(bytes, read);
+    EXPECT_GT(damaged.read, 0u);
+    EXPECT_GT(damaged.refused, 0u);
+  }
+}
+
+TEST(Ply, ReadsAcrossBufferBordersAsASlowDecoderDoes_seed6) {
+  // Rows of 7 bytes and lists of random length, so that the borders of 64 KiB fall everywhere.
+  std::mt19937 random(6);
+  Builder b("binary_big_endian");
+  const int vertices = 30000, faces = 20000;
+  b.line("element vertex 30000").line("property uchar gap").line("property short x");
+  b.line("property short y").line("property short z").line("element face 20000");
+  b.line("property list uchar uint vertex_indices").line("end_header");
+  std::vector<glm::vec3> positions;
+  for (int v = 0; v < vertices; ++v) {
+    b.value(std::uint8_t(v));
+    glm::vec3 p;
+    for (int k = 0; k < 3; ++k) {
+      const auto value = std::int16_t(random());
+      b.value(value);
+      p[k] = value;
+    }
+    positions.push_back(p);
+  }
+  std::vector<glm::uvec3> triangles;
+  for (int f = 0; f < faces; ++f) {
+    const int corners = 3 + int(random() % 4);
+    b.value(std::uint8_t(corners));
+    std::vector<std::uint32_t> indices;
+    for (int k = 0; k < corners; ++k) {
+      indices.push_back(random() % vertices);
+      b.value(indices.back());
+      if (k >= 2)
+        triangles.emplace_back(indices[0], indices[std::size_t(k) - 1], indices[std::size_t(k)]);
+    }
+  }
+  const Scene scene = read_bytes(b.text());
+  EXPECT_EQ(soup_of(scene).positions, positions);
+  EXPECT_EQ(soup_of(scene).triangles, triangles);
+}
+
+TEST(Ply, RoundTripsBitForBit_seed7) {
+  std::mt19937 random(7);
+  for (const bool by_vertex : {false, true})
+    for (const bool bytes : {false, true}) {
+      TriangleSoup soup;
+      for (int i = 0; i < 200; ++i)
+        soup.positions.emplace_back(std::ldexp(float(random()), -int(random() % 100)), -1.5f,
+                                    1e-40f);
+      for (int t = 0; t < 70; ++t) soup.triangles.emplace_back(random() % 200, random() % 200, t);
+      std::vector<glm::vec4> rgba(by_vertex ? 200 : 70);
+      for (glm::vec4& color : rgba)
+        for (int c = 0; c < 4; ++c)
+          color[c] = bytes ? float(random() % 256) / 255.0f : float(random()) / 4294967296.0f;
+      if (by_vertex)
+        soup.appearance = VertexColors{rgba};
+      else
+        soup.appearance = FaceColors{rgba};
+      Scene scene;
+      scene.info.up = {0, 0, 1};
+      scene.primitives = soup;
+      const TemporaryFolder folder;
+      EXPECT_THAT(write_ply(scene, folder / "a.ply"), ElementsAre());
+      const Scene again = read_ply(folder / "a.ply");
+      EXPECT_EQ(soup_of(again).positions, soup.positions);
+      EXPECT_EQ(soup_of(again).triangles, soup.triangles);
+      EXPECT_EQ(by_vertex ? vertex_rgba(again) : face_rgba(again), rgba);
+      std::ifstream file(folder / "a.ply", std::ios::binary);
+      const std::string text((std::istreambuf_iterator<char>(file)), {});
+      EXPECT_EQ(text.find("property uchar red") != std::string::npos, bytes);
+    }
+}
+
+TEST(Ply, RealGaussianSplatsAreToldWhatTheyAre) {
+  const std::string folder = data_folder + "gaussians/";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
+  EXPECT_THAT(input_error([&] { read_ply(folder + "guitar_3dgs_dc.ply"); }),
+              HasSubstr("3D Gaussian splats, not triangles: a radiance field of 90854 Gaussians"));
+  EXPECT_THAT(input_error([&] { read_ply(folder + "sh3_trailing_bytes.ply"); }),
+              HasSubstr("3D Gaussian splats"));
+}
+
+TEST(Ply, HostileFilesEndWell) {
+  const std::string folder = data_folder + "hostile/ply";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
+  std::map<std::string, std::string> errors;
+  std::map<std::string, std::size_t> triangles;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    const std::string name = entry.path().stem().string();
+    std::size_t count = 0;
+    errors[name] = input_error([&] {
+      const Scene scene = read_ply(entry.path());
+      EXPECT_EQ(defect(soup_of(scene)), std::nullopt) << name;
+      count = soup_of(scene).triangles.size();
+    });
+    if (errors[name].empty()) triangles[name] = count;
+  }
+  EXPECT_GE(errors.size(), 36u);
+  for (const char* name : {"extra-token-face-element", "extra-token-vertex-property",
+                           "format-missing", "format-unsupported", "integer-literal-too-large",
+                           "invalid-face-type", "positions-not-all", "positions-missing"})
+    EXPECT_THAT(errors[name], HasSubstr(std::string(name) + ".ply:")) << name;
+  EXPECT_THAT(errors["integer-literal-too-large"],
+              HasSubstr(":5: the number of 'vertex' elements"));
+  for (const auto& [name, count] : triangles) {
+    const bool empty = name.rfind("empty", 0) == 0 || name.find("not-") != std::string::npos ||
+                       name == "normals-unsupported-type";
+    EXPECT_EQ(count > 0, !empty) << name;
+  }
+  EXPECT_EQ(triangles["crlf"], 3u);
+  EXPECT_EQ(triangles["positions-colors4-normals-texcoords-float-indices-int-be-unaligned"], 3u);
+}
+
+}  // namespace
+}  // namespace tureen
