@@ -14,7 +14,9 @@ namespace {
 /// Colours as bytes where that loses nothing, as floats otherwise.
 TexelStore color_store(const TexelLayout& layout, std::uint64_t count, const std::string& what,
                        const std::function<glm::vec4(std::uint64_t)>& color) {
-  const auto as_byte = [](float value) { return std::clamp(std::round(value * 255.0f), 0.0f, 255.0f); };
+  const auto as_byte = [](float value) {
+    return std::clamp(std::round(value * 255.0f), 0.0f, 255.0f);
+  };
   bool bytes = true;
   for (std::uint64_t i = 0; bytes && i < count; ++i) {
     const glm::vec4 value = color(i);
@@ -101,17 +103,18 @@ class Uploader {
       return per_vertex ? vertex_of(i) : plan_.faces[i];
     };
     add("coefficients",
-        TexelStore(layout_, texel_formats::rgb32f, elements * std::uint64_t(kept), "harmonics",
-                   [&](std::uint64_t first, std::span<std::byte> out) {
-                     for (std::size_t i = 0; i < out.size() / 12; ++i) {
-                       const std::uint64_t texel = first + i;
-                       const std::uint64_t element = element_of(texel / std::uint64_t(kept));
-                       std::memcpy(&out[12 * i],
-                                   &sh.coefficients[element * std::uint64_t(stored) +
-                                                    texel % std::uint64_t(kept)],
-                                   12);
-                     }
-                   }));
+        TexelStore(
+            layout_, texel_formats::rgb32f, elements * std::uint64_t(kept), "harmonics",
+            [&](std::uint64_t first, std::span<std::byte> out) {
+              for (std::size_t i = 0; i < out.size() / 12; ++i) {
+                const std::uint64_t texel = first + i;
+                const std::uint64_t element = element_of(texel / std::uint64_t(kept));
+                std::memcpy(
+                    &out[12 * i],
+                    &sh.coefficients[element * std::uint64_t(stored) + texel % std::uint64_t(kept)],
+                    12);
+              }
+            }));
     add("anchors", TexelStore(layout_, texel_formats::rgb32f, elements, "harmonics anchors",
                               [&](std::uint64_t first, std::span<std::byte> out) {
                                 for (std::size_t i = 0; i < out.size() / 12; ++i) {
@@ -152,12 +155,12 @@ class Uploader {
     include("appearance_uv.glsl");
     result_.constants["VERTEX_TINT"] = textures.vertex_rgba.empty() ? "0" : "1";
     upload_images(textures);
-    add("coordinates",
-        TexelStore(layout_, texel_formats::rg32f, 3 * slots(), "texture coordinates",
-                   [&](std::uint64_t first, std::span<std::byte> out) {
-                     for (std::size_t i = 0; i < out.size() / 8; ++i)
-                       std::memcpy(&out[8 * i], &textures.uv[vertex_of(first + i)], 8);
-                   }));
+    add("coordinates", TexelStore(layout_, texel_formats::rg32f, 3 * slots(), "texture coordinates",
+                                  [&](std::uint64_t first, std::span<std::byte> out) {
+                                    for (std::size_t i = 0; i < out.size() / 8; ++i)
+                                      std::memcpy(&out[8 * i], &textures.uv[vertex_of(first + i)],
+                                                  8);
+                                  }));
     if (!textures.vertex_rgba.empty())
       add("tints", color_store(layout_, 3 * slots(), "vertex colours", [&](std::uint64_t corner) {
             return textures.vertex_rgba[vertex_of(corner)];
@@ -166,8 +169,8 @@ class Uploader {
     for (std::size_t slot = 0; slot < slots(); ++slot)
       material_of_slot[slot] = textures.material_of_face[plan_.faces[slot]];
     add("material_of_face",
-        TexelStore::from(layout_, texel_formats::r32ui, std::span<const std::uint32_t>(material_of_slot),
-                         "face materials"));
+        TexelStore::from(layout_, texel_formats::r32ui,
+                         std::span<const std::uint32_t>(material_of_slot), "face materials"));
     if (textures.mlp) add_mlp(*textures.mlp, plan_.feature_ranges);
   }
 
@@ -186,7 +189,8 @@ class Uploader {
         // Materials that share their images share the texels.
         const Image8* second = textures.mlp ? &textures.images[material.images[1]] : nullptr;
         std::size_t known = 0;
-        while (known < firsts.size() && (firsts[known] != image || seconds[known] != second)) ++known;
+        while (known < firsts.size() && (firsts[known] != image || seconds[known] != second))
+          ++known;
         if (known == firsts.size()) {
           firsts.push_back(image);
           seconds.push_back(second);
@@ -212,23 +216,25 @@ class Uploader {
 
   TexelStore image_store(const std::vector<const Image8*>& images,
                          const std::vector<std::uint64_t>& starts, std::uint64_t texels) const {
-    return TexelStore(layout_, texel_formats::rgba8, texels, "texture images",
-                      [&](std::uint64_t first, std::span<std::byte> out) {
-                        std::uint64_t count = out.size() / 4;
-                        std::byte* destination = out.data();
-                        auto image = std::size_t(std::upper_bound(starts.begin(), starts.end(), first) -
-                                                 starts.begin()) - 1;
-                        while (count > 0) {
-                          const auto& pixels = images[image]->pixels;
-                          const std::uint64_t offset = first - starts[image];
-                          const std::uint64_t n = std::min<std::uint64_t>(count, pixels.size() - offset);
-                          std::memcpy(destination, &pixels[offset], n * 4);
-                          destination += n * 4;
-                          first += n;
-                          count -= n;
-                          ++image;
-                        }
-                      });
+    return TexelStore(
+        layout_, texel_formats::rgba8, texels, "texture images",
+        [&](std::uint64_t first, std::span<std::byte> out) {
+          std::uint64_t count = out.size() / 4;
+          std::byte* destination = out.data();
+          auto image =
+              std::size_t(std::upper_bound(starts.begin(), starts.end(), first) - starts.begin()) -
+              1;
+          while (count > 0) {
+            const auto& pixels = images[image]->pixels;
+            const std::uint64_t offset = first - starts[image];
+            const std::uint64_t n = std::min<std::uint64_t>(count, pixels.size() - offset);
+            std::memcpy(destination, &pixels[offset], n * 4);
+            destination += n * 4;
+            first += n;
+            count -= n;
+            ++image;
+          }
+        });
   }
 
   const TriangleSoup& soup_;

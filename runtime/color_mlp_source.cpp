@@ -32,7 +32,7 @@ std::vector<Input> network_inputs(const ColorMlp& mlp, const FeatureRanges& rang
     for (const char* axis : {"d.x", "d.y", "d.z"}) inputs.push_back({axis, -1.0f, 1.0f});
   if (mlp.encoding == DirectionEncoding::harmonics2) {
     // The extrema of each basis function over the sphere, rounded outwards.
-    constexpr float low[9] = {0.28209f, -0.48861f, -0.48861f, -0.48861f, -0.54628f,
+    constexpr float low[9] = {0.28209f,  -0.48861f, -0.48861f, -0.48861f, -0.54628f,
                               -0.54628f, -0.31540f, -0.54628f, -0.54628f};
     constexpr float high[9] = {0.28210f, 0.48861f, 0.48861f, 0.48861f, 0.54628f,
                                0.54628f, 0.63079f, 0.54628f, 0.54628f};
@@ -50,8 +50,8 @@ std::string prologue(const ColorMlp& mlp) {
 
 std::string signature(const ColorMlp& mlp) {
   std::string text = "vec3 color_mlp(vec4 features0, vec4 features1, vec3 to_eye) {\n";
-  text += mlp.view == ViewConvention::surface_to_eye ? "  vec3 d = to_eye;\n"
-                                                     : "  vec3 d = -to_eye;\n";
+  text +=
+      mlp.view == ViewConvention::surface_to_eye ? "  vec3 d = to_eye;\n" : "  vec3 d = -to_eye;\n";
   if (mlp.encoding == DirectionEncoding::harmonics2)
     text += "  float basis[9];\n  harmonics_basis(d, basis);\n";
   return text;
@@ -79,7 +79,8 @@ ColorMlpSource with_constants(const ColorMlp& mlp, const FeatureRanges& ranges) 
       double low = layer.biases[o], high = layer.biases[o];
       int zeros = 0;
       for (int i = 0; i < layer.inputs; ++i) {
-        const double a = double(weights[i]) * inputs[i].low, b = double(weights[i]) * inputs[i].high;
+        const double a = double(weights[i]) * inputs[i].low,
+                     b = double(weights[i]) * inputs[i].high;
         low += std::min(a, b);
         high += std::max(a, b);
         if (inputs[i].low == 0.0f && inputs[i].high == 0.0f) continue;  // a dead input
@@ -103,9 +104,9 @@ ColorMlpSource with_constants(const ColorMlp& mlp, const FeatureRanges& ranges) 
     }
     inputs = std::move(outputs);
   }
-  result.text = prologue(mlp) + signature(mlp) + body +
-                epilogue(mlp, "vec3(" + inputs[0].name + ", " + inputs[1].name + ", " +
-                                  inputs[2].name + ")");
+  result.text =
+      prologue(mlp) + signature(mlp) + body +
+      epilogue(mlp, "vec3(" + inputs[0].name + ", " + inputs[1].name + ", " + inputs[2].name + ")");
   return result;
 }
 
@@ -125,7 +126,8 @@ ColorMlpSource with_uniforms(const ColorMlp& mlp) {
     result.hidden_neurons += last ? 0 : layer.outputs;
     for (int out = 0; out < blocks(layer.outputs); ++out) {
       glm::vec4 bias(0.0f);
-      for (int r = 0; r < 4 && 4 * out + r < layer.outputs; ++r) bias[r] = layer.biases[4 * out + r];
+      for (int r = 0; r < 4 && 4 * out + r < layer.outputs; ++r)
+        bias[r] = layer.biases[4 * out + r];
       std::string sum = "mlp_biases[" + std::to_string(result.biases.size()) + "]";
       result.biases.push_back(bias);
       for (int in = 0; in < blocks(layer.inputs); ++in) {
@@ -141,9 +143,9 @@ ColorMlpSource with_uniforms(const ColorMlp& mlp) {
               (last ? sum : "max(vec4(0.0), " + sum + ")") + ";\n";
     }
   }
-  result.text = prologue(mlp) + "uniform mat4 mlp_weights[" + std::to_string(result.weights.size()) +
-                "];\nuniform vec4 mlp_biases[" + std::to_string(result.biases.size()) + "];\n" +
-                signature(mlp) + body +
+  result.text = prologue(mlp) + "uniform mat4 mlp_weights[" +
+                std::to_string(result.weights.size()) + "];\nuniform vec4 mlp_biases[" +
+                std::to_string(result.biases.size()) + "];\n" + signature(mlp) + body +
                 epilogue(mlp, "x" + std::to_string(mlp.layers.size()) + "_0.xyz");
   return result;
 }

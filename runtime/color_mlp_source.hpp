@@ -22,8 +22,8 @@ using FeatureRanges = std::array<FeatureRange, 8>;
 enum class MlpWeights { constants, uniforms };
 
 struct ColorMlpSource {
-  /// Defines `vec3 color_mlp(vec4 features0, vec4 features1, vec3 to_eye)`; HARMONICS_DEGREE must be
-  /// 2 or absent. #includes harmonics.glsl where the encoding wants it.
+  /// Defines `vec3 color_mlp(vec4 features0, vec4 features1, vec3 to_eye)`; HARMONICS_DEGREE must
+  /// be 2 or absent. #includes harmonics.glsl where the encoding wants it.
   std::string text;
   /// For `uniform mat4 mlp_weights[]` and `uniform vec4 mlp_biases[]`; empty for constants.
   std::vector<glm::mat4> weights;

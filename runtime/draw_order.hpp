@@ -18,8 +18,8 @@ struct Cluster {
   glm::vec3 centre{0.0f};
 };
 
-/// Faces of a cluster. Measured on llvmpipe with the 15,000-triangle cut-out cloud: smaller clusters
-/// order better but cost more draws; docs/benchmarks.md has the table.
+/// Faces of a cluster. Measured on llvmpipe with the 15,000-triangle cut-out cloud: smaller
+/// clusters order better but cost more draws; docs/benchmarks.md has the table.
 inline constexpr std::uint32_t default_cluster_size = 64;
 
 /// Sorts `faces` (indices into soup.triangles) along a space-filling curve. Faces whose corners are
@@ -29,8 +29,8 @@ void sort_spatially(const TriangleSoup& soup, std::vector<std::uint32_t>& faces)
 /// True when two faces have bit-identical corners in the same order.
 bool coincident(const TriangleSoup& soup, std::uint32_t a, std::uint32_t b);
 
-/// Cuts slots [first, last) into clusters. Coincident faces never lie in different clusters, so that
-/// the lower index is always drawn first.
+/// Cuts slots [first, last) into clusters. Coincident faces never lie in different clusters, so
+/// that the lower index is always drawn first.
 void append_clusters(const TriangleSoup& soup, std::span<const std::uint32_t> faces,
                      std::uint32_t first, std::uint32_t last, std::uint32_t cluster_size,
                      std::vector<Cluster>& clusters);

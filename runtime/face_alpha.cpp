@@ -120,8 +120,8 @@ struct Classify {
     const int y1 = std::min(int(high.y * float(image.height)) + 1, image.height - 1);
     // At the border a sample may wrap to the other side of the image.
     const UvMaterial& material = textures.materials[textures.material_of_face[t]];
-    const bool wraps = material.wrap_u != UvMaterial::Wrap::clamp ||
-                       material.wrap_v != UvMaterial::Wrap::clamp;
+    const bool wraps =
+        material.wrap_u != UvMaterial::Wrap::clamp || material.wrap_v != UvMaterial::Wrap::clamp;
     if (wraps && (x0 == 0 || y0 == 0 || x1 == image.width - 1 || y1 == image.height - 1))
       return FaceAlpha::cut_out;
     const std::uint32_t reaching = counts.over(x0, y0, x1, y1);

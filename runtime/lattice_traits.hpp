@@ -27,7 +27,8 @@ struct LatticeTraits {
 LatticeTraits measure(const LatticeTexture& texture, std::span<const std::uint32_t> faces);
 
 /// How much a change of the features by one can change the colour: an upper bound (the product of
-/// the layers' largest absolute row sums, the sigmoid's slope 1/4, and the blend). 1 without an MLP.
+/// the layers' largest absolute row sums, the sigmoid's slope 1/4, and the blend). 1 without an
+/// MLP.
 double color_gain(const LatticeTexture& texture);
 
 }  // namespace tureen

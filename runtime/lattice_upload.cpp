@@ -14,7 +14,8 @@ namespace {
 /// Where the texels of each slot come from and go to.
 class Placement {
  public:
-  Placement(const LatticeTexture& texture, const RenderPlan& plan) : texture_(texture), plan_(plan) {
+  Placement(const LatticeTexture& texture, const RenderPlan& plan)
+      : texture_(texture), plan_(plan) {
     // Without a uniform level and without levels of our own the texels stay as the soup has them.
     repacked_ = plan.lattice.uniform_level >= 0 || !plan.lattice.levels.empty();
     if (!repacked_) {
@@ -49,9 +50,9 @@ class Placement {
       for (std::uint64_t i = 0; i < count; ++i) visit(i, first + i);
       return;
     }
-    std::size_t slot = std::size_t(
-        std::upper_bound(first_of_slot_.begin(), first_of_slot_.end(), first) -
-        first_of_slot_.begin() - 1);
+    std::size_t slot =
+        std::size_t(std::upper_bound(first_of_slot_.begin(), first_of_slot_.end(), first) -
+                    first_of_slot_.begin() - 1);
     for (std::uint64_t i = 0; i < count; ++slot) {
       const LatticePatch& patch = texture_.patches[plan_.faces[slot]];
       const int n = lattice::resolution(int(patch.level));
@@ -79,18 +80,18 @@ template <class Value>
 TexelStore channel_store(const std::vector<Value>& values, const Placement& placement,
                          const TexelLayout& layout, const TexelFormat& format, int channel,
                          int width) {
-  const int copied = std::min(width, channel == LatticeTexture::features
-                                         ? 1
-                                         : LatticeTexture::features - channel);
+  const int copied =
+      std::min(width, channel == LatticeTexture::features ? 1 : LatticeTexture::features - channel);
   return TexelStore(
       layout, format, placement.texel_count(), "lattice texels",
       [&](std::uint64_t first, std::span<std::byte> out) {
         std::fill(out.begin(), out.end(), std::byte{0});
-        placement.for_each(first, out.size() / format.bytes, [&](std::uint64_t i, std::uint64_t source) {
-          std::memcpy(&out[i * format.bytes],
-                      &values[source * LatticeTexture::channels + std::uint64_t(channel)],
-                      sizeof(Value) * std::size_t(copied));
-        });
+        placement.for_each(
+            first, out.size() / format.bytes, [&](std::uint64_t i, std::uint64_t source) {
+              std::memcpy(&out[i * format.bytes],
+                          &values[source * LatticeTexture::channels + std::uint64_t(channel)],
+                          sizeof(Value) * std::size_t(copied));
+            });
       });
 }
 
@@ -103,7 +104,8 @@ LatticeStores upload_lattice(const LatticeTexture& texture, const RenderPlan& pl
   const TexelFormat wide = is_float ? texel_formats::rgba32f : texel_formats::rgba8;
   const TexelFormat narrow = is_float ? texel_formats::r32f : texel_formats::r8;
   if (placement.texel_count() > layout.capacity()) {
-    const std::uint64_t per_face = placement.texel_count() / std::max<std::size_t>(plan.faces.size(), 1);
+    const std::uint64_t per_face =
+        placement.texel_count() / std::max<std::size_t>(plan.faces.size(), 1);
     throw DeviceLimitError(
         std::to_string(plan.faces.size()) + " triangles have " +
         std::to_string(placement.texel_count()) + " lattice texels; this device holds " +
@@ -115,10 +117,10 @@ LatticeStores upload_lattice(const LatticeTexture& texture, const RenderPlan& pl
   std::visit(
       [&](const auto& values) {
         stores.features0 = channel_store(values, placement, layout, wide, 0, 4);
-        if (plan.color_mlp)
-          stores.features1 = channel_store(values, placement, layout, wide, 4, 4);
+        if (plan.color_mlp) stores.features1 = channel_store(values, placement, layout, wide, 4, 4);
         if (plan.opaque_count < plan.faces.size())
-          stores.alphas = channel_store(values, placement, layout, narrow, LatticeTexture::features, 1);
+          stores.alphas =
+              channel_store(values, placement, layout, narrow, LatticeTexture::features, 1);
       },
       texture.texels);
   if (plan.lattice.uniform_level < 0) {

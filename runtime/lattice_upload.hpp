@@ -14,8 +14,8 @@ struct LatticeStores {
   TexelStore patches;  // (first texel, level) a slot
 };
 
-/// Makes only the stores that the plan reads: features1 with a network, alphas with cut-outs, patches
-/// without a uniform level. Throws DeviceLimitError.
+/// Makes only the stores that the plan reads: features1 with a network, alphas with cut-outs,
+/// patches without a uniform level. Throws DeviceLimitError.
 LatticeStores upload_lattice(const LatticeTexture& texture, const RenderPlan& plan,
                              const TexelLayout& layout);
 

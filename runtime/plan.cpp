@@ -51,9 +51,10 @@ class Planner {
   RenderPlan published() {
     const auto* texture = std::get_if<LatticeTexture>(&soup_.appearance);
     if (!texture || !texture->mlp)
-      throw UsageError(std::string("the published pipeline draws lattice textures with a color MLP; "
-                                   "this soup has ") +
-                       appearance_name(soup_.appearance));
+      throw UsageError(
+          std::string("the published pipeline draws lattice textures with a color MLP; "
+                      "this soup has ") +
+          appearance_name(soup_.appearance));
     const std::uint32_t level = texture->patches.empty() ? 0 : texture->patches.front().level;
     for (const LatticePatch& patch : texture->patches)
       if (patch.level != level)
@@ -74,7 +75,8 @@ class Planner {
       if (drawable(soup_, t)) faces.push_back(t);
     const std::size_t undrawable = soup_.triangles.size() - faces.size();
     if (undrawable > 0)
-      say(format("left out: %zu faces without area or with corners that are not finite", undrawable));
+      say(format("left out: %zu faces without area or with corners that are not finite",
+                 undrawable));
 
     std::vector<FaceAlpha> alpha(soup_.triangles.size(), FaceAlpha::cut_out);
     if (specialise()) {
@@ -97,8 +99,7 @@ class Planner {
       i = end;
     }
     const auto first_cut_out = std::stable_partition(
-        faces.begin(), faces.end(),
-        [&](std::uint32_t t) { return alpha[t] == FaceAlpha::opaque; });
+        faces.begin(), faces.end(), [&](std::uint32_t t) { return alpha[t] == FaceAlpha::opaque; });
     plan_.opaque_count = std::size_t(first_cut_out - faces.begin());
     plan_.faces = std::move(faces);
     if (plan_.opaque_count == plan_.faces.size() && !plan_.faces.empty())
@@ -146,9 +147,10 @@ class Planner {
     while (plan_.harmonics_degree > 0 && worst[plan_.harmonics_degree] < half_step)
       --plan_.harmonics_degree;
     if (plan_.harmonics_degree < sh.degree)
-      say(format("left out: harmonics above degree %d of %d, they change no colour by more than %.5f "
-                 "(1/510 = 0.00196 allowed)",
-                 plan_.harmonics_degree, sh.degree, worst[plan_.harmonics_degree + 1]));
+      say(format(
+          "left out: harmonics above degree %d of %d, they change no colour by more than %.5f "
+          "(1/510 = 0.00196 allowed)",
+          plan_.harmonics_degree, sh.degree, worst[plan_.harmonics_degree + 1]));
   }
 
   void plan_appearance(const LatticeTexture& texture) {
@@ -160,7 +162,8 @@ class Planner {
       const float blend = traits.ranges[*texture.mlp->blend_channel].high;
       if (blend <= half_step) {
         plan_.color_mlp = false;
-        say(format("left out: the color MLP, its blend channel never exceeds %.5f (1/510 = 0.00196 "
+        say(
+            format("left out: the color MLP, its blend channel never exceeds %.5f (1/510 = 0.00196 "
                    "allowed)",
                    double(blend)));
       }
@@ -177,9 +180,10 @@ class Planner {
     const ColorMlpSource source = color_mlp_source(mlp, MlpWeights::constants, ranges);
     std::string sentence = "network weights are compiled in as constants";
     if (source.dead_neurons > 0 || source.zero_weights > 0)
-      sentence += format("; left out: %d of %d hidden neurons that never fire and %d weights of zero "
-                         "(exact)",
-                         source.dead_neurons, source.hidden_neurons, source.zero_weights);
+      sentence += format(
+          "; left out: %d of %d hidden neurons that never fire and %d weights of zero "
+          "(exact)",
+          source.dead_neurons, source.hidden_neurons, source.zero_weights);
     say(std::move(sentence));
   }
 
@@ -214,7 +218,8 @@ class Planner {
     if (kept < texels && worth_it && !traits.shares_texels) {
       plan_.lattice.levels = std::move(levels);
       if (all_affine) plan_.lattice.uniform_level = 0;
-      say(format("left out: %zu of %zu texels, %zu faces are affine (%zu constant) and keep their "
+      say(
+          format("left out: %zu of %zu texels, %zu faces are affine (%zu constant) and keep their "
                  "corners (no colour changes by more than %.5f, 1/510 = 0.00196 allowed)",
                  texels - kept, texels, affine_faces, traits.constant_faces, largest_error));
     } else if (one_level && !traits.shares_texels) {
@@ -247,9 +252,8 @@ class Planner {
     std::string sentence =
         format("draws %zu of %zu faces (%s), near ones first in %zu clusters, ", plan_.faces.size(),
                soup_.triangles.size(), appearance_name(soup_.appearance), plan_.clusters.size());
-    sentence += plan_.site == ShadingSite::forward
-                    ? "colour in one pass"
-                    : "a visibility pass, then colour once a pixel";
+    sentence += plan_.site == ShadingSite::forward ? "colour in one pass"
+                                                   : "a visibility pass, then colour once a pixel";
     if (plan_.color_mlp) sentence += " by the color MLP";
     sentence += plan_.reversed_depth ? "; reversed depth" : "; ordinary depth range";
     if (!specialise()) sentence += "; nothing is left out, as asked";

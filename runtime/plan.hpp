@@ -23,7 +23,8 @@ struct DeviceLimits {
 
 enum class PipelineKind {
   tureen,     // visibility pass, then shading of covered pixels; or forward
-  published,  // a likeness of the published DiffSoup viewer, the baseline that speed is held against
+  published,  // a likeness of the published DiffSoup viewer, the baseline that speed is held
+              // against
 };
 
 enum class ShadingSite {
@@ -33,11 +34,11 @@ enum class ShadingSite {
 
 struct PlanPreferences {
   PipelineKind pipeline = PipelineKind::tureen;
-  /// Without it nothing is left out: every face is alpha-tested, every pixel shaded, network weights
-  /// are uniforms.
+  /// Without it nothing is left out: every face is alpha-tested, every pixel shaded, network
+  /// weights are uniforms.
   bool specialise = true;
-  bool reversed_depth = true;       // where the device can
-  std::optional<ShadingSite> site;  // the plan's own choice when absent
+  bool reversed_depth = true;            // where the device can
+  std::optional<ShadingSite> site = {};  // the plan's own choice when absent
 };
 
 /// How the texels of a lattice lie on the device.
@@ -62,12 +63,12 @@ struct RenderPlan {
   /// Runs of slots that are drawn together; none straddles opaque_count.
   std::vector<Cluster> clusters;
 
-  bool flat_colors = false;        // one colour a face says it all, whatever the soup stores
-  bool color_mlp = false;          // the network runs
+  bool flat_colors = false;  // one colour a face says it all, whatever the soup stores
+  bool color_mlp = false;    // the network runs
   bool weights_as_constants = false;
   bool depth_rejects_background = false;
   int harmonics_degree = 0;
-  FeatureRanges feature_ranges;    // of what the network sees, for weights_as_constants
+  FeatureRanges feature_ranges;  // of what the network sees, for weights_as_constants
   LatticePlan lattice;
 
   /// For people: how the scene is drawn, then a sentence for each thing left out, with the measured

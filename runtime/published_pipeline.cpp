@@ -1,8 +1,8 @@
-// A likeness of the published DiffSoup viewer (specs 01, section 2), kept as the baseline: two RGBA8
-// feature targets, all channels of every fragment sampled before the alpha test, faces in file
-// order, then the network on every pixel of the window with its weights in mat4 uniforms. It has the
-// viewer's shortcomings too: features quantised twice, one lattice level, lookup textures that must
-// fit the device's largest 2D texture.
+// A likeness of the published DiffSoup viewer (specs 01, section 2), kept as the baseline: two
+// RGBA8 feature targets, all channels of every fragment sampled before the alpha test, faces in
+// file order, then the network on every pixel of the window with its weights in mat4 uniforms. It
+// has the viewer's shortcomings too: features quantised twice, one lattice level, lookup textures
+// that must fit the device's largest 2D texture.
 #include <algorithm>
 #include <cstring>
 #include <glm/matrix.hpp>
@@ -32,19 +32,18 @@ class PublishedPipeline final : public Pipeline {
     upload_lookup_textures(texture, plan, limits);
     network_ = color_mlp_source(*texture.mlp, MlpWeights::uniforms);
     const std::string level = std::to_string(plan.lattice.uniform_level);
-    geometry_program_ = gl::Program(
-        assemble({.file = "geometry.vert", .constants = {}, .generated = {}}, capabilities.api),
-        assemble({.file = "published_geometry.frag",
-                  .constants = {{"LATTICE_LEVEL", level}, {"ALPHA_THRESHOLD", "0.5"}},
-                  .generated = {}},
-                 capabilities.api));
+    geometry_program_ =
+        gl::Program(assemble({.file = "geometry.vert"}, capabilities.api),
+                    assemble({.file = "published_geometry.frag",
+                              .constants = {{"LATTICE_LEVEL", level}, {"ALPHA_THRESHOLD", "0.5"}},
+                              .generated = {}},
+                             capabilities.api));
     ShaderSource shading{.file = "published_shading_with_network",
                          .constants = {{"HARMONICS_DEGREE", "2"}},
                          .generated = {{"published_shading_with_network",
                                         "#include \"published_shading.frag\"\n" + network_.text}}};
-    shading_program_ = gl::Program(
-        assemble({.file = "full_screen.vert", .constants = {}, .generated = {}}, capabilities.api),
-        assemble(shading, capabilities.api));
+    shading_program_ = gl::Program(assemble({.file = "full_screen.vert"}, capabilities.api),
+                                   assemble(shading, capabilities.api));
     gl::check("PublishedPipeline");
   }
 
@@ -76,8 +75,7 @@ class PublishedPipeline final : public Pipeline {
     glClearBufferfv(GL_COLOR, 0, clear0);
     glClearBufferfv(GL_COLOR, 1, clear1);
     glClearBufferfv(GL_DEPTH, 0, &far);
-    const glm::dmat4 projection =
-        clip_from_view(frame.camera, frame.range.near, frame.range.far);
+    const glm::dmat4 projection = clip_from_view(frame.camera, frame.range.near, frame.range.far);
     geometry_program_.use();
     Geometry::set_camera(geometry_program_, frame, projection);
     bind_texture(0, lut0_.id());
@@ -124,20 +122,20 @@ class PublishedPipeline final : public Pipeline {
     const std::size_t texels = plan.faces.size() * per_face;
     const std::size_t rows = std::max<std::size_t>((texels + lut_width - 1) / lut_width, 1);
     if (rows > std::size_t(limits.max_texture_size))
-      throw DeviceLimitError("the published pipeline wants a lookup texture of " +
-                             std::to_string(rows) + " rows; this device has " +
-                             std::to_string(limits.max_texture_size) + ", enough for " +
-                             std::to_string(std::size_t(limits.max_texture_size) * lut_width /
-                                            per_face) +
-                             " triangles at this level");
+      throw DeviceLimitError(
+          "the published pipeline wants a lookup texture of " + std::to_string(rows) +
+          " rows; this device has " + std::to_string(limits.max_texture_size) + ", enough for " +
+          std::to_string(std::size_t(limits.max_texture_size) * lut_width / per_face) +
+          " triangles at this level");
     std::vector<std::uint8_t> lut[2];
     for (int half = 0; half < 2; ++half) {
       lut[half].resize(rows * lut_width * 4);
       for (std::size_t slot = 0; slot < plan.faces.size(); ++slot)
         for (std::uint32_t k = 0; k < per_face; ++k)
           for (int c = 0; c < 4; ++c)
-            lut[half][(slot * per_face + k) * 4 + std::size_t(c)] = stored(
-                texture, texture.patches[plan.faces[slot]].first_texel + std::size_t(k), 4 * half + c);
+            lut[half][(slot * per_face + k) * 4 + std::size_t(c)] =
+                stored(texture, texture.patches[plan.faces[slot]].first_texel + std::size_t(k),
+                       4 * half + c);
     }
     lut0_ = lookup_texture(lut[0], rows);
     lut1_ = lookup_texture(lut[1], rows);
@@ -148,7 +146,8 @@ class PublishedPipeline final : public Pipeline {
   static std::uint8_t stored(const LatticeTexture& texture, std::size_t texel, int channel) {
     if (const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&texture.texels))
       return (*bytes)[texel * LatticeTexture::channels + std::size_t(channel)];
-    return static_cast<std::uint8_t>(std::clamp(texture.value(texel, channel), 0.0f, 1.0f) * 255.0f);
+    return static_cast<std::uint8_t>(std::clamp(texture.value(texel, channel), 0.0f, 1.0f) *
+                                     255.0f);
   }
 
   static gl::Texture lookup_texture(const std::vector<std::uint8_t>& bytes, std::size_t rows) {

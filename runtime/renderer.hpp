@@ -1,7 +1,7 @@
 // A soup on a device, drawn frame by frame.
 //
-// What it does not do: windows, input, loading files, choosing cameras. The context it was made with
-// must be current for every call, and on destruction.
+// What it does not do: windows, input, loading files, choosing cameras. The context it was made
+// with must be current for every call, and on destruction.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -21,11 +21,11 @@ namespace tureen {
 class Pipeline;
 
 struct RenderOptions {
-  PlanPreferences plan;
+  PlanPreferences plan = {};
   /// What pixels without a face become: display-referred colour, and alpha (0 for transparent).
   glm::vec4 background{0.0f, 0.0f, 0.0f, 1.0f};
   /// Pretend that the device can do no more than this (tests, forecasts).
-  std::optional<DeviceLimits> limits;
+  std::optional<DeviceLimits> limits = {};
 };
 
 DeviceLimits device_limits(const gl::Capabilities& capabilities);

@@ -13,9 +13,9 @@ namespace tureen {
 struct ShaderSource {
   std::string_view file;  // such as "shading.frag"
   /// Becomes `#define NAME VALUE`.
-  std::map<std::string, std::string> constants;
+  std::map<std::string, std::string> constants = {};
   /// Texts that stand for #include files of these names (generated code).
-  std::map<std::string, std::string> generated;
+  std::map<std::string, std::string> generated = {};
 };
 
 /// Asserts that every included file exists.

@@ -46,7 +46,8 @@ TexelStore::TexelStore(const TexelLayout& layout, const TexelFormat& format, std
                static_cast<GLsizei>(layers), 0, format.format, format.type, nullptr);
   if (glGetError() != GL_NO_ERROR)
     throw DeviceLimitError(what + ": the device refuses a texture of " +
-                           std::to_string(device_bytes_ >> 20) + " MiB; fewer triangles or a lower "
+                           std::to_string(device_bytes_ >> 20) +
+                           " MiB; fewer triangles or a lower "
                            "lattice level would fit");
 
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -56,8 +57,7 @@ TexelStore::TexelStore(const TexelLayout& layout, const TexelFormat& format, std
   std::vector<std::byte> block(rows_per_block * width * format.bytes);
   for (std::uint64_t row = 0; row < rows;) {
     const std::uint64_t layer = row / rows_per_layer, row_in_layer = row % rows_per_layer;
-    const std::uint64_t count_rows =
-        std::min({rows_per_block, rows - row, height - row_in_layer});
+    const std::uint64_t count_rows = std::min({rows_per_block, rows - row, height - row_in_layer});
     const std::uint64_t first = row * width;
     const std::uint64_t texels = std::min(count_rows * width, count - std::min(first, count));
     const std::span<std::byte> bytes(block.data(), texels * format.bytes);

@@ -1,5 +1,5 @@
-// A linear array of texels on the device, as long as a scene needs: rows in the layers of a 2D array
-// texture. shaders/texel_store.glsl finds a texel by its index.
+// A linear array of texels on the device, as long as a scene needs: rows in the layers of a 2D
+// array texture. shaders/texel_store.glsl finds a texel by its index.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +13,11 @@
 
 namespace tureen {
 
-/// How the index is cut into column, row and layer. The same for every store of a device. A layer of
-/// 2^21 texels wastes at most 8 MiB of RGBA8 at the end and lets 256 layers, the least that any
+/// How the index is cut into column, row and layer. The same for every store of a device. A layer
+/// of 2^21 texels wastes at most 8 MiB of RGBA8 at the end and lets 256 layers, the least that any
 /// device has, hold 2^29 texels.
 struct TexelLayout {
-  int row_bits = 12;    // 4096 columns, 2048 on devices that have no more
+  int row_bits = 12;   // 4096 columns, 2048 on devices that have no more
   int layer_bits = 9;  // rows of a layer
   int max_layers = 256;
 

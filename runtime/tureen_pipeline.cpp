@@ -29,10 +29,9 @@ class TureenPipeline final : public Pipeline {
     if (cut_out > 0)
       cut_out_ = program(capabilities.api, "geometry.vert", fragment, {{"ALPHA_TEST", "1"}});
     if (!forward)
-      shading_ = program(
-          capabilities.api, "full_screen.vert", "shading.frag",
-          {{"NO_FACE", "0xffffffffu"},
-           {"DEPTH_REJECTS_BACKGROUND", plan.depth_rejects_background ? "1" : "0"}});
+      shading_ = program(capabilities.api, "full_screen.vert", "shading.frag",
+                         {{"NO_FACE", "0xffffffffu"},
+                          {"DEPTH_REJECTS_BACKGROUND", plan.depth_rejects_background ? "1" : "0"}});
     gl::check("TureenPipeline");
   }
 
@@ -81,8 +80,7 @@ class TureenPipeline final : public Pipeline {
                         .constants = appearance_.constants,
                         .generated = {{"appearance.glsl", appearance_.glsl}}};
     source.constants.insert(constants.begin(), constants.end());
-    return gl::Program(assemble({.file = vertex, .constants = {}, .generated = {}}, api),
-                       assemble(source, api));
+    return gl::Program(assemble({.file = vertex}, api), assemble(source, api));
   }
 
   static void set_clip_control(bool zero_to_one) {
@@ -147,12 +145,12 @@ class TureenPipeline final : public Pipeline {
     const auto first = order_.first_vertices(), count = order_.vertex_counts();
 #ifndef __EMSCRIPTEN__
     if (multi_draw_) {
-      glMultiDrawArrays(GL_TRIANGLES, first.data(), count.data(), static_cast<GLsizei>(first.size()));
+      glMultiDrawArrays(GL_TRIANGLES, first.data(), count.data(),
+                        static_cast<GLsizei>(first.size()));
       return;
     }
 #endif
-    for (std::size_t i = 0; i < first.size(); ++i)
-      glDrawArrays(GL_TRIANGLES, first[i], count[i]);
+    for (std::size_t i = 0; i < first.size(); ++i) glDrawArrays(GL_TRIANGLES, first[i], count[i]);
   }
 
   void draw_shading(const FrameCamera& frame, const glm::vec4& background) {

@@ -1,5 +1,6 @@
 // Colour at once, for appearances so cheap that a second pass would cost more.
 #include "appearance.glsl"
+#include "simplex.glsl"
 #include "view_direction.glsl"
 
 flat in uint face;
@@ -8,8 +9,9 @@ in vec2 barycentrics;
 layout(location = 0) out vec4 color;
 
 void main() {
+  vec2 b = clamped_to_simplex(barycentrics);
 #if ALPHA_TEST
-  if (!fragment_exists(face, barycentrics)) discard;
+  if (!fragment_exists(face, b)) discard;
 #endif
-  color = vec4(fragment_color(face, barycentrics, direction_to_eye(gl_FragCoord.xy)), 1.0);
+  color = vec4(fragment_color(face, b, direction_to_eye(gl_FragCoord.xy)), 1.0);
 }

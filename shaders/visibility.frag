@@ -1,6 +1,7 @@
 // Names the winning fragment of each pixel instead of storing its features: the face, and two
 // barycentrics of 16 bits (1/65535 of a face is 1/512 of a texel at level 7).
 #include "appearance.glsl"
+#include "simplex.glsl"
 
 flat in uint face;
 in vec2 barycentrics;
@@ -8,9 +9,10 @@ in vec2 barycentrics;
 layout(location = 0) out uvec2 fragment;
 
 void main() {
+  vec2 b = clamped_to_simplex(barycentrics);
 #if ALPHA_TEST
-  if (!fragment_exists(face, barycentrics)) discard;
+  if (!fragment_exists(face, b)) discard;
 #endif
-  uvec2 b = uvec2(clamp(barycentrics, 0.0, 1.0) * 65535.0 + 0.5);
-  fragment = uvec2(face, b.x | (b.y << 16));
+  uvec2 packed_b = uvec2(b * 65535.0 + 0.5);
+  fragment = uvec2(face, packed_b.x | (packed_b.y << 16));
 }

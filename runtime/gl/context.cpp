@@ -13,8 +13,7 @@ namespace {
 
 class ExternalPlatform final : public Context::Platform {
  public:
-  explicit ExternalPlatform(Context::GetProcAddress loader)
-      : get_proc_address_(loader) {}
+  explicit ExternalPlatform(Context::GetProcAddress loader) : get_proc_address_(loader) {}
   void make_current() override {}
   Context::GetProcAddress get_proc_address() const override { return get_proc_address_; }
   Backend backend() const override { return Backend::external; }
@@ -79,8 +78,7 @@ void check(const char* where) {
 
 Context Context::create(const ContextRequest& request) {
   std::string tried;
-  const auto attempt = [&](auto create_platform,
-                           const char* name) -> std::unique_ptr<Platform> {
+  const auto attempt = [&](auto create_platform, const char* name) -> std::unique_ptr<Platform> {
     try {
       return create_platform(request);
     } catch (const ContextError& error) {

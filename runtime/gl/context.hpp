@@ -50,6 +50,8 @@ class Context {
   void make_current();
 
   Backend backend() const;
+  /// The library's own way to find functions, for whoever shares this context.
+  GetProcAddress get_proc_address() const { return platform_->get_proc_address(); }
   const Capabilities& capabilities() const { return capabilities_; }
   /// "EGL, OpenGL 4.5 core" and the like.
   std::string description() const;

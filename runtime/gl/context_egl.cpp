@@ -77,8 +77,7 @@ const Egl& egl() {
 /// EGL lists them), then Mesa's surfaceless platform.
 std::vector<EGLDisplay> displays() {
   std::vector<EGLDisplay> found;
-  if (!egl().get_platform_display)
-    throw ContextError("libEGL.so.1 lacks eglGetPlatformDisplayEXT");
+  if (!egl().get_platform_display) throw ContextError("libEGL.so.1 lacks eglGetPlatformDisplayEXT");
   const char* extensions = egl().query_string(nullptr, egl_extensions);
   if (extensions && std::strstr(extensions, "EGL_MESA_platform_surfaceless"))
     found.push_back(egl().get_platform_display(egl_platform_surfaceless, nullptr, nullptr));
@@ -128,8 +127,7 @@ EGLContext create_on(EGLDisplay display, const ContextRequest& request, int majo
     return nullptr;
   std::vector<EGLint> attributes = {egl_context_major_version, major, egl_context_minor_version,
                                     minor};
-  if (!es)
-    attributes.insert(attributes.end(), {egl_context_profile_mask, egl_core_profile_bit});
+  if (!es) attributes.insert(attributes.end(), {egl_context_profile_mask, egl_core_profile_bit});
   attributes.push_back(egl_none);
   return egl().create_context(display, config, nullptr, attributes.data());
 }

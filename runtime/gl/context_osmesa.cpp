@@ -80,13 +80,21 @@ std::unique_ptr<Context::Platform> create_osmesa(const ContextRequest& request) 
     int major, minor;
   };
   // 4.6 yields no context, 4.5 the highest that Mesa's software rasteriser knows.
-  const std::vector<Version> versions =
-      request.major > 0 ? std::vector<Version>{{request.major, request.minor}}
-                        : std::vector<Version>{{4, 5}, {4, 1}, {3, 3}};
+  const std::vector<Version> versions = request.major > 0
+                                            ? std::vector<Version>{{request.major, request.minor}}
+                                            : std::vector<Version>{{4, 5}, {4, 1}, {3, 3}};
   for (const Version version : versions) {
-    const int attributes[] = {osmesa_format,        osmesa_rgba,         osmesa_depth_bits,    24,
-                              osmesa_profile,       osmesa_core_profile, osmesa_major_version,
-                              version.major,        osmesa_minor_version, version.minor,       0};
+    const int attributes[] = {osmesa_format,
+                              osmesa_rgba,
+                              osmesa_depth_bits,
+                              24,
+                              osmesa_profile,
+                              osmesa_core_profile,
+                              osmesa_major_version,
+                              version.major,
+                              osmesa_minor_version,
+                              version.minor,
+                              0};
     if (OSMesaContext context = osmesa().create_context(attributes, nullptr)) {
       auto platform = std::make_unique<OsMesaPlatform>(context);
       platform->make_current();

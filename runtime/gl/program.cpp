@@ -17,7 +17,8 @@ std::string numbered(const std::string& source) {
   return result;
 }
 
-/// A compiled shader, deleted at the end of the scope: the program keeps it alive as long as needed.
+/// A compiled shader, deleted at the end of the scope: the program keeps it alive as long as
+/// needed.
 class Shader {
  public:
   Shader(GLenum stage, const std::string& source) : id_(glCreateShader(stage)) {

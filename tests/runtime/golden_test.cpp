@@ -1,0 +1,76 @@
+// Approved pictures of small soups of every appearance, on every context that we run on. The plain
+// goldens pin the ordinary depth range, so that contexts with and without clip control agree; one
+// golden has reversed depth.
+#include "support/golden.hpp"
+
+#include <gtest/gtest.h>
+
+#include "runtime/renderer.hpp"
+#include "support/contexts.hpp"
+#include "support/random_soups.hpp"
+
+namespace tureen::test {
+namespace {
+
+Image8 draw_golden(const gl::ContextRequest& request, Kind kind, RenderOptions options) {
+  const gl::Context context = gl::Context::create(request);
+  const TriangleSoup soup = random_soup(2026, {.kind = kind, .faces = 150, .size = 0.25});
+  Random random(11);
+  const Camera camera = random_camera(random, 320, 240);
+  options.background = glm::vec4(0.95f, 0.95f, 0.9f, 1.0f);
+  Renderer renderer(context, soup, glm::dvec3(0.0), options);
+  renderer.draw(camera);
+  return renderer.read_color();
+}
+
+struct Golden {
+  NamedContext context;
+  Kind kind;
+};
+
+class Goldens : public testing::TestWithParam<Golden> {};
+
+TEST_P(Goldens, Appearance) {
+  RenderOptions options;
+  options.plan.reversed_depth = false;
+  const bool is_reference = GetParam().context.request.backend == gl::Backend::osmesa;
+  expect_golden(draw_golden(GetParam().context.request, GetParam().kind, options),
+                to_string(GetParam().kind), is_reference ? "" : GetParam().context.name);
+}
+
+std::vector<Golden> all_goldens() {
+  std::vector<Golden> all;
+  for (const NamedContext& context : every_context)
+    for (const Kind kind : all_kinds) all.push_back({context, kind});
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Goldens, testing::ValuesIn(all_goldens()), [](const auto& test) {
+  return to_string(test.param.kind) + "_" + test.param.context.name;
+});
+
+TEST(Golden, ReversedDepth) {
+  expect_golden(draw_golden(osmesa, Kind::lattice_mlp, {}), "reversed_depth");
+}
+
+TEST(Golden, WithoutSpecialisation) {
+  RenderOptions options;
+  options.plan.specialise = false;
+  options.plan.reversed_depth = false;
+  expect_golden(draw_golden(osmesa, Kind::lattice_mlp, options), to_string(Kind::lattice_mlp),
+                "without_specialisation");
+}
+
+TEST(Golden, ForwardAndDeferredAgree) {
+  RenderOptions options;
+  options.plan.reversed_depth = false;
+  for (const Kind kind : {Kind::face_colors, Kind::uv_textures, Kind::lattice_mlp})
+    for (const ShadingSite site : {ShadingSite::forward, ShadingSite::deferred}) {
+      options.plan.site = site;
+      expect_golden(draw_golden(osmesa, kind, options), to_string(kind),
+                    site == ShadingSite::forward ? "forward" : "deferred");
+    }
+}
+
+}  // namespace
+}  // namespace tureen::test

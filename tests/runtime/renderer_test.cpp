@@ -1,0 +1,158 @@
+// The renderer's promises: ties, devices that are too small, big soups in many layers, far origins.
+#include "runtime/renderer.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "soup/error.hpp"
+#include "soup/lattice.hpp"
+#include "support/contexts.hpp"
+#include "support/cutout_cloud.hpp"
+#include "support/random_soups.hpp"
+
+namespace tureen::test {
+namespace {
+
+using testing::HasSubstr;
+
+Image8 draw(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
+            const Camera& camera, const RenderOptions& options = {}) {
+  Renderer renderer(context, soup, origin, options);
+  renderer.draw(camera);
+  return renderer.read_color();
+}
+
+TEST(Renderer, CoincidentFacesAreWonByTheLowerIndexWhateverTheirBuckets) {
+  // Five copies of one triangle: the first is transparent, the second cut out in part, the third
+  // opaque: where the second has holes the third shows, and never the fourth or the fifth.
+  TriangleSoup soup;
+  soup.positions = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+  soup.triangles.assign(5, glm::uvec3(0, 1, 2));
+  LatticeTexture texture;
+  std::vector<std::uint8_t> texels;
+  const std::uint8_t alphas[5][3] = {
+      {0, 0, 0}, {255, 0, 0}, {255, 255, 255}, {255, 255, 255}, {255, 0, 255}};
+  for (std::uint32_t t = 0; t < 5; ++t) {
+    texture.patches.push_back({3 * t, 0});
+    for (int k = 0; k < 3; ++k) {
+      const std::uint8_t shade = std::uint8_t(40 * (t + 1));
+      texels.insert(texels.end(), {shade, shade, shade, 0, 0, 0, 0, alphas[t][k]});
+    }
+  }
+  texture.texels = texels;
+  soup.appearance = texture;
+  const Camera camera = look_at({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 0.8, 200, 200);
+  const gl::Context context = gl::Context::create(osmesa);
+  std::size_t seen[256] = {};
+  for (const glm::u8vec4& pixel : draw(context, soup, {}, camera).pixels) ++seen[pixel.r];
+  EXPECT_EQ(seen[40], 0u) << "transparent";
+  EXPECT_GT(seen[80], 500u) << "cut out, but first";
+  EXPECT_GT(seen[120], 500u) << "behind its holes";
+  EXPECT_EQ(seen[160], 0u) << "later copies";
+  EXPECT_EQ(seen[200], 0u) << "later copies";
+}
+
+TEST(Renderer, ASoupFarFromTheOriginLooksTheSame) {
+  const gl::Context context = gl::Context::create(osmesa);
+  const TriangleSoup soup = random_soup(5, {.kind = Kind::lattice_mlp});
+  Random random(5);
+  const Camera camera = random_camera(random, 320, 240);
+  const Image8 expected = draw(context, soup, {}, camera);
+  for (int exponent = 4; exponent <= 28; exponent += 6) {
+    const glm::dvec3 offset = std::ldexp(1.0, exponent) * glm::dvec3(1, -1, 1);
+    Camera moved = camera;
+    moved.view_from_world[3] =
+        glm::dvec4(glm::dmat3(camera.view_from_world) * -(camera.eye() + offset), 1.0);
+    const Image8 image = draw(context, soup, offset, moved);
+    std::size_t off = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+      off += image.pixels[i] != expected.pixels[i] ? 1 : 0;
+    // The camera's matrix is good to 2^-53 of the offset: 2^-25 units, 1e-5 pixels at 2^28.
+    EXPECT_LE(off, image.pixels.size() / 1000) << "2^" << exponent;
+  }
+}
+
+// A device with small textures needs more layers; nothing else may change.
+TEST(Renderer, SmallTexturesHoldTheSameScene) {
+  const gl::Context context = gl::Context::create(osmesa);
+  const Scene cloud = cutout_cloud({.triangles = 2000, .level = 5, .width = 320, .height = 180});
+  const auto& soup = std::get<TriangleSoup>(cloud.primitives);
+  const Image8 large = draw(context, soup, cloud.origin, cloud.cameras[0]);
+  RenderOptions options;
+  options.limits =
+      DeviceLimits{.max_texture_size = 64, .max_array_layers = 2048, .clip_control = true};
+  EXPECT_EQ(draw(context, soup, cloud.origin, cloud.cameras[0], options).pixels, large.pixels);
+}
+
+TEST(Renderer, ADeviceThatIsTooSmallGetsAForecast) {
+  const gl::Context context = gl::Context::create(osmesa);
+  const Scene cloud = cutout_cloud({.triangles = 200, .level = 5});
+  RenderOptions options;
+  options.limits =
+      DeviceLimits{.max_texture_size = 64, .max_array_layers = 16, .clip_control = true};
+  try {
+    Renderer(context, std::get<TriangleSoup>(cloud.primitives), cloud.origin, options);
+    FAIL();
+  } catch (const DeviceLimitError& error) {
+    // 16 layers of 64 x 64 texels hold 65,536; a triangle has 561.
+    EXPECT_THAT(error.what(), HasSubstr("about 116 such triangles would fit"));
+  }
+}
+
+TEST(Renderer, AnEmptySoupIsAllBackground) {
+  const gl::Context context = gl::Context::create(osmesa);
+  TriangleSoup soup;
+  soup.appearance = FaceColors{};
+  RenderOptions options;
+  options.background = glm::vec4(0.2f, 0.4f, 0.6f, 0.0f);
+  for (const bool specialise : {true, false}) {
+    options.plan.specialise = specialise;
+    const Image8 image =
+        draw(context, soup, {}, look_at({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 0.8, 32, 16), options);
+    for (const glm::u8vec4& pixel : image.pixels) ASSERT_EQ(pixel, glm::u8vec4(51, 102, 153, 0));
+  }
+}
+
+TEST(Renderer, TheTargetFollowsTheCamera) {
+  const gl::Context context = gl::Context::create(osmesa);
+  const TriangleSoup soup = random_soup(6, {.kind = Kind::lattice});
+  Renderer renderer(context, soup, {});
+  Random random(6);
+  for (const auto& [width, height] : {std::pair{64, 48}, {33, 77}, {64, 48}}) {
+    renderer.draw(random_camera(random, width, height));
+    EXPECT_EQ(renderer.read_color().width, width);
+    EXPECT_EQ(renderer.read_faces().size(), std::size_t(width) * std::size_t(height));
+  }
+}
+
+TEST(Context, SaysWhatWasTriedAndWhatToInstall) {
+  // OSMesa makes no ES contexts: a request that no machine can satisfy.
+  try {
+    gl::Context::create({.backend = gl::Backend::osmesa, .api = gl::Api::es});
+    FAIL();
+  } catch (const ContextError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("OSMesa makes no OpenGL ES contexts"));
+    EXPECT_THAT(error.what(), HasSubstr("apt-get install"));
+  }
+}
+
+TEST(Context, SeveralLiveSideBySide) {
+  gl::Context first = gl::Context::create(osmesa);
+  gl::Context second = gl::Context::create(egl_es30);
+  const TriangleSoup soup = random_soup(7, {.kind = Kind::lattice_mlp});
+  Random random(7);
+  const Camera camera = random_camera(random, 160, 120);
+  const Image8 on_second = draw(second, soup, {}, camera);
+  first.make_current();
+  EXPECT_EQ(draw(first, soup, {}, camera).pixels, on_second.pixels);
+}
+
+TEST(Context, AnExternalContextIsTakenOverAsItIs) {
+  const gl::Context owner = gl::Context::create(egl_core33);
+  const gl::Context external = gl::Context::external(owner.get_proc_address(), gl::Api::desktop);
+  EXPECT_EQ(external.backend(), gl::Backend::external);
+  EXPECT_EQ(external.capabilities().renderer, owner.capabilities().renderer);
+}
+
+}  // namespace
+}  // namespace tureen::test

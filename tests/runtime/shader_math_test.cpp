@@ -1,0 +1,165 @@
+// The formulas that stand in C++ and in GLSL give the same numbers: each is run on the device, one
+// input a pixel, and read back.
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "runtime/gl/api.hpp"
+#include "runtime/gl/program.hpp"
+#include "runtime/shader_source.hpp"
+#include "runtime/targets.hpp"
+#include "runtime/texel_store.hpp"
+#include "soup/lattice.hpp"
+#include "soup/spherical_harmonics.hpp"
+#include "support/contexts.hpp"
+#include "support/random.hpp"
+
+namespace tureen::test {
+namespace {
+
+constexpr TargetFormat rgba32f{GL_RGBA32F, GL_RGBA, GL_FLOAT};
+
+/// Evaluates `vec4 probe(vec4 input)` of a shader text on the device for every input.
+class Probe {
+ public:
+  Probe(gl::Api api, const std::string& text, const std::map<std::string, std::string>& constants)
+      : program_(assemble({.file = "full_screen.vert"}, api),
+                 assemble({.file = "probe",
+                           .constants = constants,
+                           .generated = {{"probe", text + main_text}}},
+                          api)) {}
+
+  std::vector<glm::vec4> run(const std::vector<glm::vec4>& inputs) const {
+    const int count = static_cast<int>(inputs.size());
+    gl::Texture source = make_target(rgba32f, count, 1);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, count, 1, GL_RGBA, GL_FLOAT, inputs.data());
+    const gl::Texture target = make_target(rgba32f, count, 1);
+    const gl::Framebuffer framebuffer = make_framebuffer({target.id()}, 0);
+    const gl::VertexArray nothing = gl::VertexArray::create();
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+    glViewport(0, 0, count, 1);
+    glDisable(GL_DEPTH_TEST);
+    program_.use();
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, source.id());
+    program_.set("inputs", 0);
+    program_.set("background_depth", 0.0f);
+    glBindVertexArray(nothing.id());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    std::vector<glm::vec4> results(inputs.size());
+    glReadPixels(0, 0, count, 1, GL_RGBA, GL_FLOAT, results.data());
+    return results;
+  }
+
+ private:
+  static constexpr const char* main_text =
+      "\nuniform sampler2D inputs;\n"
+      "layout(location = 0) out vec4 result;\n"
+      "void main() { result = probe(texelFetch(inputs, ivec2(int(gl_FragCoord.x), 0), 0)); }\n";
+
+  gl::Program program_;
+};
+
+class ShaderMath : public testing::TestWithParam<NamedContext> {
+ protected:
+  gl::Context context_ = gl::Context::create(GetParam().request);
+  gl::Api api() const { return GetParam().request.api; }
+};
+
+TEST_P(ShaderMath, LatticeFootprintsAreThoseOfTheModel) {
+  Random random(1);
+  std::vector<glm::vec4> inputs;
+  for (const float b0 : {0.0f, 1.0f, 0.5f, -1e-7f, 1.0f + 1e-7f})
+    for (const float b1 : {0.0f, 1.0f, 0.5f, -1e-7f, 1.0f + 1e-7f})
+      inputs.emplace_back(b0, b1, 0, 0);
+  while (inputs.size() < 2000) {
+    const double b0 = random.uniform(), b1 = random.uniform();
+    inputs.emplace_back(b0 + b1 > 1 ? 1 - b0 : b0, b0 + b1 > 1 ? 1 - b1 : b1, 0, 0);
+  }
+  for (int level = 0; level <= lattice::max_level; ++level) {
+    const std::string head =
+        "#include \"lattice.glsl\"\n"
+        "vec4 probe(vec4 x) { LatticeFootprint at = lattice_footprint(" +
+        std::to_string(level) + ", x.xy); ";
+    const auto texels = Probe(api(), head + "return vec4(vec3(at.texels), 0.0); }", {}).run(inputs);
+    const auto weights = Probe(api(), head + "return vec4(at.weights, 0.0); }", {}).run(inputs);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      const auto expected = lattice::footprint(level, inputs[i].x, inputs[i].y);
+      for (int k = 0; k < 3; ++k) {
+        ASSERT_EQ(std::uint32_t(texels[i][k]), expected.texels[k])
+            << "level " << level << " at " << inputs[i].x << ", " << inputs[i].y;
+        // The cell coordinate at level 7 is up to 128 and carries 2^-17 of rounding.
+        ASSERT_NEAR(weights[i][k], expected.weights[k], 2e-5) << "level " << level;
+      }
+    }
+  }
+}
+
+TEST_P(ShaderMath, HarmonicsAreThoseOfTheModel) {
+  Random random(2);
+  std::vector<glm::vec4> inputs;
+  for (int i = 0; i < 500; ++i) inputs.emplace_back(glm::vec3(random.direction()), 0);
+  for (int degree = 0; degree <= harmonics::max_degree; ++degree)
+    for (int first = 0; first < harmonics::count(degree); first += 4) {
+      std::string text =
+          "#include \"harmonics.glsl\"\n"
+          "vec4 probe(vec4 x) { float basis[HARMONICS_COUNT]; harmonics_basis(x.xyz, basis); "
+          "return vec4(";
+      for (int i = first; i < first + 4; ++i)
+        text += (i < harmonics::count(degree) ? "basis[" + std::to_string(i) + "]" : "0.0") +
+                std::string(i < first + 3 ? ", " : "); }");
+      const auto results =
+          Probe(api(), text, {{"HARMONICS_DEGREE", std::to_string(degree)}}).run(inputs);
+      for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const auto expected = harmonics::basis(glm::dvec3(inputs[i]));
+        for (int k = first; k < std::min(first + 4, harmonics::count(degree)); ++k)
+          // Values up to 3, a dozen float operations.
+          ASSERT_NEAR(results[i][k - first], expected[std::size_t(k)], 3e-6) << "Y_" << k;
+      }
+    }
+}
+
+// A wrong sign or order would give another sum: the squares of a band add up to (2l + 1) / 4 pi.
+TEST(Harmonics, BandsAreNormalised) {
+  Random random(3);
+  for (int i = 0; i < 100; ++i) {
+    const auto basis = harmonics::basis(random.direction());
+    for (int l = 0; l <= harmonics::max_degree; ++l) {
+      double sum = 0;
+      for (int k = l * l; k < (l + 1) * (l + 1); ++k)
+        sum += basis[std::size_t(k)] * basis[std::size_t(k)];
+      ASSERT_NEAR(sum, (2 * l + 1) / (4 * M_PI), 1e-12) << "band " << l;
+    }
+  }
+}
+
+TEST_P(ShaderMath, TexelStoresFindEveryTexelAcrossRowsAndLayers) {
+  // Two rows of 4 and two rows a layer: 37 texels make five layers.
+  TexelLayout layout{.row_bits = 2, .layer_bits = 1, .max_layers = 8};
+  std::vector<float> values(37);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = float(i) + 0.25f;
+  const TexelStore store =
+      TexelStore::from(layout, texel_formats::r32f, std::span<const float>(values), "test values");
+  glActiveTexture(GL_TEXTURE1);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, store.texture());
+  const Probe probe(
+      api(),
+      "#include \"texel_store.glsl\"\nuniform sampler2DArray store;\n"
+      "vec4 probe(vec4 x) { return texelFetch(store, texel_position(uint(x.x)), 0); }",
+      {{"TEXEL_ROW_BITS", "2"}, {"TEXEL_LAYER_BITS", "1"}});
+  GLint program = 0;
+  std::vector<glm::vec4> inputs;
+  for (std::size_t i = 0; i < values.size(); ++i) inputs.emplace_back(float(i), 0, 0, 0);
+  (void)probe.run(inputs);  // leaves the program in use
+  glGetIntegerv(GL_CURRENT_PROGRAM, &program);
+  glUniform1i(glGetUniformLocation(GLuint(program), "store"), 1);
+  const auto results = probe.run(inputs);
+  for (std::size_t i = 0; i < values.size(); ++i) EXPECT_EQ(results[i].x, values[i]) << i;
+}
+
+INSTANTIATE_TEST_SUITE_P(Contexts, ShaderMath, testing::ValuesIn(every_context),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace tureen::test

@@ -1,0 +1,71 @@
+#include "support/golden.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "formats/input.hpp"
+#include "formats/output.hpp"
+#include "formats/png.hpp"
+
+namespace tureen::test {
+
+namespace {
+
+void write_png(const Image8& image, const std::filesystem::path& path) {
+  Output output(path);
+  output.write(encode_png(image));
+  output.commit();
+}
+
+/// The difference of each channel, times 16 so that a single step can be seen.
+Image8 enlarged_difference(const Image8& a, const Image8& b) {
+  Image8 result(a.width, a.height, glm::u8vec4(0, 0, 0, 255));
+  for (std::size_t i = 0; i < a.pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+      result.pixels[i][c] =
+          std::uint8_t(std::min(255, 16 * std::abs(int(a.pixels[i][c]) - int(b.pixels[i][c]))));
+  return result;
+}
+
+}  // namespace
+
+void expect_golden(const Image8& actual, const std::string& name, const std::string& variant) {
+  namespace fs = std::filesystem;
+  const fs::path expected_path = fs::path(TUREEN_SOURCE_DIR) / "tests/golden" / (name + ".png");
+  const fs::path folder =
+      fs::path(TUREEN_BINARY_DIR) /
+      (variant.empty() ? "golden/" + name : "golden-variants/" + name + "-" + variant);
+  fs::remove_all(folder);
+
+  Image8 expected;
+  std::size_t off = 0, off_by_more = 0;
+  if (fs::exists(expected_path)) {
+    Input input = Input::open(expected_path);
+    expected = read_image(input);
+  }
+  const bool same_size = expected.width == actual.width && expected.height == actual.height;
+  for (std::size_t i = 0; same_size && i < actual.pixels.size(); ++i) {
+    int largest = 0;
+    for (int c = 0; c < 4; ++c)
+      largest = std::max(largest, std::abs(int(actual.pixels[i][c]) - int(expected.pixels[i][c])));
+    off += largest > 0 ? 1 : 0;
+    off_by_more += largest > 1 ? 1 : 0;
+  }
+  if (same_size && off * 300 <= actual.pixels.size() && off_by_more * 3000 <= actual.pixels.size())
+    return;
+
+  fs::create_directories(folder);
+  write_png(actual, folder / "actual.png");
+  if (!expected.pixels.empty()) write_png(expected, folder / "expected.png");
+  if (same_size) write_png(enlarged_difference(expected, actual), folder / "difference.png");
+  ADD_FAILURE() << (expected.pixels.empty() ? "there is no golden "
+                    : !same_size            ? "the size differs from the golden "
+                                            : "the picture differs from the golden ")
+                << expected_path << ": " << off << " pixels off, " << off_by_more
+                << " by more than a step; see " << folder;
+}
+
+}  // namespace tureen::test
