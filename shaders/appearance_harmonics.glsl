@@ -1,4 +1,4 @@
-// Colour max(0, 1/2 + sum_i Y_i(d) c_i) of a face (HARMONICS_PER_VERTEX 0: d at the centroid) or of
+// Colour 1/2 + sum_i Y_i(d) c_i, clamped to [0, 1], of a face (HARMONICS_PER_VERTEX 0: d at the centroid) or of
 // each corner, interpolated (1). VIEW_SIGN is +1 for surface-to-eye coefficients, -1 for
 // eye-to-surface ones.
 #include "harmonics.glsl"
@@ -20,16 +20,16 @@ vec3 element_color(uint element) {
   for (int i = 0; i < HARMONICS_COUNT; ++i)
     sum += basis[i] *
            texelFetch(coefficients, texel_position(element * uint(HARMONICS_COUNT) + uint(i)), 0).rgb;
-  return max(sum, 0.0);
+  return clamp(sum, 0.0, 1.0);
 }
 
 bool fragment_exists(uint face, vec2 b) { return true; }
 
 vec3 fragment_color(uint face, vec2 b, vec3 to_eye) {
 #if HARMONICS_PER_VERTEX
-  return min(b.x * element_color(3u * face) + b.y * element_color(3u * face + 1u) +
-             (1.0 - b.x - b.y) * element_color(3u * face + 2u), 1.0);
+  return b.x * element_color(3u * face) + b.y * element_color(3u * face + 1u) +
+         (1.0 - b.x - b.y) * element_color(3u * face + 2u);
 #else
-  return min(element_color(face), 1.0);
+  return element_color(face);
 #endif
 }

@@ -40,11 +40,17 @@ Material material_of(uint face) {
   return material;
 }
 
+// GLSL leaves % undefined where an operand is negative, and llvmpipe takes it at its word.
+int modulo(int i, int n) {
+  int remainder = abs(i) % n;
+  return i < 0 && remainder > 0 ? n - remainder : remainder;
+}
+
 int wrapped(int i, int size, uint mode) {
-  if (mode == wrap_repeat) return ((i % size) + size) % size;
+  if (mode == wrap_repeat) return modulo(i, size);
   if (mode == wrap_mirror) {
     int period = 2 * size;
-    int j = ((i % period) + period) % period;
+    int j = modulo(i, period);
     return j < size ? j : period - 1 - j;
   }
   return clamp(i, 0, size - 1);
