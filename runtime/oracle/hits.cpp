@@ -15,10 +15,6 @@ namespace {
 /// GL promises at least 4 bits of sub-pixel position; Mesa and all desktop GPUs have 8.
 constexpr std::int64_t subpixels = 256;
 
-/// Which horizontal edge owns the centres that lie on it: true is the edge at the top of the
-/// picture as it is shown. Mesa draws into framebuffer objects so, and so do GPUs.
-constexpr bool upper_edge_owns = true;
-
 /// Rows of one band of visit_pixels.
 constexpr int band_rows = 16;
 
@@ -65,7 +61,7 @@ struct SnappedEdge {
   SnappedEdge(SnappedCorner a, SnappedCorner b, int sign)
       : ax(a.x), ay(a.y), dx(sign * (b.x - a.x)), dy(sign * (b.y - a.y)) {
     // The gradient (-dy, dx) points inside: to the right of a left edge, down from an upper one.
-    owns = -dy > 0 || (dy == 0 && (upper_edge_owns ? dx > 0 : dx < 0));
+    owns = -dy > 0 || (dy == 0 && (snapped_upper_edge_owns ? dx > 0 : dx < 0));
   }
   std::int64_t at(std::int64_t x, std::int64_t y) const { return dx * (y - ay) - dy * (x - ax); }
   bool covers(std::int64_t value) const { return value > 0 || (value == 0 && owns); }

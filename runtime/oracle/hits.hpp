@@ -26,9 +26,16 @@ enum class Coverage {
   /// The triangle as it is. A centre exactly on an edge belongs to the face on its right, or below
   /// a horizontal edge, so that faces that share an edge cover every centre on it once.
   exact,
-  /// As GL rasterises: vertices rounded to 1/256 pixel, integer edge functions, top-left rule.
+  /// As GL rasterises: vertices rounded to 1/256 pixel, integer edge functions; a centre on an edge
+  /// belongs to the face on its right, or to that which snapped_upper_edge_owns says.
   snapped,
 };
+
+/// Which of two faces owns the centres on a horizontal edge between them, when snapped: the lower
+/// one, whose upper edge it is, or the upper one. GL leaves it open. Mesa's llvmpipe applies the
+/// top-left rule to rows as they lie in memory, and a framebuffer object's first row is the
+/// picture's bottom: so the face above owns them (GlOracleSingle.CentresOnEdgesHaveTheSameOwner).
+inline constexpr bool snapped_upper_edge_owns = false;
 
 /// Where a snapped triangle's barycentrics and depth come from. Both are within what GL allows.
 enum class Attributes {
