@@ -9,6 +9,7 @@
 #include "formats/output.hpp"
 #include "formats/plain_mesh.hpp"
 #include "formats/text_scanner.hpp"
+#include "soup/quantise.hpp"
 
 namespace tureen {
 
@@ -232,11 +233,17 @@ class LineWriter {
     text_.append(first, buffer + sizeof buffer);
   }
   void space() { text_ += ' '; }
-  void color(const glm::vec4& rgba, int components) {
-    for (int c = 0; c < components; ++c) {
+  enum class Alpha { always, where_not_opaque };
+  /// As bytes; alpha stays on its side of the threshold.
+  void color(const glm::vec4& rgba, Alpha write_alpha) {
+    for (int c = 0; c < 3; ++c) {
       space();
-      number(std::uint64_t(to_byte(rgba[c])));
+      number(std::uint64_t(quantised_unit(rgba[c])));
     }
+    const std::uint64_t alpha = quantised_alpha(rgba.a);
+    if (write_alpha == Alpha::where_not_opaque && alpha == 255) return;
+    space();
+    number(alpha);
   }
   void text(std::string_view text) { text_ += text; }
   void end_line() {
@@ -246,12 +253,6 @@ class LineWriter {
   void flush() {
     output_.write(std::string_view(text_));
     text_.clear();
-  }
-
-  /// Rounds half up, so that an alpha of exactly 0.5 stays on the drawn side of the threshold.
-  static int to_byte(float value) {
-    if (!(value > 0.0f)) return 0;  // NaN too
-    return static_cast<int>(std::min(value, 1.0f) * 255.0f + 0.5f);
   }
 
  private:
@@ -298,7 +299,7 @@ std::vector<std::string> write_off(const Scene& scene, const std::filesystem::pa
       writer.number(soup.positions[i][k]);
     }
     // All vertices have as many numbers as the first, so alpha is always there.
-    if (vertex_rgba) writer.color((*vertex_rgba)[i], 4);
+    if (vertex_rgba) writer.color((*vertex_rgba)[i], LineWriter::Alpha::always);
     writer.end_line();
   }
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
@@ -307,8 +308,7 @@ std::vector<std::string> write_off(const Scene& scene, const std::filesystem::pa
       writer.space();
       writer.number(std::uint64_t(soup.triangles[t][k]));
     }
-    if (face_rgba)
-      writer.color((*face_rgba)[t], LineWriter::to_byte((*face_rgba)[t].a) < 255 ? 4 : 3);
+    if (face_rgba) writer.color((*face_rgba)[t], LineWriter::Alpha::where_not_opaque);
     writer.end_line();
   }
   writer.flush();

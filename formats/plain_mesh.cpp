@@ -1,10 +1,10 @@
 #include "formats/plain_mesh.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "soup/error.hpp"
+#include "soup/quantise.hpp"
 
 namespace tureen {
 
@@ -146,10 +146,8 @@ std::string assumed_up_note(const std::string& format) {
 
 bool are_bytes(const std::vector<glm::vec4>& rgba) {
   return std::all_of(rgba.begin(), rgba.end(), [](const glm::vec4& color) {
-    for (int c = 0; c < 4; ++c) {
-      if (!(color[c] >= 0.0f && color[c] <= 1.0f)) return false;
-      if (color[c] != std::floor(color[c] * 255.0f + 0.5f) / 255.0f) return false;
-    }
+    for (int c = 0; c < 4; ++c)
+      if (color[c] != float(quantised_unit(color[c])) / 255.0f) return false;
     return true;
   });
 }

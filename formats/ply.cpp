@@ -8,6 +8,7 @@
 #include "formats/output.hpp"
 #include "formats/plain_mesh.hpp"
 #include "formats/ply_values.hpp"
+#include "soup/quantise.hpp"
 
 namespace tureen {
 
@@ -276,7 +277,7 @@ class ByteWriter {
   void color(const glm::vec4& rgba, bool as_bytes) {
     for (int c = 0; c < 4; ++c)
       if (as_bytes)
-        byte(static_cast<unsigned>(rgba[c] * 255.0f + 0.5f));
+        byte(quantised_unit(rgba[c]));
       else
         real(rgba[c]);
   }

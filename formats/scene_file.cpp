@@ -6,6 +6,8 @@
 #include <cctype>
 #include <span>
 
+#include "formats/checkpoint.hpp"
+#include "formats/diffsoup_export.hpp"
 #include "formats/input.hpp"
 #include "formats/off.hpp"
 #include "formats/ply.hpp"
@@ -25,29 +27,42 @@ struct Candidate {
 constexpr std::size_t head_size = 4096;
 
 struct Format {
-  const char* name;
-  const char* description;
-  std::vector<const char*> extensions;  // lower case; none for a folder
-  bool (*recognises)(const Candidate&);
-  Scene (*read)(const std::filesystem::path&, const ReadOptions&);  // null: only written
-  std::vector<std::string> (*write)(const Scene&, const std::filesystem::path&);  // null: only read
+  const char* name = "";
+  const char* description = "";
+  std::vector<const char*> extensions{};  // lower case
+  bool is_folder = false;
+  bool (*recognises)(const Candidate&) = nullptr;
+  Scene (*read)(const std::filesystem::path&, const ReadOptions&) = nullptr;  // null: only written
+  std::vector<std::string> (*write)(const Scene&, const std::filesystem::path&) = nullptr;
 };
 
 /// In the order in which they are asked whether they recognise a file.
 const std::vector<Format>& formats() {
+  using Path = std::filesystem::path;
   static const std::vector<Format> table{
-      {"OFF",
-       "triangles with a colour a face or a vertex, as text (OFF, COFF)",
-       {".off", ".coff"},
-       [](const Candidate& c) { return !c.is_folder && is_off(c.head); },
-       [](const std::filesystem::path& path, const ReadOptions& o) { return read_off(path, o); },
-       write_off},
-      {"PLY",
-       "triangles with a colour a face or a vertex, ascii or binary",
-       {".ply"},
-       [](const Candidate& c) { return !c.is_folder && is_ply(c.head); },
-       [](const std::filesystem::path& path, const ReadOptions& o) { return read_ply(path, o); },
-       write_ply},
+      {.name = "OFF",
+       .description = "triangles with a colour a face or a vertex, as text (OFF, COFF)",
+       .extensions = {".off", ".coff"},
+       .recognises = [](const Candidate& c) { return !c.is_folder && is_off(c.head); },
+       .read = [](const Path& path, const ReadOptions& o) { return read_off(path, o); },
+       .write = write_off},
+      {.name = "PLY",
+       .description = "triangles with a colour a face or a vertex, ascii or binary",
+       .extensions = {".ply"},
+       .recognises = [](const Candidate& c) { return !c.is_folder && is_ply(c.head); },
+       .read = [](const Path& path, const ReadOptions& o) { return read_ply(path, o); },
+       .write = write_ply},
+      {.name = "DiffSoup export",
+       .description = "what DiffSoup writes for the web: lattice textures and a color MLP",
+       .is_folder = true,
+       .recognises = [](const Candidate& c) { return c.is_folder && is_diffsoup_export(c.path); },
+       .read = read_diffsoup_export,
+       .write = write_diffsoup_export},
+      {.name = "checkpoint",
+       .description = "of torch: DiffSoup, Triangle Splatting, Triangle Splatting+, MeshSplatting",
+       .extensions = {".pt"},
+       .recognises = [](const Candidate& c) { return !c.is_folder && is_checkpoint(c.head); },
+       .read = [](const Path& path, const ReadOptions& o) { return read_checkpoint(path, o); }},
   };
   return table;
 }
@@ -70,10 +85,10 @@ std::string listed(Can&& can) {
   std::vector<std::string> names;
   for (const Format& format : formats()) {
     if (!can(format)) continue;
-    std::string name = std::string(format.name) + " (";
-    for (std::size_t i = 0; i < format.extensions.size(); ++i)
-      name += (i ? ", " : "") + std::string(format.extensions[i]);
-    names.push_back(name + (format.extensions.empty() ? "folder)" : ")"));
+    std::string kinds = format.is_folder ? "folder" : "";
+    for (const char* extension : format.extensions)
+      kinds += (kinds.empty() ? "" : ", ") + std::string(extension);
+    names.push_back(std::string(format.name) + " (" + kinds + ")");
   }
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -121,8 +136,7 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options) 
 std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path) {
   const std::string extension = extension_of(path);
   for (const Format& format : formats())
-    if (format.write &&
-        (extension.empty() ? format.extensions.empty() : has_extension(format, extension)))
+    if (format.write && (extension.empty() ? format.is_folder : has_extension(format, extension)))
       return format.write(scene, path);
   throw UsageError((extension.empty() ? "no extension tells which format to write"
                                       : "no format that we write ends in " + extension) +
@@ -136,6 +150,7 @@ std::vector<FormatInfo> known_formats() {
     infos.push_back({format.name,
                      format.description,
                      {format.extensions.begin(), format.extensions.end()},
+                     format.is_folder,
                      format.read != nullptr,
                      format.write != nullptr});
   return infos;

@@ -33,10 +33,10 @@ std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::
 
 /// One line of the table of formats, for help texts.
 struct FormatInfo {
-  std::string name;         // "OFF"
-  std::string description;  // what it holds, in a few words
-  std::vector<std::string>
-      extensions;  // with the point; the first is the usual one; none: a folder
+  std::string name;                     // "OFF"
+  std::string description;              // what it holds, in a few words
+  std::vector<std::string> extensions;  // with the point; the first is the usual one
+  bool is_folder = false;               // a folder, beside any extensions
   bool can_read = false;
   bool can_write = false;
 };

@@ -66,6 +66,10 @@ TEST(SceneFile, WritesByExtension) {
     write_scene(scene, path);
     EXPECT_EQ(soup_of(read_scene(path)).positions, soup_of(scene).positions) << format.name;
   }
+  write_scene(scene, folder / "b");
+  const Scene exported = read_scene(folder / "b");
+  EXPECT_STREQ(appearance_name(soup_of(exported).appearance), "lattice texture with color MLP");
+  EXPECT_EQ(soup_of(exported).triangles, soup_of(scene).triangles);
   try {
     write_scene(scene, folder / "b.xyz");
     ADD_FAILURE() << "wrote an unknown extension";
