@@ -182,7 +182,7 @@ Scene read_diffsoup_export(const fs::path& folder, const ReadOptions& options) {
   scene.primitives = TriangleSoup{.positions = std::move(mesh.positions),
                                   .triangles = std::move(mesh.triangles),
                                   .appearance = std::move(texture)};
-  scene.info.name = fs::path(folder / "").parent_path().filename().string();
+  scene.info.name = fs::absolute(folder / "").lexically_normal().parent_path().filename().string();
   scene.info.source = "DiffSoup export";
   scene.info.up = meta.up;
   scene.info.background = meta.background;
