@@ -1,0 +1,308 @@
+#include "formats/checkpoint.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <random>
+
+#include "formats/torch_fixture.hpp"
+#include "formats/truncation.hpp"
+#include "soup/lattice.hpp"
+
+namespace tureen {
+namespace {
+
+using testing::as_bytes;
+using ::testing::HasSubstr;
+using testing::TensorFixture;
+using testing::TorchFixture;
+
+Scene read(const TorchFixture& fixture) {
+  const std::string bytes = fixture.bytes();
+  return read_checkpoint(Input::memory("scene.pt", as_bytes(bytes)));
+}
+
+std::string refusal(const TorchFixture& fixture) {
+  try {
+    read(fixture);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::vector<float> ramp(std::size_t count, float start = 0.0f, float step = 0.001f) {
+  std::vector<float> values(count);
+  for (std::size_t i = 0; i < count; ++i) values[i] = start + step * float(i);
+  return values;
+}
+
+/// The parts of a DiffSoup checkpoint of two faces; tests replace one.
+struct DiffSoup {
+  int level;
+  std::uint64_t texels = lattice::texel_count(level);
+  TensorFixture features = TensorFixture::floats({2, texels, 7}, ramp(2 * texels * 7, 0.0f, 1e-6f));
+  TensorFixture alpha = TensorFixture::floats({2, texels, 1}, ramp(2 * texels, 0.25f, 1e-5f));
+  TensorFixture vertices = TensorFixture::floats({4, 3}, ramp(12));
+  TensorFixture faces = TensorFixture::ints({2, 3}, {0, 1, 2, 2, 1, 3});
+  TensorFixture weight0 = TensorFixture::floats({16, 16}, ramp(256, -0.1f));
+  int rmax = level;
+  bool flip_z = false;
+
+  TorchFixture file() const {
+    TorchFixture torch;
+    torch.add("feat_acc", features).add("alpha_acc", alpha).add("V", vertices).add("F", faces);
+    torch.add("color_mlp", {{"mlp.0.weight", weight0},
+                            {"mlp.0.bias", TensorFixture::floats({16}, ramp(16, 0.5f))},
+                            {"mlp.2.weight", TensorFixture::floats({16, 16}, ramp(256, -0.2f))},
+                            {"mlp.2.bias", TensorFixture::floats({16}, ramp(16))},
+                            {"mlp.4.weight", TensorFixture::floats({3, 16}, ramp(48, 0.3f))},
+                            {"mlp.4.bias", TensorFixture::floats({3}, ramp(3, 0.7f))}});
+    torch.add("Rmax", rmax).add("losses", 0.125);
+    if (flip_z) torch.add("flip_z", 1);
+    return torch;
+  }
+};
+
+TEST(Checkpoint, IsToldByItsFirstBytes) {
+  EXPECT_TRUE(is_checkpoint(as_bytes(DiffSoup{0}.file().bytes())));
+  EXPECT_TRUE(is_checkpoint(as_bytes("\x80\x02\x8a\x0a\x6c\xfc\x9c\x46")));
+  EXPECT_FALSE(is_checkpoint(as_bytes("PK\5\6")));
+  EXPECT_FALSE(is_checkpoint(as_bytes("ply\n")));
+  EXPECT_FALSE(is_checkpoint({}));
+}
+
+TEST(Checkpoint, DiffSoupAtEveryLevel) {
+  for (int level = 0; level <= lattice::max_level; ++level) {
+    const DiffSoup diffsoup{level};
+    Scene scene = read(diffsoup.file());
+    const auto& soup = std::get<TriangleSoup>(scene.primitives);
+    ASSERT_EQ(defect(soup), std::nullopt);
+    EXPECT_EQ(scene.info.source, "DiffSoup checkpoint");
+    ASSERT_EQ(soup.triangles.size(), 2u);
+    EXPECT_EQ(soup.triangles[1], glm::uvec3(2, 1, 3));
+    EXPECT_EQ(soup.positions[3], glm::vec3(0.001f * 9, 0.001f * 10, 0.001f * 11));
+    const auto& texture = std::get<LatticeTexture>(soup.appearance);
+    EXPECT_TRUE(texture.is_float());
+    const std::size_t count = lattice::texel_count(level);
+    ASSERT_EQ(texture.texel_count(), 2 * count);
+    EXPECT_EQ(texture.patches[1].first_texel, count);
+    EXPECT_EQ(texture.patches[1].level, unsigned(level));
+    for (std::size_t texel = 0; texel < 2 * count; ++texel) {
+      for (int c = 0; c < 7; ++c)
+        ASSERT_EQ(texture.value(texel, c), 1e-6f * float(texel * 7 + std::size_t(c)));
+      ASSERT_EQ(texture.value(texel, 7), 0.25f + 1e-5f * float(texel));
+    }
+  }
+}
+
+TEST(Checkpoint, DiffSoupMlpAndScene) {
+  Scene scene = read(DiffSoup{1}.file());
+  const auto& mlp =
+      *std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance).mlp;
+  // [out][in], row by row.
+  EXPECT_EQ(mlp.layers[0].weights[3 * 16 + 5], -0.1f + 0.001f * 53);
+  EXPECT_EQ(mlp.layers[2].weights[2 * 16 + 1], 0.3f + 0.001f * 33);
+  EXPECT_EQ(mlp.layers[2].biases[1], 0.7f + 0.001f * 1);
+  EXPECT_EQ(mlp.encoding, DirectionEncoding::harmonics2);
+  EXPECT_EQ(mlp.view, ViewConvention::surface_to_eye);
+  EXPECT_EQ(mlp.blend_channel, 3);
+  EXPECT_EQ(scene.info.up, glm::vec3(0, 0, 1));
+  EXPECT_EQ(scene.info.background, glm::vec3(1));
+
+  DiffSoup real{1};
+  real.flip_z = true;
+  scene = read(real.file());
+  EXPECT_EQ(scene.info.up, glm::vec3(0, -1, 0));
+  EXPECT_EQ(scene.info.background, glm::vec3(0));
+}
+
+TEST(Checkpoint, StridesOffsetsAndParametersAreHonoured) {
+  DiffSoup diffsoup{0};
+  // Vertices column by column behind two numbers that belong to nobody.
+  diffsoup.vertices = TensorFixture::floats({4, 3}, ramp(14));
+  diffsoup.vertices.strides = {1, 4};
+  diffsoup.vertices.offset = 2;
+  diffsoup.vertices.parameter = true;
+  Scene scene = read(diffsoup.file());
+  const auto& positions = std::get<TriangleSoup>(scene.primitives).positions;
+  for (int v = 0; v < 4; ++v)
+    for (int k = 0; k < 3; ++k)
+      EXPECT_EQ(positions[std::size_t(v)][k], 0.001f * float(2 + v + 4 * k));
+}
+
+TEST(Checkpoint, NumbersOfEveryType) {
+  DiffSoup diffsoup{0};
+  const auto x = [&](TensorFixture vertices) {
+    diffsoup.vertices = std::move(vertices);
+    return std::get<TriangleSoup>(read(diffsoup.file()).primitives).positions;
+  };
+  // 0, 1, -2, the smallest denormal, 65504 and a third in IEEE binary16.
+  const std::vector<std::uint16_t> halves{0, 0x3c00, 0xc000, 1, 0x7bff, 0x3555, 0, 0, 0, 0, 0, 0};
+  const auto from_half = x(TensorFixture::of("HalfStorage", {4, 3}, halves));
+  EXPECT_EQ(from_half[0], glm::vec3(0, 1, -2));
+  EXPECT_EQ(from_half[1], glm::vec3(std::ldexp(1.0f, -24), 65504, 0.333251953125f));
+  const std::vector<std::uint16_t> brains{0x3f80, 0xc000, 0x3eab, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  EXPECT_EQ(x(TensorFixture::of("BFloat16Storage", {4, 3}, brains))[0],
+            glm::vec3(1, -2, 0.333984375f));
+  EXPECT_EQ(x(TensorFixture::of("DoubleStorage", {4, 3}, std::vector<double>(12, 0.1)))[0].x, 0.1f);
+  EXPECT_EQ(x(TensorFixture::of("ShortStorage", {4, 3}, std::vector<std::int16_t>(12, -5)))[0].x,
+            -5.0f);
+  EXPECT_EQ(x(TensorFixture::of("CharStorage", {4, 3}, std::vector<std::int8_t>(12, -5)))[0].x,
+            -5.0f);
+  EXPECT_EQ(x(TensorFixture::of("ByteStorage", {4, 3}, std::vector<std::uint8_t>(12, 250)))[0].x,
+            250.0f);
+  diffsoup.faces =
+      TensorFixture::of("LongStorage", {2, 3}, std::vector<std::int64_t>{0, 1, 2, 2, 1, 3});
+  EXPECT_EQ(std::get<TriangleSoup>(read(diffsoup.file()).primitives).triangles[1],
+            glm::uvec3(2, 1, 3));
+}
+
+TEST(Checkpoint, DeflatedAndZip64ArchivesReadAlike) {
+  const Scene plain = read(DiffSoup{2}.file());
+  TorchFixture torch = DiffSoup{2}.file();
+  torch.deflate = torch.zip64 = true;
+  const Scene packed = read(torch);
+  const auto texels = [](const Scene& scene) {
+    return std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance).texels;
+  };
+  EXPECT_EQ(texels(plain), texels(packed));
+}
+
+TEST(Checkpoint, WhatDoesNotFitIsRefusedByName) {
+  const auto changed = [](auto&& change) {
+    DiffSoup diffsoup{1};
+    change(diffsoup);
+    return refusal(diffsoup.file());
+  };
+  EXPECT_EQ(changed([](DiffSoup&) {}), "");
+  EXPECT_THAT(changed([](DiffSoup& d) { d.rmax = 5; }), HasSubstr("\"Rmax\" is 5"));
+  EXPECT_THAT(changed([](DiffSoup& d) {
+                d.features = TensorFixture::floats({2, 5, 7}, ramp(70));
+                d.alpha = TensorFixture::floats({2, 5, 1}, ramp(10));
+              }),
+              HasSubstr("5 texels a face"));
+  EXPECT_THAT(changed([](DiffSoup& d) {
+                d.alpha.shape = {2, 6};
+              }),
+              HasSubstr("\"alpha_acc\" is of shape [2, 6], expected [2, 6, 1]"));
+  EXPECT_THAT(changed([](DiffSoup& d) {
+                d.vertices.shape = {5, 3};
+              }),
+              HasSubstr("\"V\" of shape [5, 3] does not fit into its storage of 12 numbers"));
+  EXPECT_THAT(changed([](DiffSoup& d) { d.vertices.offset = 1; }), HasSubstr("does not fit"));
+  EXPECT_THAT(changed([](DiffSoup& d) { d.vertices.strides = {4, 1}; }), HasSubstr("does not fit"));
+  EXPECT_THAT(changed([](DiffSoup& d) { d.vertices.type = "ComplexFloatStorage"; }),
+              HasSubstr("global torch.ComplexFloatStorage"));
+  EXPECT_THAT(changed([](DiffSoup& d) { d.vertices.element = 1; }),
+              HasSubstr("storage of 48 numbers, but \"archive/data/2\" has only 48 bytes"));
+  EXPECT_THAT(changed([](DiffSoup& d) {
+                d.faces = TensorFixture::ints({2, 3}, {0, 1, 2, 2, 1, 4});
+              }),
+              HasSubstr("face 1 names vertex 4 of 4"));
+  EXPECT_THAT(changed([](DiffSoup& d) {
+                d.faces = TensorFixture::ints({1, 3}, {0, 1, 2});
+              }),
+              HasSubstr("\"F\" has 1 faces, \"feat_acc\" 2"));
+  EXPECT_THAT(changed([](DiffSoup& d) {
+                d.faces = TensorFixture::floats({2, 3}, ramp(6));
+              }),
+              HasSubstr("\"F\" holds floats"));
+  EXPECT_THAT(changed([](DiffSoup& d) {
+                d.features = TensorFixture::floats({2, 6, 7}, ramp(84, 1));
+              }),
+              HasSubstr("\"feat_acc\" holds 1.001"));
+  EXPECT_THAT(changed([](DiffSoup& d) {
+                d.alpha = TensorFixture::floats({2, 6, 1}, std::vector<float>(12, NAN));
+              }),
+              HasSubstr("\"alpha_acc\" holds nan"));
+  EXPECT_THAT(changed([](DiffSoup& d) {
+                d.weight0 = TensorFixture::floats({16, 16}, std::vector<float>(256, INFINITY));
+              }),
+              HasSubstr("not finite"));
+  EXPECT_THAT(changed([](DiffSoup& d) {
+                d.weight0.shape = {8, 32};
+              }),
+              HasSubstr("\"mlp.0.weight\" is of shape [8, 32], expected [16, 16]"));
+  EXPECT_THAT(refusal(TorchFixture().add("V", 1)), HasSubstr("another kind"));
+  EXPECT_THAT(refusal(TorchFixture().add("feat_acc", 1)), HasSubstr("has no \"V\""));
+  EXPECT_THAT(refusal(TorchFixture().add("feat_acc", 1).add("V", 1)),
+              HasSubstr("\"V\" is an integer, expected a tensor"));
+  const std::string old = "\x80\x02\x8a\x0a\x6c\xfc";
+  EXPECT_THROW(read_checkpoint(Input::memory("old.pt", as_bytes(old))), InputError);
+}
+
+TorchFixture triangle_splatting(int degree, std::uint64_t rest) {
+  TorchFixture torch;
+  const auto parameter = [](TensorFixture tensor) {
+    tensor.parameter = true;
+    return tensor;
+  };
+  torch.add("triangles_points", parameter(TensorFixture::floats({2, 3, 3}, ramp(18))));
+  torch.add("sigma", parameter(TensorFixture::floats({2, 1}, {0.25f, -3.0f})));
+  torch.add("active_sh_degree", degree);
+  torch.add("features_dc", parameter(TensorFixture::floats({2, 1, 3}, ramp(6, 5))));
+  torch.add("features_rest", parameter(TensorFixture::floats({2, rest, 3}, ramp(6 * rest, 7))));
+  torch.add("opacity", parameter(TensorFixture::floats({2, 1}, {-2.0f, 4.0f})));
+  return torch;
+}
+
+TEST(Checkpoint, TriangleSplattingIsActivated) {
+  const Scene scene = read(triangle_splatting(2, 15));
+  const auto& soft = std::get<SoftTriangles>(scene.primitives);
+  ASSERT_EQ(soft.positions.size(), 6u);
+  EXPECT_EQ(soft.positions[5], glm::vec3(0.001f * 15, 0.001f * 16, 0.001f * 17));
+  EXPECT_FLOAT_EQ(soft.sigma[0], float(0.01 + std::exp(0.25)));
+  EXPECT_FLOAT_EQ(soft.sigma[1], float(0.01 + std::exp(-3.0)));
+  EXPECT_FLOAT_EQ(soft.opacity[0], float(1 / (1 + std::exp(2.0))));
+  EXPECT_EQ(soft.degree, 2);
+  // Nine coefficients a triangle of the sixteen that are stored.
+  ASSERT_EQ(soft.coefficients.size(), 18u);
+  EXPECT_EQ(soft.coefficients[9], glm::vec3(5 + 0.001f * 3, 5 + 0.001f * 4, 5 + 0.001f * 5));
+  EXPECT_EQ(soft.coefficients[10].x, 7 + 0.001f * 45);
+  EXPECT_EQ(soft.coefficients[17].z, 7 + 0.001f * (45 + 23));
+  EXPECT_EQ(scene.info.up, glm::vec3(0, -1, 0));
+  EXPECT_THAT(scene.info.notes, ::testing::Contains(HasSubstr("-y is assumed")));
+
+  EXPECT_EQ(std::get<SoftTriangles>(read(triangle_splatting(0, 15)).primitives).coefficients.size(),
+            2u);
+  EXPECT_THAT(refusal(triangle_splatting(3, 8)), HasSubstr("8 coefficients"));
+  EXPECT_THAT(refusal(triangle_splatting(5, 15)), HasSubstr("\"active_sh_degree\" is 5"));
+}
+
+TEST(Checkpoint, ConnectedTrianglesShareVertices) {
+  TorchFixture torch;
+  torch.add("triangles_points", TensorFixture::floats({4, 3}, ramp(12)));
+  torch.add("_triangle_indices", TensorFixture::ints({2, 3}, {0, 1, 2, 2, 1, 3}));
+  torch.add("vertex_weight", TensorFixture::floats({4, 1}, ramp(4)));
+  torch.add("sigma", -9.2).add("active_sh_degree", 1);
+  torch.add("features_dc", TensorFixture::floats({4, 1, 3}, ramp(12)));
+  torch.add("features_rest", TensorFixture::floats({4, 15, 3}, ramp(180, 1)));
+  const Scene scene = read(torch);
+  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  ASSERT_EQ(defect(soup), std::nullopt);
+  EXPECT_EQ(soup.positions.size(), 4u);
+  const auto& harmonics = std::get<Harmonics>(soup.appearance);
+  EXPECT_EQ(harmonics.domain, Harmonics::Domain::vertex);
+  EXPECT_EQ(harmonics.view, ViewConvention::eye_to_surface);
+  EXPECT_EQ(harmonics.coefficients[3 * 4], glm::vec3(0.001f * 9, 0.001f * 10, 0.001f * 11));
+  EXPECT_EQ(harmonics.coefficients[3 * 4 + 3].z, 1 + 0.001f * (135 + 8));
+  EXPECT_EQ(scene.info.source, "Triangle Splatting+ checkpoint");
+  EXPECT_EQ(read(torch.add("pixel_count", 1)).info.source, "MeshSplatting checkpoint");
+}
+
+TEST(Checkpoint, SurvivesTruncationAndDamage) {
+  const auto read_sound = [](std::span<const std::byte> bytes) {
+    const Scene scene = read_checkpoint(Input::memory("scene.pt", bytes));
+    if (const auto* soup = std::get_if<TriangleSoup>(&scene.primitives)) {
+      EXPECT_EQ(defect(*soup), std::nullopt);
+    }
+  };
+  for (const std::string& bytes : {DiffSoup{0}.file().bytes(), triangle_splatting(1, 3).bytes()}) {
+    EXPECT_EQ(testing::survive_truncation(as_bytes(bytes), read_sound).read, 0u);
+    EXPECT_GT(testing::survive_damage(as_bytes(bytes), read_sound).refused, 1000u);
+  }
+}
+
+}  // namespace
+}  // namespace tureen

@@ -1,0 +1,108 @@
+#include "formats/zip_archive.hpp"
+
+#include <gmock/gmock.h>
+
+#include "formats/torch_fixture.hpp"
+#include "formats/truncation.hpp"
+
+namespace tureen {
+namespace {
+
+using testing::as_bytes;
+using ::testing::HasSubstr;
+using testing::ZipFixture;
+
+std::string text_of(ZipArchive& zip, const ZipEntry& entry, std::uint64_t offset,
+                    std::size_t count) {
+  std::string text(count, '?');
+  zip.read(entry, offset, std::as_writable_bytes(std::span(text)));
+  return text;
+}
+
+std::string refusal(const std::string& bytes) {
+  try {
+    ZipArchive zip(Input::memory("a.zip", as_bytes(bytes)));
+    for (const ZipEntry& entry : zip.entries()) zip.read_all(entry, 1u << 20);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// The second entry inflates to over 128 KiB: several buffers.
+ZipFixture sample(bool zip64) {
+  std::string numbers;
+  for (int i = 0; i < 30000; ++i) numbers += std::to_string(i) + ' ';
+  return {{{"b/stored", "0123456789"}, {"a/deflated", numbers, true}, {"c/empty", ""}}, zip64};
+}
+
+class Zip : public ::testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(OrdinaryAnd64, Zip, ::testing::Bool());
+
+TEST_P(Zip, EntriesAreReadWholeAndByRange) {
+  const ZipFixture fixture = sample(GetParam());
+  const std::string bytes = fixture.bytes();
+  ZipArchive zip(Input::memory("a.zip", as_bytes(bytes)));
+  ASSERT_EQ(zip.entries().size(), 3u);
+  EXPECT_EQ(zip.find("b"), nullptr);
+  const ZipEntry* stored = zip.find("b/stored");
+  const ZipEntry* deflated = zip.find("a/deflated");
+  ASSERT_TRUE(stored && deflated && zip.find("c/empty"));
+  EXPECT_EQ(text_of(zip, *stored, 0, 10), "0123456789");
+  EXPECT_EQ(text_of(zip, *stored, 7, 3), "789");
+  const std::string& numbers = fixture.entries[1].content;
+  ASSERT_GT(numbers.size(), 131072u);
+  EXPECT_EQ(text_of(zip, *deflated, 0, numbers.size()), numbers);
+  EXPECT_EQ(text_of(zip, *deflated, 100001, 65), numbers.substr(100001, 65));
+  EXPECT_TRUE(zip.read_all(*zip.find("c/empty"), 0).empty());
+  EXPECT_THROW(zip.read_all(*stored, 9), InputError);
+}
+
+TEST(Zip, WhatIsRefusedIsNamed) {
+  EXPECT_THAT(refusal("PK"), HasSubstr("too short"));
+  EXPECT_THAT(refusal(std::string(100, 'x')), HasSubstr("directory is missing"));
+  EXPECT_THAT(refusal(ZipFixture{{{"a", "1"}, {"a", "2"}}}.bytes()), HasSubstr("twice"));
+
+  const std::string good = ZipFixture{{{"entry", "12345"}}}.bytes();
+  const std::size_t record = good.find("PK\1\2");
+  const auto patched = [&](std::size_t offset, std::uint64_t value, int count) {
+    std::string bytes = good, field;
+    testing::append_little(field, value, count);
+    return bytes.replace(record + offset, field.size(), field);
+  };
+  EXPECT_EQ(refusal(good), "");
+  EXPECT_THAT(refusal(patched(8, 1, 2)), HasSubstr("\"entry\" is encrypted"));
+  EXPECT_THAT(refusal(patched(10, 14, 2)), HasSubstr("packed by method 14"));
+  EXPECT_THAT(refusal(patched(20, 6, 4)), HasSubstr("sizes differ"));
+  EXPECT_THAT(refusal(patched(20, 5000, 4)), HasSubstr("before the zip directory"));
+  EXPECT_THAT(refusal(patched(42, 5000, 4)), HasSubstr("before the zip directory"));
+  // A claim of 3 GiB out of five bytes, of 1 GiB, and of a size that is merely false.
+  const std::string packed = ZipFixture{{{"entry", "12345", true}}}.bytes();
+  const auto claimed = [&](std::uint64_t size) {
+    std::string bytes = packed, field;
+    testing::append_little(field, size, 4);
+    return bytes.replace(bytes.find("PK\1\2") + 24, 4, field);
+  };
+  EXPECT_EQ(refusal(claimed(5)), "");
+  EXPECT_THAT(refusal(claimed(3u << 30)), HasSubstr("the limit is 2147483648"));
+  EXPECT_THAT(refusal(claimed(1u << 30)), HasSubstr("more bytes than it can inflate to"));
+  EXPECT_THAT(refusal(claimed(6)), HasSubstr("ends early"));
+  // A directory that promises more entries than its bytes can hold.
+  std::string many = good;
+  many.replace(many.size() - 12, 2, "\xfe\xff");
+  EXPECT_THAT(refusal(many), HasSubstr("cannot hold 65534 entries"));
+}
+
+TEST_P(Zip, SurvivesTruncationAndDamage) {
+  const std::string bytes =
+      ZipFixture{{{"a", "stored content"}, {"b", "deflated, deflated", true}}, GetParam()}.bytes();
+  const auto read = [](std::span<const std::byte> damaged) {
+    ZipArchive zip(Input::memory("a.zip", damaged));
+    for (const ZipEntry& entry : zip.entries()) zip.read_all(entry, 1u << 20);
+  };
+  EXPECT_EQ(testing::survive_truncation(as_bytes(bytes), read).read, 0u);
+  EXPECT_GT(testing::survive_damage(as_bytes(bytes), read).refused, 0u);
+}
+
+}  // namespace
+}  // namespace tureen
