@@ -1,0 +1,401 @@
+#include "formats/diffsoup_export.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <random>
+
+#include "formats/format_testing.hpp"
+#include "formats/output.hpp"
+#include "formats/png.hpp"
+#include "formats/truncation.hpp"
+#include "soup/lattice.hpp"
+
+namespace tureen {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using testing::TemporaryFolder;
+namespace fs = std::filesystem;
+
+ColorMlp random_mlp(std::mt19937& random) {
+  std::normal_distribution<float> weight(0.0f, 0.35f);
+  ColorMlp mlp{.layers = {},
+               .encoding = DirectionEncoding::harmonics2,
+               .view = ViewConvention::surface_to_eye,
+               .blend_channel = 3};
+  for (const int outputs : {16, 16, 3}) {
+    DenseLayer layer{16, outputs, std::vector<float>(16 * std::size_t(outputs)),
+                     std::vector<float>(std::size_t(outputs))};
+    for (float& w : layer.weights) w = weight(random);
+    for (float& b : layer.biases) b = weight(random);
+    mlp.layers.push_back(std::move(layer));
+  }
+  return mlp;
+}
+
+/// Faces of one level with random float texels; every eighth alpha lies on or beside 1/2.
+Scene random_scene(unsigned seed, std::size_t faces, int level) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+  TriangleSoup soup;
+  LatticeTexture texture;
+  const std::size_t per_face = lattice::texel_count(level);
+  for (std::size_t t = 0; t < faces; ++t) {
+    for (int k = 0; k < 3; ++k) soup.positions.emplace_back(unit(random), unit(random), 2.0f);
+    soup.triangles.emplace_back(3 * t, 3 * t + 1, 3 * t + 2);
+    texture.patches.push_back({std::uint32_t(t * per_face), std::uint32_t(level)});
+  }
+  std::vector<float> texels(faces * per_face * LatticeTexture::channels);
+  for (float& value : texels) value = unit(random);
+  const float trap[] = {0.5f, std::nextafter(0.5f, 0.0f), std::nextafter(0.5f, 1.0f), 0.4981f};
+  for (std::size_t i = 0; i < faces * per_face; i += 8) texels[8 * i + 7] = trap[i / 8 % 4];
+  texture.texels = std::move(texels);
+  texture.mlp = random_mlp(random);
+  soup.appearance = std::move(texture);
+  Scene scene;
+  scene.primitives = std::move(soup);
+  scene.info.up = {0.0f, 0.6f, -0.8f};
+  scene.info.background = {0.25f, 0.5f, 1.0f};
+  return scene;
+}
+
+const LatticeTexture& texture_of(const Scene& scene) {
+  return std::get<LatticeTexture>(testing::soup_of(scene).appearance);
+}
+
+void write_text(const fs::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+std::string read_text(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void replace_in(const fs::path& path, const std::string& from, const std::string& to) {
+  std::string text = read_text(path);
+  const std::size_t at = text.find(from);
+  ASSERT_NE(at, std::string::npos) << from << " in " << path;
+  write_text(path, text.replace(at, from.size(), to));
+}
+
+/// The same texels in rows of another width.
+void reshape(const fs::path& path, std::size_t texels, int width) {
+  Input input = Input::open(path);
+  const Image8 image = read_image(input);
+  Image8 wide(width, static_cast<int>((texels + std::size_t(width) - 1) / std::size_t(width)));
+  std::copy_n(image.pixels.begin(), texels, wide.pixels.begin());
+  const auto png = encode_png(wide);
+  write_text(path, {reinterpret_cast<const char*>(png.data()), png.size()});
+}
+
+std::string refusal(const fs::path& folder) {
+  return testing::input_error([&] { read_diffsoup_export(folder); });
+}
+
+class DiffSoupLevel : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(All, DiffSoupLevel, ::testing::Range(0, lattice::max_level + 1));
+
+TEST_P(DiffSoupLevel, RoundTripKeepsValuesToHalfAByteAndTheSideOfEveryAlpha) {
+  const TemporaryFolder folder;
+  const unsigned seed = 100u + unsigned(GetParam());
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  const Scene scene = random_scene(seed, 5, GetParam());
+  EXPECT_THAT(write_diffsoup_export(scene, folder / "scene"), IsEmpty());
+  ASSERT_TRUE(is_diffsoup_export(folder / "scene"));
+  const Scene copy = read_diffsoup_export(folder / "scene");
+  EXPECT_EQ(defect(testing::soup_of(copy)), std::nullopt);
+  EXPECT_EQ(copy.info.name, "scene");
+  EXPECT_EQ(copy.info.background, scene.info.background);
+  EXPECT_NEAR(glm::distance(copy.info.up, scene.info.up), 0, 1e-6);
+  EXPECT_THAT(copy.info.notes, IsEmpty());
+  EXPECT_EQ(testing::soup_of(copy).positions, testing::soup_of(scene).positions);
+  EXPECT_EQ(testing::soup_of(copy).triangles, testing::soup_of(scene).triangles);
+  const LatticeTexture &before = texture_of(scene), &after = texture_of(copy);
+  ASSERT_EQ(before.texel_count(), after.texel_count());
+  for (std::size_t i = 0; i < before.texel_count(); ++i) {
+    for (int c = 0; c < LatticeTexture::channels; ++c)
+      // 6e-8: byte / 255 is a float.
+      ASSERT_LE(std::abs(double(before.value(i, c)) - double(after.value(i, c))), 0.5 / 255 + 6e-8);
+    ASSERT_EQ(before.value(i, 7) >= 0.5f, after.value(i, 7) >= 0.5f) << before.value(i, 7);
+  }
+  for (std::size_t l = 0; l < 3; ++l) {
+    EXPECT_EQ(before.mlp->layers[l].weights, after.mlp->layers[l].weights);
+    EXPECT_EQ(before.mlp->layers[l].biases, after.mlp->layers[l].biases);
+  }
+  // A second trip starts from bytes: nothing changes any more, over a folder that is there.
+  EXPECT_THAT(write_diffsoup_export(copy, folder / "scene"), IsEmpty());
+  EXPECT_EQ(texture_of(read_diffsoup_export(folder / "scene")).texels, after.texels);
+}
+
+TEST(DiffSoupExport, AnyWidthOfTheImagesReadsAlike) {
+  const TemporaryFolder folder;
+  const Scene scene = random_scene(1, 7, 2);  // 105 texels
+  write_diffsoup_export(scene, folder / "a");
+  const auto expected = texture_of(read_diffsoup_export(folder / "a")).texels;
+  for (const int width : {1, 2, 7, 50, 104, 105, 106, 4096}) {
+    reshape(folder / "a/lut0.png", 105, width);
+    reshape(folder / "a/lut1.png", 105, width == 7 ? 50 : width);
+    EXPECT_EQ(texture_of(read_diffsoup_export(folder / "a")).texels, expected) << width;
+  }
+  reshape(folder / "a/lut1.png", 40, 50);
+  EXPECT_THAT(refusal(folder / "a"), HasSubstr("lut1.png: byte 16: 50 x 1 pixels cannot be 105 "
+                                               "texels in rows of 50: 3 rows expected"));
+}
+
+TEST(DiffSoupExport, TheExactBytesOfTheMesh) {
+  const TemporaryFolder folder;
+  write_diffsoup_export(random_scene(2, 3, 1), folder / "a");
+  const std::string mesh = read_text(folder / "a/mesh.ply");
+  const std::string header =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 3\nproperty list uchar int vertex_indices\nend_header\n";
+  EXPECT_EQ(mesh.substr(0, header.size()), header);
+  EXPECT_EQ(mesh.size(), header.size() + 12 * 9 + 13 * 3);
+  EXPECT_EQ(mesh.substr(mesh.size() - 13), std::string("\3\6\0\0\0\7\0\0\0\x8\0\0\0", 13));
+}
+
+TEST(DiffSoupExport, OtherLayoutsOfTheMeshAreRead) {
+  const TemporaryFolder folder;
+  const Scene scene = random_scene(3, 1, 0);
+  write_diffsoup_export(scene, folder / "a");
+  std::string mesh =
+      "ply\r\nformat binary_little_endian 1.0\r\ncomment of a tool\r\nelement vertex 3\r\n"
+      "property uchar tag\r\nproperty double z\r\nproperty float y\r\nproperty float x\r\n"
+      "element face 1\r\nproperty list int ushort vertex_index\r\nproperty float area\r\n"
+      "end_header\r\n";
+  for (const glm::vec3& p : testing::soup_of(scene).positions) {
+    const double z = double(p.z);
+    mesh += 'T';
+    mesh.append(reinterpret_cast<const char*>(&z), 8);
+    mesh.append(reinterpret_cast<const char*>(&p.y), 4);
+    mesh.append(reinterpret_cast<const char*>(&p.x), 4);
+  }
+  mesh += std::string("\3\0\0\0\2\0\0\0\1\0", 10) + "area";
+  write_text(folder / "a/mesh.ply", mesh);
+  const Scene copy = read_diffsoup_export(folder / "a");
+  EXPECT_EQ(testing::soup_of(copy).positions, testing::soup_of(scene).positions);
+  EXPECT_EQ(testing::soup_of(copy).triangles[0], glm::uvec3(2, 0, 1));
+}
+
+TEST(DiffSoupExport, TheHalfThatTruncationLostIsRestoredAndCounted) {
+  const TemporaryFolder folder;
+  Scene scene = random_scene(4, 6, 2);  // 90 texels
+  auto& texture = std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance);
+  std::vector<std::uint8_t> bytes(90 * 8, 200);
+  for (std::size_t i = 0; i < 20; ++i) bytes[8 * i + 7] = 127;
+  bytes[8 * 30 + 7] = 126;
+  bytes[8 * 31 + 7] = 128;
+  texture.texels = bytes;
+  write_diffsoup_export(scene, folder / "a");
+  // Ours is what it says.
+  EXPECT_EQ(texture_of(read_diffsoup_export(folder / "a")).texels, texture.texels);
+  // As the published exporter writes it, without our key.
+  replace_in(folder / "a/meta.json", "\"tureen\"", "\"another\"");
+  Scene copy = read_diffsoup_export(folder / "a");
+  EXPECT_THAT(copy.info.notes, Contains(HasSubstr("20 of 90 texels have an alpha byte of 127")));
+  for (std::size_t i = 0; i < 20; ++i) bytes[8 * i + 7] = 128;
+  EXPECT_EQ(std::get<std::vector<std::uint8_t>>(texture_of(copy).texels), bytes);
+  // No pile at 127: a smooth distribution, which is left as it is.
+  for (std::size_t i = 0; i < 90; ++i) bytes[8 * i + 7] = std::uint8_t(125 + i % 5);
+  texture.texels = bytes;
+  write_diffsoup_export(scene, folder / "a");
+  replace_in(folder / "a/meta.json", "\"tureen\"", "\"another\"");
+  copy = read_diffsoup_export(folder / "a");
+  EXPECT_THAT(copy.info.notes, IsEmpty());
+  EXPECT_EQ(texture_of(copy).texels, texture.texels);
+}
+
+TEST(DiffSoupExport, TransparentTexelsKeepTheirFeatures) {
+  const TemporaryFolder folder;
+  Scene scene = random_scene(5, 1, 0);
+  auto& texture = std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance);
+  // Both alpha channels of the images are 0: a premultiplying decoder would lose the rest.
+  texture.texels = std::vector<std::uint8_t>{9, 8, 7, 0, 6, 5, 4, 0, 1, 2,   3, 0,
+                                             4, 5, 6, 0, 0, 0, 1, 0, 2, 255, 3, 0};
+  write_diffsoup_export(scene, folder / "a");
+  EXPECT_EQ(texture_of(read_diffsoup_export(folder / "a")).texels, texture.texels);
+}
+
+TEST(DiffSoupExport, MixedLevelsBecomeTheHighest) {
+  const TemporaryFolder folder;
+  Scene scene = random_scene(6, 2, 3);
+  auto& texture = std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance);
+  texture.patches[1].level = 1;
+  EXPECT_THAT(write_diffsoup_export(scene, folder / "a"),
+              Contains(HasSubstr("1 of 2 faces were refined to level 3")));
+  const Scene copy = read_diffsoup_export(folder / "a");
+  const LatticeTexture& fine = texture_of(copy);
+  const int n = lattice::resolution(3);
+  for (int y = 0; y <= n; ++y)
+    for (int x = 0; x + y <= n; ++x) {
+      const auto at = lattice::footprint(1, double(x) / n, double(y) / n);
+      for (int c = 0; c < 8; ++c) {
+        double expected = 0;
+        for (int k = 0; k < 3; ++k)
+          expected += at.weights[k] *
+                      double(texture.value(texture.patches[1].first_texel + at.texels[k], c));
+        const std::size_t texel = fine.patches[1].first_texel + lattice::texel_index(x, y);
+        ASSERT_NEAR(double(fine.value(texel, c)), expected, 0.5 / 255 + 1e-7);
+      }
+    }
+}
+
+TEST(DiffSoupExport, PlainColoursBecomeLevelZero) {
+  const TemporaryFolder folder;
+  Scene scene;
+  TriangleSoup soup{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
+                    .triangles = {{0, 1, 2}, {2, 1, 3}},
+                    .appearance = VertexColors{
+                        {{0, 0, 0, 1}, {0.2f, 0.4f, 0.6f, 1}, {1, 1, 1, 0}, {0.8f, 0, 0, 0.5f}}}};
+  scene.primitives = soup;
+  scene.origin = {10, 20, 30};
+  EXPECT_THAT(write_diffsoup_export(scene, folder / "v"),
+              ::testing::AllOf(Contains(HasSubstr("no color MLP")), Contains(HasSubstr("origin"))));
+  const Scene vertex = read_diffsoup_export(folder / "v");
+  EXPECT_EQ(testing::soup_of(vertex).positions[3], glm::vec3(11, 21, 30));
+  // Face 1 is (2, 1, 3), its texels are those of its third, first and second vertex.
+  EXPECT_EQ(std::get<std::vector<std::uint8_t>>(texture_of(vertex).texels),
+            (std::vector<std::uint8_t>{255, 255, 255, 0, 0, 0, 0, 0,    //
+                                       0,   0,   0,   0, 0, 0, 0, 255,  //
+                                       51,  102, 153, 0, 0, 0, 0, 255,  //
+                                       204, 0,   0,   0, 0, 0, 0, 128,  //
+                                       255, 255, 255, 0, 0, 0, 0, 0,    //
+                                       51,  102, 153, 0, 0, 0, 0, 255}));
+  // The network is inert: a pixel's colour is its first three features.
+  const std::vector<double> features{0.2, 0.4, 0.6, 0, 0, 0, 0};
+  const glm::dvec3 color = evaluate(*texture_of(vertex).mlp, features, glm::dvec3(0, 0, 1));
+  EXPECT_EQ(color, glm::dvec3(0.2, 0.4, 0.6));
+
+  soup.appearance = FaceColors{{{1, 0, 0, 1}, {0, 0.2f, 0, 1}}};
+  scene.primitives = soup;
+  write_diffsoup_export(scene, folder / "f");
+  const Scene face = read_diffsoup_export(folder / "f");
+  for (std::size_t k = 0; k < 6; ++k) {
+    EXPECT_EQ(texture_of(face).value(k, 0), k < 3 ? 1.0f : 0.0f);
+    EXPECT_EQ(texture_of(face).value(k, 1), k < 3 ? 0.0f : 51.0f / 255.0f);
+  }
+}
+
+TEST(DiffSoupExport, WhatItCannotHoldIsRefusedAndLeavesNothing) {
+  const TemporaryFolder folder;
+  const auto usage_error = [&](const Scene& scene) -> std::string {
+    try {
+      write_diffsoup_export(scene, folder / "a");
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  Scene scene = random_scene(7, 1, 0);
+  auto& soup = std::get<TriangleSoup>(scene.primitives);
+  std::get<LatticeTexture>(soup.appearance).mlp->view = ViewConvention::eye_to_surface;
+  EXPECT_THAT(usage_error(scene), HasSubstr("16-16-16-3"));
+  soup.appearance = Harmonics{.coefficients = {glm::vec3(1)}};
+  EXPECT_THAT(usage_error(scene), HasSubstr("cannot hold harmonics"));
+  soup.appearance = UvTextures{};
+  EXPECT_THAT(usage_error(Scene{SoftTriangles{}, {}, {}, {}}), HasSubstr("soft triangles"));
+  soup = TriangleSoup{{}, {}, FaceColors{}};
+  EXPECT_THAT(usage_error(scene), HasSubstr("without triangles"));
+  EXPECT_FALSE(fs::exists(folder / "a"));
+
+  // Somebody's folder with something else in it is not touched.
+  fs::create_directory(folder / "b");
+  write_text(folder / "b/diary.txt", "dear");
+  EXPECT_THROW(write_diffsoup_export(random_scene(7, 1, 0), folder / "b"), OutputError);
+  EXPECT_THROW(write_diffsoup_export(random_scene(7, 1, 0), folder / "absent/b"), OutputError);
+  EXPECT_EQ(read_text(folder / "b/diary.txt"), "dear");
+  std::size_t entries = 0;
+  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder / "")) ++entries;
+  EXPECT_EQ(entries, 1u) << "a temporary folder is left";
+}
+
+TEST(DiffSoupExport, WhatIsWrongIsNamed) {
+  const TemporaryFolder folder;
+  const auto changed = [&](const char* file, const std::string& from, const std::string& to) {
+    write_diffsoup_export(random_scene(8, 2, 1), folder / "a");
+    replace_in(folder / (std::string("a/") + file), from, to);
+    return refusal(folder / "a");
+  };
+  EXPECT_THAT(changed("meta.json", "\"level\": 1", "\"level\": 8"), HasSubstr("from 0 to 7"));
+  EXPECT_THAT(changed("meta.json", "\"level\": 1", "\"level\": 5"),
+              HasSubstr("12 x 1 pixels cannot be 1122 texels"));
+  EXPECT_THAT(changed("meta.json", "\"num_faces\": 2", "\"num_faces\": 3"),
+              HasSubstr("2 faces, but meta.json says 3"));
+  EXPECT_THAT(changed("meta.json", "\"up\": [", "\"up\": [1,"), HasSubstr("up is not a list of 3"));
+  EXPECT_THAT(changed("meta.json", "{", "{,"), HasSubstr("meta.json: byte "));
+  EXPECT_THAT(changed("mlp_weights.json", "\"W1\"", "\"W9\""), HasSubstr("has no \"W1\""));
+  EXPECT_THAT(changed("mlp_weights.json", "\"b3\":[", "\"b3\":[1e999,"),
+              HasSubstr("mlp_weights.json"));
+  EXPECT_THAT(changed("mlp_weights.json", "\"b3\":[", "\"b3\":[1,"),
+              HasSubstr("b3 is not a list of 3 numbers, but of 4"));
+  EXPECT_THAT(changed("mlp_weights.json", "\"b3\":[", "\"b3\":[\"x\",1,2],\"b4\":["),
+              HasSubstr("b3[0] is not a number"));
+  EXPECT_THAT(changed("mesh.ply", "vertex 6", "vertex 9999999999"), HasSubstr("do not fit"));
+  EXPECT_THAT(changed("mesh.ply", "face 2", "face 3"), HasSubstr("do not fit"));
+  EXPECT_THAT(changed("mesh.ply", "little", "big"), HasSubstr("mesh.ply:2: the PLY format is"));
+  EXPECT_THAT(changed("mesh.ply", "float x", "float q"), HasSubstr("lack x, y or z"));
+  EXPECT_THAT(changed("mesh.ply", std::string("\3\0\0\0\0", 5), std::string("\3\x6\0\0\0", 5)),
+              HasSubstr("face 0 names vertex 6 of 6"));
+  EXPECT_THAT(changed("mesh.ply", std::string("\3\0\0\0\0", 5), std::string("\4\0\0\0\0", 5)),
+              HasSubstr("face 0 has 4 corners"));
+  EXPECT_THAT(changed("lut0.png", "IHDR", "IHDX"), HasSubstr("lut0.png"));
+  write_diffsoup_export(random_scene(8, 2, 1), folder / "a");
+  fs::remove(folder / "a/mlp_weights.json");
+  EXPECT_THAT(refusal(folder / "a"), HasSubstr("mlp_weights.json: no such file"));
+  fs::remove(folder / "a/lut0.png");
+  EXPECT_FALSE(is_diffsoup_export(folder / "a"));
+  EXPECT_FALSE(is_diffsoup_export(folder / "a/mesh.ply"));
+}
+
+TEST(DiffSoupExport, WithoutMetaTheViewersDefaultsHold) {
+  const TemporaryFolder folder;
+  write_diffsoup_export(random_scene(9, 2, 5), folder / "a");
+  fs::remove(folder / "a/meta.json");
+  const Scene scene = read_diffsoup_export(folder / "a");
+  EXPECT_EQ(texture_of(scene).patches[1].level, 5u);
+  EXPECT_EQ(scene.info.up, glm::vec3(0, -1, 0));
+  EXPECT_EQ(scene.info.background, glm::vec3(0));
+  EXPECT_THAT(scene.info.notes, Contains(HasSubstr("meta.json is missing")));
+}
+
+class DiffSoupDamage : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Files, DiffSoupDamage,
+                         ::testing::Values("mesh.ply", "lut0.png", "lut1.png", "mlp_weights.json",
+                                           "meta.json"),
+                         [](const auto& instance) {
+                           const std::string name = instance.param;
+                           return name.substr(0, name.find_first_of("._"));
+                         });
+
+TEST_P(DiffSoupDamage, TruncationAndDamageAreSurvived) {
+  const TemporaryFolder folder;
+  Scene scene = random_scene(10, 2, 0);
+  // No network: its numbers are zeros, and the file is short.
+  std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance).mlp.reset();
+  write_diffsoup_export(scene, folder / "a");
+  const fs::path path = folder / (std::string("a/") + GetParam());
+  const std::string good = read_text(path);
+  const auto expected = texture_of(read_diffsoup_export(folder / "a")).texels;
+  bool same = true;
+  const auto read = [&](std::span<const std::byte> bytes) {
+    write_text(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    const Scene copy = read_diffsoup_export(folder / "a");
+    EXPECT_EQ(defect(testing::soup_of(copy)), std::nullopt);
+    same = same && texture_of(copy).texels == expected;
+  };
+  const auto cut = testing::survive_truncation(std::as_bytes(std::span(good)), read);
+  // All but a JSON's last line break and the checksum of a PNG's last chunk is needed.
+  EXPECT_LE(cut.read, 4u);
+  EXPECT_TRUE(same) << "a truncated file was read as something else";
+  EXPECT_GT(testing::survive_damage(std::as_bytes(std::span(good)), read).refused, 0u);
+}
+
+}  // namespace
+}  // namespace tureen

@@ -1,0 +1,253 @@
+#include "formats/mobilenerf.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "formats/format_testing.hpp"
+#include "formats/obj.hpp"
+#include "formats/png.hpp"
+#include "formats/truncation.hpp"
+
+namespace tureen {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using testing::input_error;
+using testing::input_of;
+using ::testing::IsEmpty;
+using testing::soup_of;
+using testing::TemporaryFolder;
+namespace fs = std::filesystem;
+
+void write_text(const fs::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+void write_png(const fs::path& path, int width, int height, glm::u8vec4 fill) {
+  const auto png = encode_png(Image8(width, height, fill));
+  write_text(path, {reinterpret_cast<const char*>(png.data()), png.size()});
+}
+
+nlohmann::json random_network(unsigned seed, int shapes) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> weight(0.0, 0.5);
+  nlohmann::json json{{"obj_num", shapes}};
+  const int sizes[] = {11, 16, 16, 3};
+  for (int l = 0; l < 3; ++l) {
+    const std::string name = std::to_string(l);
+    for (int i = 0; i < sizes[l]; ++i) {
+      nlohmann::json row;
+      for (int o = 0; o < sizes[l + 1]; ++o) row.push_back(weight(random));
+      json[name + "_weights"].push_back(row);
+    }
+    for (int o = 0; o < sizes[l + 1]; ++o) json[name + "_bias"].push_back(weight(random));
+  }
+  return json;
+}
+
+const std::string one_quad =
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0.25 0.75\nvt 1 0.75\nvt 1 0\nvt 0.25 0\n"
+    "f 1/1 2/2 3/3 4/4\n";
+
+/// A scene of two shapes, the second in two pieces.
+void write_scene_folder(const TemporaryFolder& folder) {
+  write_text(folder / "mlp.json", random_network(1, 2).dump());
+  write_text(folder / "shape0.obj", one_quad);
+  write_text(folder / "shape1_0.obj", one_quad);
+  write_text(folder / "shape1_1.obj", one_quad);
+  write_png(folder / "shape0.pngfeat0.png", 4, 2, {1, 2, 3, 4});
+  write_png(folder / "shape0.pngfeat1.png", 4, 2, {5, 6, 7, 8});
+  write_png(folder / "shape1.pngfeat0.png", 2, 2, {9, 10, 11, 12});
+  write_png(folder / "shape1.pngfeat1.png", 2, 2, {13, 14, 15, 16});
+}
+
+TEST(Obj, VerticesAreUnifiedByPairAndPolygonsFanned) {
+  const std::string text =
+      "# a comment\nmtllib x.mtl\no thing\nv 0 0 0 1\nv 1 0 0\nv 1 1 0\nv 0 1 0 # here too\n"
+      "vn 0 0 1\nvt 0 0\nvt 1 0 0\nvt 1 1\ns off\n\nf 1/1/1 2/2/1 3/3/1 4/1/1\r\n"
+      "v 5 5 5\nf -1/-3 2/2 3/1\n";
+  Input input = input_of(text);
+  const ObjMesh mesh = read_obj(input);
+  ASSERT_EQ(mesh.triangles.size(), 3u);
+  EXPECT_EQ(mesh.triangles[0], glm::uvec3(0, 1, 2));
+  EXPECT_EQ(mesh.triangles[1], glm::uvec3(0, 2, 3));
+  EXPECT_EQ(mesh.triangles[2], glm::uvec3(4, 1, 5));
+  ASSERT_EQ(mesh.positions.size(), 6u);
+  EXPECT_EQ(mesh.positions[4], glm::vec3(5));
+  EXPECT_EQ(mesh.positions[5], mesh.positions[2]);  // the same v with another vt
+  EXPECT_EQ(mesh.uv[5], glm::vec2(0, 0));
+  EXPECT_EQ(mesh.uv[2], glm::vec2(1, 1));
+}
+
+TEST(Obj, MistakesAreNamedWithTheirLine) {
+  const auto refusal = [](const std::string& text) {
+    const std::string whole = "v 0 0 0\nvt 0 0\n" + text;
+    return input_error([&] {
+      Input input = input_of(whole, "a.obj");
+      read_obj(input);
+    });
+  };
+  EXPECT_EQ(refusal("f 1/1 1/1 1/1\n"), "");
+  EXPECT_THAT(refusal("f 1/1 1/1 2/1\n"), HasSubstr("a.obj:3: a face names v 2 of 1"));
+  EXPECT_THAT(refusal("f 1/1 1/1 1/-2\n"), HasSubstr("a face names vt -2 of 1"));
+  EXPECT_THAT(refusal("f 0/1 1/1 1/1\n"), HasSubstr("a face names v 0 of 1"));
+  EXPECT_THAT(refusal("f 1/1 1/1\n"), HasSubstr("a face of 2 corners"));
+  EXPECT_THAT(refusal("\nf 1 1 1\n"), HasSubstr("a.obj:4: \"1\" is no corner"));
+  EXPECT_THAT(refusal("f 1/1x 1/1 1/1\n"), HasSubstr("\"1/1x\" is no corner"));
+  EXPECT_THAT(refusal("f 1/99999999999999999999 1/1 1/1\n"), HasSubstr("no corner"));
+  EXPECT_THAT(refusal("v 1 two 3\n"), HasSubstr("a.obj:3: "));
+  EXPECT_THAT(refusal("vt 1\n"), HasSubstr("a.obj:3: "));
+}
+
+TEST(MobileNerf, AFolderBecomesOneSoup) {
+  const TemporaryFolder folder;
+  write_scene_folder(folder);
+  for (const char* name : {"", "mlp.json", "shape1_0.obj"})
+    EXPECT_TRUE(is_mobilenerf(folder / name)) << name;
+  EXPECT_FALSE(is_mobilenerf(folder / "shape0.pngfeat0.png"));
+  const Scene scene = read_mobilenerf(folder / "");
+  const TriangleSoup& soup = soup_of(scene);
+  ASSERT_EQ(defect(soup), std::nullopt);
+  EXPECT_THAT(scene.info.notes, IsEmpty());
+  EXPECT_EQ(soup.triangles.size(), 6u);
+  EXPECT_EQ(soup.positions.size(), 12u);
+  EXPECT_EQ(soup.triangles[2], glm::uvec3(4, 5, 6));
+  const auto& textures = std::get<UvTextures>(soup.appearance);
+  EXPECT_EQ(textures.material_of_face, (std::vector<std::uint32_t>{0, 0, 1, 1, 1, 1}));
+  // v grew upwards.
+  EXPECT_EQ(textures.uv[0], glm::vec2(0.25f, 0.25f));
+  EXPECT_EQ(textures.uv[2], glm::vec2(1.0f, 1.0f));
+  const UvMaterial& material = textures.materials[1];
+  EXPECT_EQ(textures.images[material.images[0]].at(1, 1), glm::u8vec4(9, 10, 11, 12));
+  EXPECT_EQ(textures.images[material.images[1]].at(1, 1), glm::u8vec4(13, 14, 15, 16));
+  EXPECT_EQ(material.filter, UvMaterial::Filter::nearest);
+  EXPECT_EQ(material.wrap_u, UvMaterial::Wrap::clamp);
+  EXPECT_EQ(material.mask_channel, 0);
+  EXPECT_LT(0.0f, material.mask_threshold);
+  EXPECT_LT(material.mask_threshold, 1.0f / 255.0f);
+  EXPECT_EQ(scene.info.background, glm::vec3(1));
+  ASSERT_EQ(scene.cameras.size(), 1u);
+  EXPECT_NEAR(glm::distance(scene.cameras[0].eye(), glm::dvec3(0, 2, 3.464)), 0, 1e-12);
+}
+
+// The network as it is published, evaluated as its viewer does, against the rewritten one.
+TEST(MobileNerf, TheNetworkGivesThePublishedColours) {
+  const TemporaryFolder folder;
+  write_scene_folder(folder);
+  const nlohmann::json json = random_network(1, 2);
+  const ColorMlp mlp = *std::get<UvTextures>(soup_of(read_mobilenerf(folder / "")).appearance).mlp;
+  EXPECT_EQ(mlp.view, ViewConvention::eye_to_surface);
+  EXPECT_EQ(mlp.blend_channel, std::nullopt);
+  const unsigned seed = 77;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 100; ++i) {
+    std::vector<double> features(8);
+    for (double& f : features) f = double(random() % 256) / 255.0;
+    const glm::dvec3 d = glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+    std::vector<double> x = features;
+    x[3] = 2 * x[3] - 1;
+    x[7] = 2 * x[7] - 1;
+    x.insert(x.end(), {d.x, -d.z, d.y});
+    for (int l = 0; l < 3; ++l) {
+      const std::string name = std::to_string(l);
+      std::vector<double> y = json[name + "_bias"];
+      for (std::size_t o = 0; o < y.size(); ++o) {
+        for (std::size_t k = 0; k < x.size(); ++k)
+          y[o] += json[name + "_weights"][k][o].get<double>() * x[k];
+        y[o] = l == 2 ? 1 / (1 + std::exp(-y[o])) : std::max(y[o], 0.0);
+      }
+      x = y;
+    }
+    const glm::dvec3 color = evaluate(mlp, features, -d);
+    // Weights are floats: 6e-8 of each, over a few dozen terms of order one.
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(color[c], x[std::size_t(c)], 1e-5);
+  }
+}
+
+TEST(MobileNerf, MissingShapesAreNamedAndTheRestIsDrawn) {
+  const TemporaryFolder folder;
+  write_scene_folder(folder);
+  write_text(folder / "mlp.json", random_network(1, 5).dump());
+  fs::remove(folder / "shape0.pngfeat1.png");
+  const Scene scene = read_mobilenerf(folder / "mlp.json");
+  EXPECT_THAT(scene.info.notes, Contains("shapes 2, 3 and 4 of 5 missing: the rest is drawn"));
+  EXPECT_THAT(scene.info.notes, Contains("shape 0 of 5 without feature images: the rest is drawn"));
+  EXPECT_EQ(soup_of(scene).triangles.size(), 4u);
+  fs::remove(folder / "shape1.pngfeat0.png");
+  EXPECT_THAT(input_error([&] { read_mobilenerf(folder / ""); }),
+              HasSubstr("none of the 5 shapes"));
+}
+
+TEST(MobileNerf, WhatIsWrongIsNamed) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](auto&& change) {
+    write_scene_folder(folder);
+    nlohmann::json json = random_network(1, 2);
+    change(json);
+    write_text(folder / "mlp.json", json.dump());
+    return input_error([&] { read_mobilenerf(folder / ""); });
+  };
+  EXPECT_EQ(refusal([](auto&) {}), "");
+  EXPECT_THAT(refusal([](auto& j) { j["obj_num"] = 0; }), HasSubstr("obj_num"));
+  EXPECT_THAT(refusal([](auto& j) { j["obj_num"] = 1e9; }), HasSubstr("obj_num"));
+  EXPECT_THAT(refusal([](auto& j) { j.erase("1_bias"); }), HasSubstr("has no \"1_bias\""));
+  EXPECT_THAT(refusal([](auto& j) { j["0_weights"].erase(3); }), HasSubstr("list of 11 rows"));
+  EXPECT_THAT(refusal([](auto& j) { j["2_weights"][4].push_back(1); }),
+              HasSubstr("2_weights[4] is not a list of 3 numbers"));
+  EXPECT_THAT(refusal([](auto& j) { j["2_weights"][4][1] = 1e300; }),
+              HasSubstr("2_weights[4][1] is not a finite number"));
+  EXPECT_THAT(
+      refusal([&](auto&) { write_png(folder / "shape0.pngfeat1.png", 3, 2, glm::u8vec4(1)); }),
+      HasSubstr("3 x 2 pixels, but shape0.pngfeat0.png has 4 x 2"));
+  EXPECT_THAT(refusal([&](auto&) { write_text(folder / "shape0.obj", "v 1 2\n"); }),
+              HasSubstr("shape0.obj:1: "));
+}
+
+TEST(MobileNerf, TruncationAndDamageAreSurvived) {
+  const TemporaryFolder folder;
+  write_scene_folder(folder);
+  const auto survive = [&](const char* name) {
+    std::ifstream file(folder / name, std::ios::binary);
+    const std::string good{std::istreambuf_iterator<char>(file), {}};
+    const auto read = [&](std::span<const std::byte> bytes) {
+      write_text(folder / name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+      EXPECT_EQ(defect(soup_of(read_mobilenerf(folder / ""))), std::nullopt);
+    };
+    EXPECT_GT(testing::survive_truncation(std::as_bytes(std::span(good)), read).refused, 0u);
+    if (good.size() < 1000) {
+      EXPECT_GT(testing::survive_damage(std::as_bytes(std::span(good)), read).refused, 0u);
+    }
+    write_text(folder / name, good);
+  };
+  survive("shape0.obj");
+  survive("shape0.pngfeat0.png");
+}
+
+// A real scene of which only one part is there; see the data's licence: it stays where it is.
+TEST(MobileNerf, TheDrums) {
+  const fs::path drums = fs::path(TUREEN_SOURCE_DIR) / "../shared/data/soups/mobilenerf_drums";
+  if (!fs::exists(drums)) GTEST_SKIP() << drums << " is not there";
+  const Scene scene = read_mobilenerf(drums);
+  const TriangleSoup& soup = soup_of(scene);
+  EXPECT_EQ(defect(soup), std::nullopt);
+  EXPECT_EQ(soup.triangles.size(), 11026u);
+  EXPECT_EQ(scene.info.name, "mobilenerf_drums");
+  EXPECT_THAT(scene.info.notes, Contains("shapes 0 and 1 of 3 missing: the rest is drawn"));
+  const Image8& image = std::get<UvTextures>(soup.appearance).images[0];
+  EXPECT_EQ(image.width, 4096);
+  std::size_t holes = 0;
+  for (const glm::u8vec4& texel : image.pixels) holes += texel.r == 0;
+  // "Half of the texels are holes" is what is known of it; unused space counts here too.
+  EXPECT_GT(double(holes) / double(image.pixels.size()), 0.4);
+  EXPECT_LT(double(holes) / double(image.pixels.size()), 0.99);
+}
+
+}  // namespace
+}  // namespace tureen
