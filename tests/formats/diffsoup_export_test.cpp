@@ -7,6 +7,7 @@
 #include <fstream>
 #include <random>
 
+#include "formats/diffsoup_mesh.hpp"
 #include "formats/format_testing.hpp"
 #include "formats/output.hpp"
 #include "formats/png.hpp"
@@ -394,7 +395,30 @@ TEST_P(DiffSoupDamage, TruncationAndDamageAreSurvived) {
   // All but a JSON's last line break and the checksum of a PNG's last chunk is needed.
   EXPECT_LE(cut.read, 4u);
   EXPECT_TRUE(same) << "a truncated file was read as something else";
-  EXPECT_GT(testing::survive_damage(std::as_bytes(std::span(good)), read).refused, 0u);
+  // Written to disk each time: every byte of short files, 400 bytes of the long one. The mesh alone
+  // is damaged in every way below.
+  testing::Survival damaged;
+  for (std::size_t i = 0; i < good.size(); i += 1 + good.size() / 400) {
+    std::string bad = good;
+    bad[i] = static_cast<char>(~bad[i]);
+    testing::expect_survival(std::as_bytes(std::span(bad)), read, "byte " + std::to_string(i),
+                             damaged);
+  }
+  EXPECT_GT(damaged.refused, 0u);
+}
+
+TEST(DiffSoupMesh, TruncationAndDamageAreSurvived) {
+  const TemporaryFolder folder;
+  write_diffsoup_export(random_scene(11, 2, 0), folder / "a");
+  const std::string good = read_text(folder / "a/mesh.ply");
+  const auto read = [](std::span<const std::byte> bytes) {
+    Input input = Input::memory("mesh.ply", bytes);
+    const DiffSoupMesh mesh = read_diffsoup_mesh(input);
+    for (const glm::uvec3& triangle : mesh.triangles)
+      for (int k = 0; k < 3; ++k) EXPECT_LT(triangle[k], mesh.positions.size());
+  };
+  EXPECT_EQ(testing::survive_truncation(std::as_bytes(std::span(good)), read).read, 0u);
+  EXPECT_GT(testing::survive_damage(std::as_bytes(std::span(good)), read).refused, 1000u);
 }
 
 }  // namespace

@@ -210,24 +210,37 @@ TEST(MobileNerf, WhatIsWrongIsNamed) {
               HasSubstr("shape0.obj:1: "));
 }
 
-TEST(MobileNerf, TruncationAndDamageAreSurvived) {
+TEST(Obj, TruncationAndDamageAreSurvived) {
+  const auto read = [](std::span<const std::byte> bytes) {
+    Input input = Input::memory("a.obj", bytes);
+    const ObjMesh mesh = read_obj(input);
+    EXPECT_EQ(mesh.uv.size(), mesh.positions.size());
+    for (const glm::uvec3& triangle : mesh.triangles)
+      for (int k = 0; k < 3; ++k) EXPECT_LT(triangle[k], mesh.positions.size());
+  };
+  const auto bytes = std::as_bytes(std::span(one_quad));
+  EXPECT_GT(testing::survive_truncation(bytes, read).refused, 0u);
+  EXPECT_GT(testing::survive_damage(bytes, read).refused, 0u);
+}
+
+TEST(MobileNerf, TruncatedFilesAreSurvived) {
   const TemporaryFolder folder;
   write_scene_folder(folder);
-  const auto survive = [&](const char* name) {
+  for (const char* name : {"shape0.obj", "shape0.pngfeat0.png", "mlp.json"}) {
     std::ifstream file(folder / name, std::ios::binary);
     const std::string good{std::istreambuf_iterator<char>(file), {}};
-    const auto read = [&](std::span<const std::byte> bytes) {
-      write_text(folder / name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-      EXPECT_EQ(defect(soup_of(read_mobilenerf(folder / ""))), std::nullopt);
-    };
-    EXPECT_GT(testing::survive_truncation(std::as_bytes(std::span(good)), read).refused, 0u);
-    if (good.size() < 1000) {
-      EXPECT_GT(testing::survive_damage(std::as_bytes(std::span(good)), read).refused, 0u);
+    testing::Survival survival;
+    for (std::size_t length = 0; length < good.size(); length += 1 + good.size() / 400) {
+      const auto read = [&](std::span<const std::byte> bytes) {
+        write_text(folder / name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        EXPECT_EQ(defect(soup_of(read_mobilenerf(folder / ""))), std::nullopt);
+      };
+      testing::expect_survival(std::as_bytes(std::span(good)).first(length), read,
+                               std::string(name) + " cut to " + std::to_string(length), survival);
     }
+    EXPECT_GT(survival.refused, 0u) << name;
     write_text(folder / name, good);
-  };
-  survive("shape0.obj");
-  survive("shape0.pngfeat0.png");
+  }
 }
 
 // A real scene of which only one part is there; see the data's licence: it stays where it is.
