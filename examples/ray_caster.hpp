@@ -1,0 +1,35 @@
+// The nearest face that a ray meets, through a hierarchy of boxes; holes let it pass.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+#include "surface.hpp"
+
+namespace tureen::example {
+
+class RayCaster {
+ public:
+  /// The model must outlive it.
+  explicit RayCaster(const Model& model);
+
+  /// The index of the face, or nothing. Hits nearer than `nearest` do not count.
+  std::optional<std::uint32_t> first_hit(glm::dvec3 origin, glm::dvec3 direction,
+                                         double nearest) const;
+
+ private:
+  struct Node {
+    glm::dvec3 low, high;
+    std::uint32_t first = 0;  // of faces_ for a leaf, else of the two children
+    std::uint32_t count = 0;  // faces; 0 for an inner node
+  };
+  void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
+
+  const Model& model_;
+  std::vector<bool> has_holes_;  // one a face
+  std::vector<std::uint32_t> faces_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace tureen::example

@@ -1,0 +1,43 @@
+// Shapes as parametric surfaces: turned on a wheel, drawn along a curve, cut as a leaf, sawn as a
+// disc. Each returns position(uv) with the outside where d/du x d/dv points.
+#pragma once
+
+#include <functional>
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "curve.hpp"
+
+namespace tureen::example {
+
+using Shape = std::function<glm::dvec3(glm::dvec2)>;
+
+/// Where a shape stands: world = centre + frame * local.
+struct Placement {
+  glm::dvec3 centre{0.0};
+  glm::dmat3 frame{1.0};
+};
+
+/// A surface of revolution about the local y axis. The profile holds (radius, y, 0); walked along
+/// it, the outside lies to the right (upwards on the outer wall, inwards on top). Closed in u.
+Shape turned(Curve profile, Placement placement);
+
+/// A tube along a curve; v runs along it. Closed in u.
+Shape tube(Curve centre_line, std::function<double(double v)> radius);
+
+/// A strip of `width` along a curve, its face towards +y, folded up at the sides by `fold` times
+/// the distance from the middle. u runs across.
+Shape strip(Curve middle, double width, double fold);
+
+/// A flat disc that faces +y, by the concentric map of Shirley and Chiu (1997): a square grid of
+/// n cells a side has 4 n equal edges on the rim.
+Shape disc(double radius, Placement placement);
+
+/// A flat ring that faces +y, from the inner (v = 0) to the outer radius. Closed in u.
+Shape ring(double inner, double outer, Placement placement);
+
+/// A frame whose y axis points along `axis`.
+glm::dmat3 frame_along(glm::dvec3 axis);
+
+}  // namespace tureen::example
