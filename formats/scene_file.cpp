@@ -9,6 +9,7 @@
 #include "formats/checkpoint.hpp"
 #include "formats/diffsoup_export.hpp"
 #include "formats/input.hpp"
+#include "formats/mobilenerf.hpp"
 #include "formats/off.hpp"
 #include "formats/ply.hpp"
 
@@ -58,6 +59,12 @@ const std::vector<Format>& formats() {
        .recognises = [](const Candidate& c) { return c.is_folder && is_diffsoup_export(c.path); },
        .read = read_diffsoup_export,
        .write = write_diffsoup_export},
+      {.name = "MobileNeRF",
+       .description = "a folder of mlp.json, shapes and feature images, or one of its files",
+       .extensions = {".obj"},
+       .is_folder = true,
+       .recognises = [](const Candidate& c) { return is_mobilenerf(c.path); },
+       .read = read_mobilenerf},
       {.name = "checkpoint",
        .description = "of torch: DiffSoup, Triangle Splatting, Triangle Splatting+, MeshSplatting",
        .extensions = {".pt"},

@@ -35,6 +35,14 @@ std::uint64_t peak_resident_bytes() {
 #endif
 }
 
+/// Processor time of this process, user and system.
+double cpu_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
 /// Runs in a child: makes the soup and writes it under every extension.
 json make(const fs::path& base, const fs::path& folder, const std::vector<std::string>& extensions,
           std::size_t triangles) {
@@ -58,12 +66,15 @@ json make(const fs::path& base, const fs::path& folder, const std::vector<std::s
 /// Runs in a child: reads one file and says what that took.
 json load(const fs::path& path) {
   const std::uint64_t before = peak_resident_bytes();
+  const double cpu_before = cpu_seconds();
   const auto start = std::chrono::steady_clock::now();
   const Scene scene = read_scene(path);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  const double cpu = cpu_seconds() - cpu_before;
   const std::uint64_t peak = peak_resident_bytes();
   const auto& soup = std::get<TriangleSoup>(scene.primitives);
   return {{"seconds", seconds.count()},
+          {"cpu_seconds", cpu},
           {"peak_bytes", peak},
           {"idle_bytes", before},
           {"soup_bytes", byte_size(soup)},
@@ -162,14 +173,16 @@ int run(int argc, char** argv) {
     std::printf("%s\n", rows.dump(2).c_str());
   } else {
     const auto mebibytes = [](const json& bytes) { return bytes.get<double>() / (1 << 20); };
-    std::printf("| format | triangles | file MiB | load s | peak MiB | soup MiB | peak / soup |\n");
-    std::printf("|---|---|---|---|---|---|---|\n");
+    std::printf(
+        "| format | triangles | file MiB | load s | of them busy | peak MiB | soup MiB | peak / "
+        "soup |\n");
+    std::printf("|---|---|---|---|---|---|---|---|\n");
     for (const json& row : rows)
-      std::printf("| %s | %zu | %.0f | %.2f | %.0f | %.0f | %.2f |\n",
+      std::printf("| %s | %zu | %.0f | %.2f | %.2f | %.0f | %.0f | %.2f |\n",
                   row["format"].get<std::string>().c_str(), row["triangles"].get<std::size_t>(),
                   mebibytes(row["file_bytes"]), row["seconds"].get<double>(),
-                  mebibytes(row["peak_bytes"]), mebibytes(row["soup_bytes"]),
-                  row["ratio"].get<double>());
+                  row["cpu_seconds"].get<double>(), mebibytes(row["peak_bytes"]),
+                  mebibytes(row["soup_bytes"]), row["ratio"].get<double>());
   }
   if (!same) std::fprintf(stderr, "a file did not read back as the soup that was written\n");
   return same ? 0 : 1;

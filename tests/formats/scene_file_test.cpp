@@ -56,6 +56,14 @@ TEST(SceneFile, ListsWhatIsReadWhereNothingFits) {
   EXPECT_THAT(input_error([&] { read_scene(folder / "nothing"); }), HasSubstr("no such file"));
 }
 
+TEST(SceneFile, FindsMobileNerfByItsFolderAndByItsObj) {
+  const std::string folder =
+      std::string(TUREEN_SOURCE_DIR) + "/../shared/data/soups/mobilenerf_drums";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
+  for (const char* name : {"", "/shape2.obj"})
+    EXPECT_EQ(soup_of(read_scene(folder + name)).triangles.size(), 11026u) << name;
+}
+
 TEST(SceneFile, WritesByExtension) {
   const TemporaryFolder folder;
   write_text(folder / "a.off", off_text);
