@@ -391,14 +391,18 @@ TEST_P(DiffSoupDamage, TruncationAndDamageAreSurvived) {
     EXPECT_EQ(defect(testing::soup_of(copy)), std::nullopt);
     same = same && texture_of(copy).texels == expected;
   };
-  const auto cut = testing::survive_truncation(std::as_bytes(std::span(good)), read);
+  // Written to disk each time: every length and byte of short files, 400 of the long one. The mesh
+  // alone is damaged in every way below.
+  const std::size_t step = 1 + good.size() / 400;
+  testing::Survival cut;
+  for (std::size_t length = 0; length < good.size(); length += step)
+    testing::expect_survival(std::as_bytes(std::span(good)).first(length), read,
+                             "cut to " + std::to_string(length), cut);
   // All but a JSON's last line break and the checksum of a PNG's last chunk is needed.
   EXPECT_LE(cut.read, 4u);
   EXPECT_TRUE(same) << "a truncated file was read as something else";
-  // Written to disk each time: every byte of short files, 400 bytes of the long one. The mesh alone
-  // is damaged in every way below.
   testing::Survival damaged;
-  for (std::size_t i = 0; i < good.size(); i += 1 + good.size() / 400) {
+  for (std::size_t i = 0; i < good.size(); i += step) {
     std::string bad = good;
     bad[i] = static_cast<char>(~bad[i]);
     testing::expect_survival(std::as_bytes(std::span(bad)), read, "byte " + std::to_string(i),

@@ -110,6 +110,8 @@ TEST(MobileNerf, AFolderBecomesOneSoup) {
   for (const char* name : {"", "mlp.json", "shape1_0.obj"})
     EXPECT_TRUE(is_mobilenerf(folder / name)) << name;
   EXPECT_FALSE(is_mobilenerf(folder / "shape0.pngfeat0.png"));
+  for (const char* name : {"", "mlp.json", "shape1_0.obj"})
+    EXPECT_EQ(soup_of(read_scene(folder / name)).triangles.size(), 6u) << name;
   const Scene scene = read_mobilenerf(folder / "");
   const TriangleSoup& soup = soup_of(scene);
   ASSERT_EQ(defect(soup), std::nullopt);
