@@ -1,0 +1,28 @@
+// What the writer and the reader of TUREEN_triangle_soup share: the names of enumerations and the
+// bounds of a strip. docs/format.md is the specification.
+#pragma once
+
+#include <cstdint>
+
+namespace tureen::glb_layout {
+
+// glTF component types.
+inline constexpr int unsigned_byte = 5121;
+inline constexpr int unsigned_short = 5123;
+inline constexpr int unsigned_int = 5125;
+inline constexpr int float32 = 5126;
+
+// A strip of lattice texels is two images of the same size, filled row by row, at most this large:
+// 8 MiB decoded. A reader that streams holds no more than that.
+inline constexpr std::uint32_t strip_width = 1024;
+inline constexpr std::uint32_t strip_rows = 1024;
+inline constexpr std::uint32_t strip_texels = strip_width * strip_rows;
+
+// Names of enumerations, in the order of their enumerators.
+inline constexpr const char* direction_encodings[] = {"none", "xyz", "harmonics2"};
+inline constexpr const char* view_conventions[] = {"surface_to_eye", "eye_to_surface"};
+inline constexpr const char* domains[] = {"face", "vertex"};
+inline constexpr const char* wraps[] = {"repeat", "mirror", "clamp"};
+inline constexpr const char* filters[] = {"nearest", "linear"};
+
+}  // namespace tureen::glb_layout

@@ -1,0 +1,299 @@
+#include "soup/mean_color.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "soup/lattice.hpp"
+#include "soup/spherical_harmonics.hpp"
+
+namespace tureen {
+
+namespace {
+
+struct Direction {
+  glm::vec3 d;
+  float weight;  // the weights sum to 1
+};
+
+/// V. I. Lebedev's 26-point rule on the sphere, exact for polynomials up to degree 7: the axes,
+/// the edge midpoints and the corners of a cube.
+std::array<Direction, 26> lebedev26() {
+  constexpr float axis = 1.0f / 21.0f, edge = 4.0f / 105.0f, corner = 9.0f / 280.0f;
+  std::array<Direction, 26> rule{};
+  std::size_t next = 0;
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z) {
+        const int nonzero = std::abs(x) + std::abs(y) + std::abs(z);
+        if (nonzero == 0) continue;
+        const glm::vec3 d = glm::vec3(x, y, z) / std::sqrt(float(nonzero));
+        rule[next++] = {d, nonzero == 1 ? axis : nonzero == 2 ? edge : corner};
+      }
+  return rule;
+}
+
+glm::vec3 clamped(const glm::vec3& c) {
+  const auto clamp = [](float v) { return v > 0.0f ? std::min(v, 1.0f) : 0.0f; };  // NaN: 0
+  return {clamp(c.x), clamp(c.y), clamp(c.z)};
+}
+
+/// The color MLP averaged over the 26 directions, in float. The direction's share of the first
+/// layer is the same for every pixel and the features' share the same for every direction, so
+/// each is computed once.
+class MeanMlp {
+ public:
+  explicit MeanMlp(const ColorMlp& mlp) : mlp_(mlp), features_(mlp.feature_count()) {
+    const DenseLayer& first = mlp.layers.front();
+    for (std::size_t i = 0; i < rule_.size(); ++i) {
+      const glm::vec3 d = mlp.view == ViewConvention::surface_to_eye ? rule_[i].d : -rule_[i].d;
+      std::array<float, 9> code{d.x, d.y, d.z};
+      if (mlp.encoding == DirectionEncoding::harmonics2) {
+        const auto basis = harmonics::basis(d);
+        std::copy_n(basis.begin(), 9, code.begin());
+      }
+      for (int o = 0; o < first.outputs; ++o) {
+        float sum = first.biases[o];
+        for (int k = features_; k < first.inputs; ++k)
+          sum += first.weights[std::size_t(o) * first.inputs + k] * code[k - features_];
+        direction_part_[i][o] = sum;
+      }
+    }
+  }
+
+  glm::vec3 operator()(const std::array<float, 8>& features) const {
+    const DenseLayer& first = mlp_.layers.front();
+    Activations shared{};
+    for (int o = 0; o < first.outputs; ++o)
+      for (int k = 0; k < features_; ++k)
+        shared[o] += first.weights[std::size_t(o) * first.inputs + k] * features[k];
+
+    glm::vec3 sum(0.0f);
+    // Without a direction every direction gives the same.
+    const std::size_t directions =
+        mlp_.encoding == DirectionEncoding::none ? 1 : direction_part_.size();
+    for (std::size_t i = 0; i < directions; ++i) {
+      Activations x{}, y{};
+      for (int o = 0; o < first.outputs; ++o) x[o] = shared[o] + direction_part_[i][o];
+      for (std::size_t l = 1; l < mlp_.layers.size(); ++l) {
+        const DenseLayer& layer = mlp_.layers[l];
+        for (int k = 0; k < layer.inputs; ++k) x[k] = std::max(x[k], 0.0f);
+        for (int o = 0; o < layer.outputs; ++o) {
+          float dot = layer.biases[o];
+          const float* row = &layer.weights[std::size_t(o) * layer.inputs];
+          for (int k = 0; k < layer.inputs; ++k) dot += row[k] * x[k];
+          y[o] = dot;
+        }
+        std::swap(x, y);
+      }
+      const auto sigmoid = [](float v) { return 1.0f / (1.0f + std::exp(-v)); };
+      sum += (directions == 1 ? 1.0f : rule_[i].weight) *
+             glm::vec3(sigmoid(x[0]), sigmoid(x[1]), sigmoid(x[2]));
+    }
+    if (!mlp_.blend_channel) return sum;
+    const float blend = features[*mlp_.blend_channel];
+    return (1.0f - blend) * glm::vec3(features[0], features[1], features[2]) + blend * sum;
+  }
+
+ private:
+  using Activations = std::array<float, ColorMlp::max_width>;
+
+  const ColorMlp& mlp_;
+  int features_;
+  std::array<Direction, 26> rule_ = lebedev26();
+  std::array<Activations, 26> direction_part_{};
+};
+
+/// Barycentrics of the centroids of the 16 congruent triangles that a face is cut into.
+std::vector<glm::vec3> subdivision_centroids() {
+  constexpr int n = 4;
+  std::vector<glm::vec3> points;
+  for (int x = 0; x < n; ++x)
+    for (int y = 0; x + y < n; ++y)
+      for (const float third : {1.0f / 3.0f, 2.0f / 3.0f}) {
+        if (third > 0.5f && x + y + 1 >= n) continue;  // the upside-down one lies outside
+        const float b0 = (float(x) + third) / n, b1 = (float(y) + third) / n;
+        points.emplace_back(b0, b1, 1.0f - b0 - b1);
+      }
+  return points;
+}
+
+/// The mean of what is visible, or of everything where nothing is.
+struct VisibleMean {
+  glm::vec3 seen{0.0f}, all{0.0f};
+  float seen_weight = 0.0f, all_weight = 0.0f;
+
+  void add(const glm::vec3& color, float weight, bool visible) {
+    all += weight * color;
+    all_weight += weight;
+    if (!visible) return;
+    seen += weight * color;
+    seen_weight += weight;
+  }
+  glm::vec3 mean() const { return seen_weight > 0.0f ? seen / seen_weight : all / all_weight; }
+};
+
+struct MeanColors {
+  const TriangleSoup& soup;
+
+  using Colors = std::vector<glm::vec3>;
+  Colors black() const { return Colors(soup.triangles.size(), glm::vec3(0.0f)); }
+
+  Colors operator()(const FaceColors& colors) const {
+    Colors result = black();
+    for (std::size_t t = 0; t < result.size(); ++t) result[t] = clamped(glm::vec3(colors.rgba[t]));
+    return result;
+  }
+
+  Colors operator()(const VertexColors& colors) const {
+    Colors result = black();
+    const std::vector<glm::vec3> points = subdivision_centroids();
+    for (std::size_t t = 0; t < result.size(); ++t) {
+      const glm::uvec3 v = soup.triangles[t];
+      const glm::vec4 &a = colors.rgba[v.x], &b = colors.rgba[v.y], &c = colors.rgba[v.z];
+      if (std::min({a.w, b.w, c.w}) >= alpha_threshold) {
+        result[t] = clamped(glm::vec3(a + b + c) / 3.0f);
+        continue;
+      }
+      VisibleMean mean;
+      for (const glm::vec3& p : points) {
+        const glm::vec4 rgba = p.x * a + p.y * b + p.z * c;
+        mean.add(clamped(glm::vec3(rgba)), 1.0f, rgba.w >= alpha_threshold);
+      }
+      result[t] = mean.mean();
+    }
+    return result;
+  }
+
+  Colors operator()(const Harmonics& sh) const {
+    const int count = harmonics::count(sh.degree);
+    std::array<Direction, 26> rule = lebedev26();
+    std::array<std::array<float, 25>, 26> bases;
+    for (std::size_t i = 0; i < rule.size(); ++i) bases[i] = harmonics::basis(rule[i].d);
+    const std::size_t directions = sh.degree == 0 ? 1 : rule.size();
+    if (directions == 1) rule[0].weight = 1.0f;
+
+    const bool per_face = sh.domain == Harmonics::Domain::face;
+    Colors element(per_face ? soup.triangles.size() : soup.positions.size(), glm::vec3(0.0f));
+    for (std::size_t e = 0; e < element.size(); ++e) {
+      const glm::vec3* c = &sh.coefficients[e * count];
+      for (std::size_t i = 0; i < directions; ++i) {
+        glm::vec3 color(0.5f);
+        for (int k = 0; k < count; ++k) color += bases[i][k] * c[k];
+        element[e] += rule[i].weight * clamped(color);
+      }
+    }
+    if (per_face) return element;
+    Colors result = black();
+    for (std::size_t t = 0; t < result.size(); ++t) {
+      const glm::uvec3 v = soup.triangles[t];
+      result[t] = (element[v.x] + element[v.y] + element[v.z]) / 3.0f;
+    }
+    return result;
+  }
+
+  Colors operator()(const LatticeTexture& texture) const {
+    // A texel's share of the face's area: the integral of its hat function in units of a third
+    // of a cell, which is the number of cells that touch it.
+    std::array<std::vector<float>, lattice::max_level + 1> areas;
+    for (int level = 0; level <= lattice::max_level; ++level) {
+      const int n = lattice::resolution(level);
+      areas[level].resize(lattice::texel_count(level));
+      for (std::uint32_t i = 0; i < areas[level].size(); ++i) {
+        const auto [x, y] = lattice::texel_coordinates(i);
+        const int borders = int(x == 0) + int(y == 0) + int(x + y == n);
+        areas[level][i] = borders == 0 ? 6.0f : borders == 1 ? 3.0f : 1.0f;
+      }
+    }
+    std::optional<MeanMlp> mlp;
+    if (texture.mlp) mlp.emplace(*texture.mlp);
+
+    Colors result = black();
+    std::vector<std::uint32_t> chosen;
+    for (std::size_t t = 0; t < result.size(); ++t) {
+      const LatticePatch& patch = texture.patches[t];
+      const std::uint32_t texels = lattice::texel_count(int(patch.level));
+      chosen.clear();
+      for (std::uint32_t i = 0; i < texels; ++i)
+        if (texture.value(patch.first_texel + std::size_t(i), LatticeTexture::features) >=
+            alpha_threshold)
+          chosen.push_back(i);
+      if (chosen.empty())
+        for (std::uint32_t i = 0; i < texels; ++i) chosen.push_back(i);
+      if (mlp && chosen.size() > std::size_t(mlp_samples)) {
+        const std::size_t n = chosen.size();
+        for (std::size_t k = 0; k < std::size_t(mlp_samples); ++k)
+          chosen[k] = chosen[(2 * k + 1) * n / (2 * mlp_samples)];
+        chosen.resize(mlp_samples);
+      }
+      VisibleMean mean;
+      for (const std::uint32_t i : chosen) {
+        std::array<float, 8> f;
+        for (int c = 0; c < LatticeTexture::channels; ++c)
+          f[c] = texture.value(patch.first_texel + std::size_t(i), c);
+        mean.add(clamped(mlp ? (*mlp)(f) : glm::vec3(f[0], f[1], f[2])), areas[patch.level][i],
+                 true);
+      }
+      result[t] = mean.mean();
+    }
+    return result;
+  }
+
+  Colors operator()(const UvTextures& textures) const {
+    const std::vector<glm::vec3> points = subdivision_centroids();
+    std::optional<MeanMlp> mlp;
+    if (textures.mlp) mlp.emplace(*textures.mlp);
+    Colors result = black();
+    for (std::size_t t = 0; t < result.size(); ++t) {
+      const UvMaterial& material = textures.materials[textures.material_of_face[t]];
+      const glm::uvec3 v = soup.triangles[t];
+      VisibleMean mean;
+      for (const glm::vec3& p : points) {
+        const glm::vec2 uv =
+            p.x * textures.uv[v.x] + p.y * textures.uv[v.y] + p.z * textures.uv[v.z];
+        glm::vec4 first(1.0f), second(0.0f);
+        if (!material.images.empty()) first = texel(textures, material, 0, uv);
+        if (mlp) second = texel(textures, material, 1, uv);
+        if (!mlp) first *= material.factor;
+        if (!textures.vertex_rgba.empty())
+          first *= p.x * textures.vertex_rgba[v.x] + p.y * textures.vertex_rgba[v.y] +
+                   p.z * textures.vertex_rgba[v.z];
+        const bool visible = !(first[material.mask_channel] < material.mask_threshold);
+        const glm::vec3 color = mlp ? (*mlp)({first.x, first.y, first.z, first.w, second.x,
+                                              second.y, second.z, second.w})
+                                    : glm::vec3(first);
+        mean.add(clamped(color), 1.0f, visible);
+      }
+      result[t] = mean.mean();
+    }
+    return result;
+  }
+
+  static glm::vec4 texel(const UvTextures& textures, const UvMaterial& material, int which,
+                         glm::vec2 uv) {
+    const Image8& image = textures.images[material.images[which]];
+    return glm::vec4(image.at(texel_index(uv.x, image.width, material.wrap_u),
+                              texel_index(uv.y, image.height, material.wrap_v))) /
+           255.0f;
+  }
+
+  /// The nearest texel; a coordinate that is not finite takes the first.
+  static int texel_index(float coordinate, int size, UvMaterial::Wrap wrap) {
+    if (!std::isfinite(coordinate)) return 0;
+    float u = coordinate;
+    if (wrap == UvMaterial::Wrap::repeat) u -= std::floor(u);
+    if (wrap == UvMaterial::Wrap::mirror)
+      u = 1.0f - std::abs(u - 2.0f * std::floor(u / 2.0f) - 1.0f);
+    // Clamped as floats: casting a float outside int's range is undefined.
+    return int(std::clamp(std::floor(u * float(size)), 0.0f, float(size - 1)));
+  }
+};
+
+}  // namespace
+
+std::vector<glm::vec3> mean_colors(const TriangleSoup& soup) {
+  return std::visit(MeanColors{soup}, soup.appearance);
+}
+
+}  // namespace tureen

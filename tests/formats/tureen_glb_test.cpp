@@ -1,0 +1,343 @@
+// TUREEN_triangle_soup: what is written comes back to the bit, and no damage does worse than an
+// InputError.
+#include "formats/tureen_glb.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "formats/random_scene.hpp"
+#include "formats/truncation.hpp"
+#include "soup/mean_color.hpp"
+#include "soup/srgb.hpp"
+
+namespace tureen {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::RandomScene;
+
+struct Kind {
+  const char* name;
+  std::function<void(RandomScene&, Scene&, std::size_t faces)> fill;
+};
+
+void fill_soup(Scene& scene, TriangleSoup soup, Appearance appearance) {
+  soup.appearance = std::move(appearance);
+  scene.primitives = std::move(soup);
+}
+
+/// A colour appearance of each kind, on shared and unshared vertices.
+std::vector<Kind> kinds() {
+  std::vector<Kind> all;
+  for (const bool shared : {false, true}) {
+    const auto add = [&](const char* name, auto appearance) {
+      all.push_back({name, [=](RandomScene& random, Scene& scene, std::size_t faces) {
+                       TriangleSoup soup = random.geometry(faces, shared);
+                       Appearance made = appearance(random, soup);
+                       fill_soup(scene, std::move(soup), std::move(made));
+                     }});
+    };
+    add(shared ? "face_bytes_shared" : "face_bytes", [](RandomScene& r, const TriangleSoup& s) {
+      return FaceColors{r.colors(s.triangles.size(), true)};
+    });
+    add(shared ? "face_floats_shared" : "face_floats", [](RandomScene& r, const TriangleSoup& s) {
+      return FaceColors{r.colors(s.triangles.size(), false)};
+    });
+    add(shared ? "vertex_bytes_shared" : "vertex_bytes", [](RandomScene& r, const TriangleSoup& s) {
+      return VertexColors{r.colors(s.positions.size(), true)};
+    });
+    add(shared ? "vertex_floats_shared" : "vertex_floats",
+        [](RandomScene& r, const TriangleSoup& s) {
+          return VertexColors{r.colors(s.positions.size(), false)};
+        });
+    add(shared ? "face_harmonics_shared" : "face_harmonics",
+        [](RandomScene& r, const TriangleSoup& s) {
+          return r.harmonics(s.triangles.size(), Harmonics::Domain::face, 3);
+        });
+    add(shared ? "vertex_harmonics_shared" : "vertex_harmonics",
+        [](RandomScene& r, const TriangleSoup& s) {
+          return r.harmonics(s.positions.size(), Harmonics::Domain::vertex, 4);
+        });
+    add(shared ? "lattice_bytes_mlp_shared" : "lattice_bytes_mlp",
+        [](RandomScene& r, const TriangleSoup& s) {
+          LatticeTexture texture = r.lattice_texture(s.triangles.size(), 2, false);
+          texture.mlp = r.diffsoup_mlp();
+          return texture;
+        });
+    add(shared ? "lattice_bytes_mixed_levels_shared" : "lattice_bytes_mixed_levels",
+        [](RandomScene& r, const TriangleSoup& s) {
+          return r.lattice_texture(s.triangles.size(), {}, false);
+        });
+    add(shared ? "lattice_floats_shared" : "lattice_floats",
+        [](RandomScene& r, const TriangleSoup& s) {
+          LatticeTexture texture = r.lattice_texture(s.triangles.size(), {}, true);
+          texture.mlp = r.mlp({7, 5, 3}, DirectionEncoding::none, {});
+          return texture;
+        });
+    add(shared ? "uv_shared" : "uv",
+        [](RandomScene& r, const TriangleSoup& s) { return r.uv_textures(s, false); });
+    add(shared ? "uv_mlp_shared" : "uv_mlp",
+        [](RandomScene& r, const TriangleSoup& s) { return r.uv_textures(s, true); });
+  }
+  all.push_back({"soft_triangles", [](RandomScene& random, Scene& scene, std::size_t faces) {
+                   scene.primitives = random.soft_triangles(faces, 3);
+                 }});
+  return all;
+}
+
+Scene make(const Kind& kind, unsigned seed, std::size_t faces) {
+  RandomScene random(seed);
+  Scene scene = random.scene();
+  kind.fill(random, scene, faces);
+  return scene;
+}
+
+std::filesystem::path temporary(const std::string& name) {
+  return std::filesystem::path(::testing::TempDir()) / ("tureen_glb_" + name + ".glb");
+}
+
+std::vector<std::byte> written(const Scene& scene, const std::string& name) {
+  const auto path = temporary(name);
+  EXPECT_THAT(write_tureen_glb(scene, path), ::testing::IsEmpty());
+  Input input = Input::open(path);
+  std::vector<std::byte> bytes = input.read_rest();
+  std::filesystem::remove(path);
+  return bytes;
+}
+
+Scene read_back(std::span<const std::byte> bytes) {
+  Input input = Input::memory("memory.glb", bytes);
+  return read_tureen_glb(input);
+}
+
+nlohmann::json json_of(std::span<const std::byte> bytes) {
+  std::uint32_t size = 0;
+  std::memcpy(&size, bytes.data() + 12, 4);
+  const char* text = reinterpret_cast<const char*>(bytes.data()) + 20;
+  return nlohmann::json::parse(text, text + size);
+}
+
+/// The same file with its JSON exchanged.
+std::vector<std::byte> with_json(std::span<const std::byte> bytes, const nlohmann::json& json) {
+  std::uint32_t old_size = 0;
+  std::memcpy(&old_size, bytes.data() + 12, 4);
+  std::string text = json.dump();
+  text.append((4 - text.size() % 4) % 4, ' ');
+  const auto size = std::uint32_t(text.size());
+  const auto tail = bytes.subspan(20 + old_size);
+  std::vector<std::byte> result(20 + size + tail.size());
+  std::memcpy(result.data(), bytes.data(), 20);
+  std::memcpy(result.data() + 20, text.data(), size);
+  std::memcpy(result.data() + 20 + size, tail.data(), tail.size());
+  const auto length = std::uint32_t(result.size());
+  std::memcpy(result.data() + 8, &length, 4);
+  std::memcpy(result.data() + 12, &size, 4);
+  return result;
+}
+
+class TureenGlb : public ::testing::TestWithParam<Kind> {};
+
+TEST_P(TureenGlb, ComesBackToTheBit) {
+  for (const unsigned seed : {1u, 2u, 3u})
+    for (const std::size_t faces : {std::size_t(1), std::size_t(17)}) {
+      SCOPED_TRACE("seed " + std::to_string(seed) + ", faces " + std::to_string(faces));
+      const Scene scene = make(GetParam(), seed, faces);
+      const Scene back = read_back(written(scene, GetParam().name));
+      EXPECT_EQ(testing::difference(scene, back), "");
+    }
+}
+
+TEST_P(TureenGlb, EmptyComesBackToo) {
+  const Scene scene = make(GetParam(), 4, 0);
+  EXPECT_EQ(testing::difference(scene, read_back(written(scene, GetParam().name))), "");
+}
+
+TEST_P(TureenGlb, SurvivesTruncationAndDamage) {
+  RandomScene random(5);
+  Scene scene;
+  GetParam().fill(random, scene, 1);
+  const auto bytes = written(scene, GetParam().name);
+  const auto read = [](std::span<const std::byte> damaged) {
+    const Scene back = read_back(damaged);
+    if (const auto* soup = std::get_if<TriangleSoup>(&back.primitives)) {
+      EXPECT_FALSE(defect(*soup));
+    }
+  };
+  EXPECT_EQ(testing::survive_truncation(bytes, read).read, 0u);
+  // The frame, the JSON and the first bytes of the binary chunk: what follows are mere values.
+  std::uint32_t json_size = 0;
+  std::memcpy(&json_size, bytes.data() + 12, 4);
+  std::vector<std::byte> head(bytes);
+  testing::Survival survival;
+  const std::size_t reach = std::min<std::size_t>(bytes.size(), 20 + json_size + 200);
+  for (std::size_t i = 0; i < reach; ++i)
+    for (const unsigned flip : {0x01u, 0x02u, 0x04u, 0x10u, 0x40u, 0x80u, 0xffu}) {
+      head[i] = bytes[i] ^ std::byte(flip);
+      testing::expect_survival(
+          head, read, "byte " + std::to_string(i) + " xor " + std::to_string(flip), survival);
+      head[i] = bytes[i];
+    }
+  EXPECT_GT(survival.refused, reach);
+}
+
+TEST_P(TureenGlb, DrawsTheMeanColoursAsLinear16Bit) {
+  const Scene scene = make(GetParam(), 6, 9);
+  const auto* soup = std::get_if<TriangleSoup>(&scene.primitives);
+  if (!soup) GTEST_SKIP() << "soft triangles are a matter of their harmonics";
+  const auto bytes = written(scene, GetParam().name);
+  const auto json = json_of(bytes);
+  const auto& primitive = json["meshes"][0]["primitives"][0];
+  const auto& position = json["accessors"][primitive["attributes"]["POSITION"].get<int>()];
+  const auto& color = json["accessors"][primitive["attributes"]["COLOR_0"].get<int>()];
+  EXPECT_EQ(position["count"], color["count"]);
+  EXPECT_EQ(color["componentType"], 5123);
+  EXPECT_EQ(color["normalized"], true);
+  std::uint32_t json_size = 0;
+  std::memcpy(&json_size, bytes.data() + 12, 4);
+  const auto view_offset = [&](const nlohmann::json& accessor) {
+    return 28 + json_size +
+           json["bufferViews"][accessor["bufferView"].get<int>()]["byteOffset"].get<std::size_t>();
+  };
+  const std::size_t colors_at = view_offset(color);
+  std::vector<std::uint32_t> indices(3 * soup->triangles.size());
+  for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = std::uint32_t(i);
+  if (primitive.contains("indices"))
+    std::memcpy(indices.data(),
+                bytes.data() + view_offset(json["accessors"][primitive["indices"].get<int>()]),
+                indices.size() * 4);
+  const auto means = mean_colors(*soup);
+  const auto* vertex_colors = std::get_if<VertexColors>(&soup->appearance);
+  for (std::size_t c = 0; c < indices.size(); ++c) {
+    glm::u16vec4 stored;
+    std::memcpy(&stored, bytes.data() + colors_at + 8 * std::size_t(indices[c]), 8);
+    const glm::vec3 wanted =
+        vertex_colors ? glm::vec3(vertex_colors->rgba[soup->triangles[c / 3][int(c % 3)]])
+                      : means[c / 3];
+    for (int k = 0; k < 3; ++k)
+      // Half a step of 16 bits, and a hundredth for the arithmetic.
+      EXPECT_NEAR(stored[k] / 65535.0, linear_from_srgb(double(wanted[k])), 0.51 / 65535.0);
+    EXPECT_EQ(stored.w, 65535);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Appearance, TureenGlb, ::testing::ValuesIn(kinds()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(TureenGlbFile, KeepsNanPositionsAndHugeValues) {
+  RandomScene random(7);
+  Scene scene = random.scene();
+  TriangleSoup soup = random.geometry(2, false);
+  soup.positions[1].y = std::numeric_limits<float>::quiet_NaN();
+  soup.positions[4].x = -std::numeric_limits<float>::infinity();
+  fill_soup(scene, std::move(soup), FaceColors{{{-0.0f, 2.0f, 0.5f, 1.0f}, {0, 0, 0, 1}}});
+  EXPECT_EQ(testing::difference(scene, read_back(written(scene, "nan"))), "");
+}
+
+TEST(TureenGlbFile, SplitsManyTexelsIntoStrips) {
+  RandomScene random(8);
+  Scene scene = random.scene();
+  // 130 faces of level 7 are 1,090,050 texels: a full strip of 2^20 and a partial one.
+  fill_soup(scene, random.geometry(130, false), random.lattice_texture(130, 7, false));
+  const auto bytes = written(scene, "strips");
+  EXPECT_EQ(json_of(bytes)["extensions"][tureen_extension]["appearance"]["strips"].size(), 2u);
+  EXPECT_EQ(testing::difference(scene, read_back(bytes)), "");
+}
+
+TEST(TureenGlbFile, StoresColoursThatAreBytesAsBytes) {
+  RandomScene random(9);
+  Scene scene;
+  fill_soup(scene, random.geometry(3, false), FaceColors{random.colors(3, true)});
+  const auto json = json_of(written(scene, "bytes"));
+  const int rgba = json["extensions"][tureen_extension]["appearance"]["rgba"];
+  EXPECT_EQ(json["accessors"][rgba]["componentType"], 5121);
+}
+
+TEST(TureenGlbFile, RefusesWhatItCannotHoldOrKnow) {
+  RandomScene random(10);
+  Scene scene = random.scene();
+  fill_soup(scene, random.geometry(2, false), FaceColors{random.colors(2, true)});
+  const auto bytes = written(scene, "refused");
+  const auto expect_refusal = [&](const std::function<void(nlohmann::json&)>& change,
+                                  const std::string& reason) {
+    auto json = json_of(bytes);
+    change(json);
+    try {
+      read_back(with_json(bytes, json));
+      ADD_FAILURE() << "accepted; expected: " << reason;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.reason(), HasSubstr(reason));
+      EXPECT_EQ(error.place().file, "memory.glb");
+    }
+  };
+  const char* x = tureen_extension;
+  expect_refusal([&](auto& j) { j["extensions"][x]["version"] = 2; }, "only version 1 is read");
+  expect_refusal([&](auto& j) { j["extensions"][x].erase("up"); }, "lacks \"up\"");
+  expect_refusal([&](auto& j) { j["extensions"][x]["face_count"] = 3; }, "want 9 vertices, not 6");
+  expect_refusal([&](auto& j) { j["extensions"][x]["vertex_count"] = 7; },
+                 "its accessor has 6 elements, expected 7");
+  expect_refusal([&](auto& j) { j["extensions"][x]["appearance"]["type"] = "plaid"; },
+                 "extensions.TUREEN_triangle_soup.appearance.type: \"plaid\" is none of");
+  expect_refusal([&](auto& j) { j["accessors"][0]["count"] = 4000000000u; },
+                 "accessors[0]: 4000000000 elements of 12 bytes do not fit");
+  expect_refusal([&](auto& j) { j["bufferViews"][0]["byteOffset"] = 1u << 30; },
+                 "lie outside of the binary chunk");
+  expect_refusal([&](auto& j) { j["accessors"][0]["type"] = "VEC2"; }, "expected VEC3");
+  expect_refusal([&](auto& j) { j["bufferViews"][0]["byteStride"] = 16; }, "packs tightly");
+  expect_refusal([&](auto& j) { j["extensions"][x]["cameras"][0]["width"] = -1; },
+                 "cameras[0].width: expected a whole number, not -1");
+
+  scene.cameras[0].fx = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(write_tureen_glb(scene, temporary("never")), UsageError);
+  EXPECT_FALSE(std::filesystem::exists(temporary("never")));
+}
+
+TEST(TureenGlbFile, RefusesImagesNamedTwice) {
+  RandomScene random(11);
+  Scene scene;
+  TriangleSoup soup = random.geometry(2, false);
+  UvTextures textures = random.uv_textures(soup, false);
+  fill_soup(scene, std::move(soup), std::move(textures));
+  const auto bytes = written(scene, "twice");
+  auto json = json_of(bytes);
+  json["extensions"][tureen_extension]["appearance"]["images"] = {0, 0, 1};
+  try {
+    read_back(with_json(bytes, json));
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.reason(), HasSubstr("before the end of the image before it"));
+  }
+}
+
+TEST(TureenGlbFile, SaysWhenATextIsNotUtf8) {
+  Scene scene;
+  scene.info.name = "caf\xE9";
+  const auto path = temporary("latin");
+  const auto losses = write_tureen_glb(scene, path);
+  ASSERT_EQ(losses.size(), 1u);
+  EXPECT_THAT(losses[0], HasSubstr("UTF-8"));
+  Input input = Input::open(path);
+  EXPECT_EQ(read_tureen_glb(input).info.name, "caf\xEF\xBF\xBD");
+  std::filesystem::remove(path);
+}
+
+TEST(TureenGlbFile, ReportsProgressUpToOne) {
+  RandomScene random(12);
+  Scene scene;
+  fill_soup(scene, random.geometry(5, true), FaceColors{random.colors(5, false)});
+  const auto bytes = written(scene, "progress");
+  std::vector<double> seen;
+  Input input = Input::memory("memory.glb", bytes);
+  read_tureen_glb(input, {.progress = [&](double fraction) { seen.push_back(fraction); }});
+  ASSERT_FALSE(seen.empty());
+  EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+  EXPECT_EQ(seen.back(), 1.0);
+}
+
+}  // namespace
+}  // namespace tureen
