@@ -1,0 +1,172 @@
+#include "formats/gltf_document.hpp"
+
+#include <algorithm>
+#include <array>
+#include <exception>
+
+#include "formats/png.hpp"
+#include "formats/uri.hpp"
+
+namespace tureen {
+
+namespace {
+
+/// What a file may require of us. The mesh and texture extensions change what is drawn and are
+/// honoured; unlit is how we draw anyway.
+constexpr std::array known_extensions = {"KHR_materials_unlit", "KHR_mesh_quantization",
+                                         "KHR_texture_transform"};
+
+/// tinygltf's messages as one line without the full stop.
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
+  return text.empty() ? "is not valid glTF" : text;
+}
+
+}  // namespace
+
+GltfDocument::GltfDocument(Input& input, GlbContainer glb, std::filesystem::path folder)
+    : input_(input), glb_(std::move(glb)), folder_(std::move(folder)) {
+  const JsonView root(glb_.json, input_.name());
+  const JsonView asset = root["asset"];
+  const auto minimum = asset.find("minVersion");
+  const std::string& version = minimum ? minimum->text() : asset["version"].text();
+  if (version.substr(0, 2) != "2." || (minimum && version != "2.0"))
+    (minimum ? *minimum : asset["version"]).fail("glTF " + version + "; 2.0 is read");
+  if (const auto required = root.find("extensionsRequired"))
+    for (std::size_t i = 0; i < required->size(); ++i) {
+      const std::string& name = required->at(i).text();
+      if (std::find(known_extensions.begin(), known_extensions.end(), name) ==
+          known_extensions.end())
+        required->at(i).fail("the file requires the extension " + name + ", which is not read");
+    }
+  if (const auto list = root.find("buffers")) buffers_.resize(list->size());
+  parse();
+}
+
+void GltfDocument::parse() {
+  nlohmann::json lean = glb_.json;
+  for (const char* key : {"buffers", "images", "animations", "skins", "extensions", "extras"})
+    lean.erase(key);
+  const std::string text = lean.dump();
+  if (text.size() > std::numeric_limits<unsigned int>::max()) fail("", "more than 4 GiB of JSON");
+  tinygltf::TinyGLTF loader;
+  std::string error, warning;
+  bool parsed = false;
+  try {
+    parsed = loader.LoadASCIIFromString(&model_, &error, &warning, text.data(),
+                                        static_cast<unsigned int>(text.size()), "");
+  } catch (const std::exception& exception) {
+    error += exception.what();
+  }
+  if (!parsed) fail("", "not valid glTF: " + one_line(error));
+}
+
+void GltfDocument::fail(const std::string& where, const std::string& reason) const {
+  throw InputError({input_.name(), {}, {}}, where.empty() ? reason : where + ": " + reason);
+}
+
+std::uint64_t GltfDocument::vertex_budget() const {
+  return std::max(std::uint64_t(1) << 24, loaded_bytes_);
+}
+
+std::vector<std::byte> GltfDocument::load_uri(const JsonView& uri,
+                                              std::optional<std::uint64_t> size) {
+  try {
+    if (auto bytes = decode_data_uri(uri.text())) {
+      if (size && bytes->size() < *size)
+        uri.fail("holds " + std::to_string(bytes->size()) + " bytes, expected " +
+                 std::to_string(*size));
+      if (size) bytes->resize(static_cast<std::size_t>(*size));
+      return *std::move(bytes);
+    }
+    Input file = Input::open(resolve_in_folder(folder_, uri.text()));
+    if (!size) return file.read_rest();
+    return file.read_values<std::byte>(*size, "the buffer");
+  } catch (const UriError& error) {
+    uri.fail(error.reason);
+  } catch (const InputError& error) {
+    // The scene's file is what the person named; the other is where it led.
+    if (error.place().file == input_.name()) throw;
+    uri.fail(error.what());
+  }
+}
+
+std::vector<std::byte> GltfDocument::load_buffer(std::size_t index, std::uint64_t size) {
+  const JsonView json = JsonView(glb_.json, input_.name())["buffers"].at(index);
+  if (const auto uri = json.find("uri")) return load_uri(*uri, size);
+  if (index != 0 || glb_.binary_offset == 0) json.fail("has no uri and no binary chunk");
+  if (size > glb_.binary_size)
+    json.fail("wants " + std::to_string(size) + " bytes; the binary chunk has " +
+              std::to_string(glb_.binary_size));
+  input_.seek(glb_.binary_offset);
+  return input_.read_values<std::byte>(size, "the binary chunk");
+}
+
+std::span<const std::byte> GltfDocument::buffer(int index, const std::string& where) {
+  if (index < 0 || std::size_t(index) >= buffers_.size())
+    fail(where, "names buffer " + std::to_string(index) + " of " + std::to_string(buffers_.size()));
+  auto& bytes = buffers_[std::size_t(index)];
+  if (!bytes) {
+    const JsonView json = JsonView(glb_.json, input_.name())["buffers"].at(std::size_t(index));
+    bytes = load_buffer(std::size_t(index), json["byteLength"].natural());
+    loaded_bytes_ += bytes->size();
+  }
+  return *bytes;
+}
+
+std::span<const std::byte> GltfDocument::view_bytes(int view, const std::string& where) {
+  if (view < 0 || std::size_t(view) >= model_.bufferViews.size())
+    fail(where, "names buffer view " + std::to_string(view) + " of " +
+                    std::to_string(model_.bufferViews.size()));
+  const std::string name = "bufferViews[" + std::to_string(view) + "]";
+  const tinygltf::BufferView& json = model_.bufferViews[std::size_t(view)];
+  const auto bytes = buffer(json.buffer, name);
+  if (json.byteOffset > bytes.size() || json.byteLength > bytes.size() - json.byteOffset)
+    fail(name, "bytes " + std::to_string(json.byteOffset) + " + " +
+                   std::to_string(json.byteLength) + " reach past the end of its buffer at " +
+                   std::to_string(bytes.size()));
+  return bytes.subspan(json.byteOffset, json.byteLength);
+}
+
+GltfDocument::Elements GltfDocument::elements(int view, std::uint64_t offset, std::uint64_t count,
+                                              std::size_t each, const std::string& where) {
+  const auto bytes = view_bytes(view, where);
+  std::size_t stride = model_.bufferViews[std::size_t(view)].byteStride;
+  if (stride == 0) stride = each;
+  if (stride < each)
+    fail(where, "its stride of " + std::to_string(stride) + " bytes is less than an element's " +
+                    std::to_string(each));
+  // 252 is glTF's own limit, so the product below cannot overflow.
+  if (stride > 252 && stride != each)
+    fail(where, "its stride of " + std::to_string(stride) + " bytes is beyond 252");
+  if (offset > bytes.size() || each > bytes.size() - offset ||
+      count - 1 > (bytes.size() - offset - each) / stride)
+    fail(where, std::to_string(count) + " elements of " + std::to_string(each) +
+                    " bytes from byte " + std::to_string(offset) +
+                    " reach past the end of its buffer view of " + std::to_string(bytes.size()));
+  return {bytes.data() + offset, stride};
+}
+
+Image8 GltfDocument::image(int index) {
+  const JsonView images = JsonView(glb_.json, input_.name())["images"];
+  const JsonView json = images.at(index < 0 ? images.size() : std::size_t(index));
+  Image8 result;
+  try {
+    if (const auto uri = json.find("uri")) {
+      result = decode_image(load_uri(*uri, std::nullopt), input_.name());
+    } else {
+      const auto view = int(json["bufferView"].natural(std::numeric_limits<int>::max()));
+      result = decode_image(view_bytes(view, json.path()), input_.name());
+    }
+  } catch (const InputError& error) {
+    if (error.reason().rfind("images[", 0) == 0 || error.reason().rfind("buffer", 0) == 0) throw;
+    json.fail(error.reason());
+  }
+  // One image is bounded by max_image_pixels; all of them together are, too, with some grace.
+  image_pixels_ += result.pixels.size();
+  if (image_pixels_ > 2 * max_image_pixels) json.fail("the images of this file are too large");
+  return result;
+}
+
+}  // namespace tureen
