@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
+#include <string_view>
 
 #include "formats/gltf_soup.hpp"
 #include "formats/tureen_glb.hpp"
@@ -218,6 +219,14 @@ GlbContainer read_json_file(Input& input) {
 }
 
 }  // namespace
+
+bool is_gltf(std::span<const std::byte> head) {
+  const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
+  if (text.substr(0, 4) == "glTF") return true;
+  const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");  // a UTF-8 mark, too
+  return first != std::string_view::npos && text[first] == '{' &&
+         text.find("\"asset\"") != std::string_view::npos;
+}
 
 Scene read_gltf_or_glb(const std::filesystem::path& path, const ReadOptions& options) {
   Input input = Input::open(path);

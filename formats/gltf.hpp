@@ -14,12 +14,18 @@
 // the bytes that are there; instancing may not make more vertices than 2^24 or the file's bytes.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <span>
 
 #include "formats/scene_file.hpp"
 #include "soup/scene.hpp"
 
 namespace tureen {
+
+/// Whether a file that begins like this is one to try: the magic of a GLB, or a JSON object that
+/// speaks of an "asset" early on.
+bool is_gltf(std::span<const std::byte> head);
 
 /// Reads a .gltf, or a .glb of ours or of others; told by content. The soup has VertexColors where
 /// no material has a texture, UvTextures otherwise. Throws InputError whose reason begins with the

@@ -48,6 +48,14 @@ void GltfDocument::parse() {
   nlohmann::json lean = glb_.json;
   for (const char* key : {"buffers", "images", "animations", "skins", "extensions", "extras"})
     lean.erase(key);
+  // tinygltf takes an offset or a size that is no integer for none at all; such a file would be
+  // read wrongly without a word.
+  for (const char* list : {"accessors", "bufferViews"}) {
+    const auto view = JsonView(glb_.json, input_.name()).find(list);
+    for (std::size_t i = 0; view && i < view->size(); ++i)
+      for (const char* key : {"byteOffset", "byteLength", "byteStride", "count", "bufferView"})
+        if (const auto member = view->at(i).find(key)) lean[list][i][key] = member->natural();
+  }
   const std::string text = lean.dump();
   if (text.size() > std::numeric_limits<unsigned int>::max()) fail("", "more than 4 GiB of JSON");
   tinygltf::TinyGLTF loader;

@@ -8,10 +8,12 @@
 
 #include "formats/checkpoint.hpp"
 #include "formats/diffsoup_export.hpp"
+#include "formats/gltf.hpp"
 #include "formats/input.hpp"
 #include "formats/mobilenerf.hpp"
 #include "formats/off.hpp"
 #include "formats/ply.hpp"
+#include "formats/tureen_glb.hpp"
 
 namespace tureen {
 
@@ -37,10 +39,22 @@ struct Format {
   std::vector<std::string> (*write)(const Scene&, const std::filesystem::path&) = nullptr;
 };
 
+/// A .gltf would need its bytes in a second file, which is what a GLB is there to avoid.
+std::vector<std::string> write_glb(const Scene& scene, const std::filesystem::path& path) {
+  if (path.extension() == ".gltf") throw UsageError("glTF is written as .glb only");
+  return write_tureen_glb(scene, path);
+}
+
 /// In the order in which they are asked whether they recognise a file.
 const std::vector<Format>& formats() {
   using Path = std::filesystem::path;
   static const std::vector<Format> table{
+      {.name = "GLB",
+       .description = "our own file, exact and streamable; any glTF viewer shows its mean colours",
+       .extensions = {".glb", ".gltf"},
+       .recognises = [](const Candidate& c) { return !c.is_folder && is_gltf(c.head); },
+       .read = read_gltf_or_glb,
+       .write = write_glb},
       {.name = "OFF",
        .description = "triangles with a colour a face or a vertex, as text (OFF, COFF)",
        .extensions = {".off", ".coff"},

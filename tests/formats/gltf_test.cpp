@@ -1,0 +1,553 @@
+// Foreign glTF: small files made here, each about one thing; then the hostile ones and a real one.
+#include "formats/gltf.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "formats/output.hpp"
+#include "formats/png.hpp"
+#include "formats/truncation.hpp"
+#include "formats/tureen_glb.hpp"
+#include "soup/srgb.hpp"
+
+namespace tureen {
+namespace {
+
+using nlohmann::json;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+/// A GLB put together by hand: accessors appended as they are needed.
+class GlbBuilder {
+ public:
+  json document = {{"asset", {{"version", "2.0"}}},
+                   {"scene", 0},
+                   {"scenes", json::array({{{"nodes", json::array({0})}}})},
+                   {"nodes", json::array({{{"mesh", 0}}})},
+                   {"meshes", json::array({{{"primitives", json::array()}}})},
+                   {"accessors", json::array()},
+                   {"bufferViews", json::array()}};
+
+  int view(const void* data, std::size_t size) {
+    document["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", size}});
+    const std::size_t at = bytes_.size();
+    bytes_.resize(at + (size + 3) / 4 * 4);
+    std::memcpy(bytes_.data() + at, data, size);
+    return int(document["bufferViews"].size()) - 1;
+  }
+
+  template <class T>
+  int accessor(const std::vector<T>& values, const char* type, int component, std::size_t count,
+               bool normalized = false) {
+    json a = {{"bufferView", view(values.data(), values.size() * sizeof(T))},
+              {"componentType", component},
+              {"count", count},
+              {"type", type}};
+    if (normalized) a["normalized"] = true;
+    return add_accessor(a);
+  }
+  int add_accessor(json a) {
+    document["accessors"].push_back(std::move(a));
+    return int(document["accessors"].size()) - 1;
+  }
+  int floats(const std::vector<float>& values, int components) {
+    static const char* types[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+    return accessor(values, types[components - 1], 5126, values.size() / std::size_t(components));
+  }
+
+  json& primitive(json attributes) {
+    auto& list = document["meshes"][0]["primitives"];
+    list.push_back({{"attributes", std::move(attributes)}});
+    return list.back();
+  }
+  /// One triangle at (0,0,0) (1,0,0) (0,1,0).
+  json& triangle() { return primitive({{"POSITION", floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, 3)}}); }
+
+  int texture(const Image8& image, json sampler = {}) {
+    const auto png = encode_png(image);
+    document["images"].push_back(
+        {{"bufferView", view(png.data(), png.size())}, {"mimeType", "image/png"}});
+    json t = {{"source", document["images"].size() - 1}};
+    if (!sampler.is_null()) {
+      document["samplers"].push_back(sampler);
+      t["sampler"] = document["samplers"].size() - 1;
+    }
+    document["textures"].push_back(t);
+    return int(document["textures"].size()) - 1;
+  }
+  int material(json m) {
+    document["materials"].push_back(std::move(m));
+    return int(document["materials"].size()) - 1;
+  }
+
+  std::vector<std::byte> glb() const {
+    json complete = document;
+    if (!bytes_.empty()) complete["buffers"] = json::array({{{"byteLength", bytes_.size()}}});
+    std::string text = complete.dump();
+    text.append((4 - text.size() % 4) % 4, ' ');
+    std::vector<std::uint32_t> head = {0x46546C67, 2, 0, std::uint32_t(text.size()), 0x4E4F534A};
+    const std::size_t bin = bytes_.empty() ? 0 : 8 + bytes_.size();
+    head[2] = std::uint32_t(20 + text.size() + bin);
+    std::vector<std::byte> result(head[2]);
+    std::memcpy(result.data(), head.data(), 20);
+    std::memcpy(result.data() + 20, text.data(), text.size());
+    if (bin > 0) {
+      const std::uint32_t chunk[2] = {std::uint32_t(bytes_.size()), 0x004E4942};
+      std::memcpy(result.data() + 20 + text.size(), chunk, 8);
+      std::memcpy(result.data() + 28 + text.size(), bytes_.data(), bytes_.size());
+    }
+    return result;
+  }
+  const std::vector<std::byte>& bytes() const { return bytes_; }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+class Gltf : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::path(::testing::TempDir()) / (std::string("gltf_") + test->name());
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path save(const std::string& name, std::span<const std::byte> bytes) {
+    Output output(folder_ / name);
+    output.write(bytes);
+    output.commit();
+    return folder_ / name;
+  }
+  Scene read(const GlbBuilder& builder, const ReadOptions& options = {}) {
+    return read_gltf_or_glb(save("scene.glb", builder.glb()), options);
+  }
+  std::string refusal(const GlbBuilder& builder) {
+    try {
+      read(builder);
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.place().file, HasSubstr("scene.glb"));
+      return error.reason();
+    }
+    return "accepted";
+  }
+  std::filesystem::path folder_;
+};
+
+const TriangleSoup& soup_of(const Scene& scene) { return std::get<TriangleSoup>(scene.primitives); }
+const std::vector<glm::vec4>& vertex_colors(const Scene& scene) {
+  return std::get<VertexColors>(soup_of(scene).appearance).rgba;
+}
+const UvTextures& textures(const Scene& scene) {
+  return std::get<UvTextures>(soup_of(scene).appearance);
+}
+
+TEST_F(Gltf, ReadsABareTriangleAsWhite) {
+  GlbBuilder b;
+  b.triangle();
+  const Scene scene = read(b);
+  EXPECT_THAT(soup_of(scene).triangles, ::testing::ElementsAre(glm::uvec3(0, 1, 2)));
+  EXPECT_EQ(soup_of(scene).positions[1], glm::vec3(1, 0, 0));
+  EXPECT_THAT(vertex_colors(scene), ::testing::Each(glm::vec4(1.0f)));
+  EXPECT_EQ(scene.info.up, glm::vec3(0, 1, 0));
+  EXPECT_EQ(scene.info.name, "scene");
+}
+
+TEST_F(Gltf, AssemblesStripsFansAndEveryIndexType) {
+  const std::vector<float> quad = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 2, 2, 0};
+  GlbBuilder b;
+  const int position = b.floats(quad, 3);
+  b.primitive({{"POSITION", position}})["mode"] = 5;
+  b.primitive({{"POSITION", position}})["mode"] = 6;
+  auto& bytes = b.primitive({{"POSITION", position}});
+  bytes["indices"] = b.accessor(std::vector<std::uint8_t>{4, 1, 0}, "SCALAR", 5121, 3);
+  auto& words = b.primitive({{"POSITION", position}});
+  words["indices"] = b.accessor(std::vector<std::uint16_t>{0, 2, 3}, "SCALAR", 5123, 3);
+  auto& longs = b.primitive({{"POSITION", position}});
+  longs["indices"] = b.accessor(std::vector<std::uint32_t>{3, 2, 1}, "SCALAR", 5125, 3);
+  const Scene scene = read(b);
+  const TriangleSoup& soup = soup_of(scene);
+  std::vector<std::vector<int>> corners;  // by the original vertex, found by position
+  for (const glm::uvec3& t : soup.triangles) {
+    std::vector<int> names;
+    for (int k = 0; k < 3; ++k)
+      for (int v = 0; v < 5; ++v)
+        if (soup.positions[t[k]] == glm::vec3(quad[3 * v], quad[3 * v + 1], quad[3 * v + 2]))
+          names.push_back(v);
+    corners.push_back(names);
+  }
+  using Corners = std::vector<std::vector<int>>;
+  EXPECT_EQ(corners, (Corners{{0, 1, 2},
+                              {1, 3, 2},
+                              {2, 3, 4},  // strip
+                              {0, 1, 2},
+                              {0, 2, 3},
+                              {0, 3, 4},  // fan
+                              {4, 1, 0},
+                              {0, 2, 3},
+                              {3, 2, 1}}));
+  EXPECT_EQ(soup.positions.size(), 5u + 5u + 3u + 3u + 3u);
+}
+
+TEST_F(Gltf, ReadsQuantisedPositionsStridesAndSparseValues) {
+  GlbBuilder b;
+  b.document["extensionsUsed"] = {"KHR_mesh_quantization"};
+  b.document["extensionsRequired"] = {"KHR_mesh_quantization"};
+  // Shorts with two bytes of padding: a stride of 8.
+  const std::vector<std::int16_t> shorts = {-32768, 0, 32767, 99, 0, 0, 0, 99, 16384, 0, 0, 99};
+  const int position = b.accessor(shorts, "VEC3", 5122, 3, true);
+  b.document["bufferViews"][0]["byteStride"] = 8;
+  b.primitive({{"POSITION", position}});
+  // No bytes at all but for one replaced element.
+  const std::vector<std::uint8_t> which = {2};
+  const std::vector<float> value = {5, 6, 7};
+  const int sparse = b.add_accessor(
+      {{"componentType", 5126},
+       {"count", 3},
+       {"type", "VEC3"},
+       {"sparse",
+        {{"count", 1},
+         {"indices", {{"bufferView", b.view(which.data(), 1)}, {"componentType", 5121}}},
+         {"values", {{"bufferView", b.view(value.data(), 12)}}}}}});
+  b.primitive({{"POSITION", sparse}});
+  const Scene scene = read(b);
+  const auto& p = soup_of(scene).positions;
+  ASSERT_EQ(p.size(), 6u);
+  EXPECT_EQ(p[0], glm::vec3(-1, 0, 1));
+  EXPECT_NEAR(p[2].x, 16384 / 32767.0, 1e-6);
+  EXPECT_EQ(p[3], glm::vec3(0));
+  EXPECT_EQ(p[5], glm::vec3(5, 6, 7));
+}
+
+TEST_F(Gltf, AppliesTheWholeHierarchyAndInstances) {
+  GlbBuilder b;
+  b.triangle();
+  const double h = std::sqrt(0.5);
+  b.document["nodes"] = {
+      {{"translation", {10, 0, 0}}, {"children", {1, 2}}},
+      {{"rotation", {0, 0, h, h}}, {"scale", {2, 2, 2}}, {"mesh", 0}},  // a quarter turn about z
+      {{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1}}, {"mesh", 0}}};
+  const Scene scene = read(b);
+  const auto& p = soup_of(scene).positions;
+  ASSERT_EQ(p.size(), 6u);
+  const auto near = [](glm::vec3 a, glm::vec3 c) { return glm::length(a - c) < 1e-6f; };
+  EXPECT_TRUE(near(p[1], {10, 2, 0}));
+  EXPECT_TRUE(near(p[2], {8, 0, 0}));
+  EXPECT_TRUE(near(p[4], {11, 0, 5}));
+}
+
+TEST_F(Gltf, RefusesCyclesAndSecondParents) {
+  GlbBuilder b;
+  b.triangle();
+  b.document["nodes"] = {{{"children", {1}}}, {{"children", {0}}, {"mesh", 0}}};
+  EXPECT_THAT(refusal(b), HasSubstr("nodes[0]: is reached twice"));
+  b.document["nodes"] = {{{"children", {1, 2}}}, {{"children", {2}}}, {{"mesh", 0}}};
+  EXPECT_THAT(refusal(b), HasSubstr("nodes[2]: is reached twice"));
+}
+
+TEST_F(Gltf, TakesVertexColoursAsLinearUnlessAPythonToolWroteThem) {
+  const auto make = [](const char* generator) {
+    GlbBuilder b;
+    b.document["asset"]["generator"] = generator;
+    auto& primitive = b.triangle();
+    primitive["attributes"]["COLOR_0"] = b.accessor(
+        std::vector<std::uint8_t>{51, 128, 255, 9, 0, 0, 0, 9, 1, 2, 3, 9}, "VEC4", 5121, 3, true);
+    return b;
+  };
+  const Scene linear = read(make("Some exporter"));
+  EXPECT_NEAR(vertex_colors(linear)[0].x, srgb_from_linear(0.2), 1e-6);
+  EXPECT_EQ(vertex_colors(linear)[0].w, 1.0f);  // OPAQUE
+  EXPECT_THAT(linear.info.notes, Contains(HasSubstr("taken as linear, as glTF says")));
+  for (const char* tool : {"https://github.com/mikedh/trimesh", "Open3D 0.17"}) {
+    const Scene srgb = read(make(tool));
+    EXPECT_EQ(vertex_colors(srgb)[0], glm::vec4(51 / 255.0f, 128 / 255.0f, 1.0f, 1.0f));
+    EXPECT_THAT(srgb.info.notes, Contains(HasSubstr("taken as sRGB")));
+  }
+  EXPECT_EQ(read(make("trimesh")).info.up, glm::vec3(0, 0, 1));
+  EXPECT_EQ(read(make("Open3D")).info.up, glm::vec3(0, 1, 0));
+  const Scene asked = read(make("trimesh"), {.vertex_colors = VertexColorSpace::linear, .progress = {}});
+  EXPECT_NEAR(vertex_colors(asked)[0].x, srgb_from_linear(0.2), 1e-6);
+  EXPECT_THAT(asked.info.notes, Contains(HasSubstr("linear, as asked for")));
+}
+
+TEST_F(Gltf, MultipliesTheFactorInLinearLightAndMovesTheCutoffToAHalf) {
+  GlbBuilder b;
+  auto& primitive = b.triangle();
+  primitive["attributes"]["COLOR_0"] = b.floats({0.5f, 1, 1, 0.2f, 1, 1, 1, 0.3f, 1, 1, 1, 1}, 4);
+  primitive["material"] =
+      b.material({{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 1, 1, 1}}}},
+                  {"alphaMode", "MASK"},
+                  {"alphaCutoff", 0.3f}});
+  const Scene scene = read(b);
+  EXPECT_NEAR(vertex_colors(scene)[0].x, srgb_from_linear(0.25), 1e-6);
+  EXPECT_LT(vertex_colors(scene)[0].w, 0.5f);
+  EXPECT_EQ(vertex_colors(scene)[1].w, 0.5f);
+  EXPECT_GT(vertex_colors(scene)[2].w, 0.5f);
+  EXPECT_THAT(scene.info.notes, Contains(HasSubstr("lit materials are drawn unlit")));
+}
+
+TEST_F(Gltf, ReadsTexturesWithSamplerTransformMaskAndBlend) {
+  GlbBuilder b;
+  Image8 image(2, 1);
+  image.pixels = {{1, 2, 3, 4}, {5, 6, 7, 8}};
+  const int texture = b.texture(image, {{"magFilter", 9728}, {"wrapS", 33071}, {"wrapT", 33648}});
+  auto& primitive = b.triangle();
+  primitive["attributes"]["TEXCOORD_1"] =
+      b.accessor(std::vector<std::uint16_t>{0, 0, 65535, 0, 0, 65535}, "VEC2", 5123, 3, true);
+  const double pi = 3.14159265358979323846;
+  primitive["material"] = b.material({{"pbrMetallicRoughness",
+                                       {{"baseColorFactor", {1, 1, 1, 0.5}},
+                                        {"baseColorTexture",
+                                         {{"index", texture},
+                                          {"extensions",
+                                           {{"KHR_texture_transform",
+                                             {{"offset", {0.25, 0.5}},
+                                              {"rotation", pi / 2},
+                                              {"scale", {2, 3}},
+                                              {"texCoord", 1}}}}}}}}},
+                                      {"alphaMode", "BLEND"},
+                                      {"extensions", {{"KHR_materials_unlit", json::object()}}}});
+  b.document["meshes"][0]["primitives"].push_back(b.document["meshes"][0]["primitives"][0]);
+  b.document["meshes"][0]["primitives"][1].erase("material");
+  const Scene scene = read(b);
+  const UvTextures& t = textures(scene);
+  ASSERT_EQ(t.images.size(), 1u);
+  EXPECT_EQ(t.images[0].pixels, image.pixels);
+  ASSERT_EQ(t.materials.size(), 2u);
+  EXPECT_EQ(t.materials[0].filter, UvMaterial::Filter::nearest);
+  EXPECT_EQ(t.materials[0].wrap_u, UvMaterial::Wrap::clamp);
+  EXPECT_EQ(t.materials[0].wrap_v, UvMaterial::Wrap::mirror);
+  EXPECT_EQ(t.materials[0].factor, glm::vec4(1, 1, 1, 0.5f));
+  EXPECT_EQ(t.materials[0].mask_threshold, 0.5f);
+  EXPECT_TRUE(t.materials[1].images.empty());
+  EXPECT_EQ(t.materials[1].mask_threshold, 0.0f);
+  EXPECT_THAT(t.material_of_face, ::testing::ElementsAre(0, 1));
+  // A quarter turn takes u to -v and v to u.
+  EXPECT_LT(glm::length(t.uv[1] - glm::vec2(0.25f, 0.5f - 2.0f)), 1e-5f);
+  EXPECT_LT(glm::length(t.uv[2] - glm::vec2(0.25f + 3.0f, 0.5f)), 1e-5f);
+  EXPECT_THAT(scene.info.notes, Contains(HasSubstr("blended materials are drawn as cut-outs")));
+  EXPECT_THAT(scene.info.notes, ::testing::Not(Contains(HasSubstr("lit materials"))));
+}
+
+TEST_F(Gltf, ReadsCameras) {
+  GlbBuilder b;
+  b.triangle();
+  b.document["cameras"] =
+      json::array({{{"type", "perspective"},
+                    {"name", "front"},
+                    {"perspective", {{"yfov", 0.8}, {"znear", 0.1}, {"aspectRatio", 1.5}}}}});
+  b.document["nodes"][0]["translation"] = {0, 0, 4};
+  b.document["nodes"][0]["scale"] = {2, 2, 2};
+  b.document["nodes"][0]["camera"] = 0;
+  const Scene scene = read(b);
+  ASSERT_EQ(scene.cameras.size(), 1u);
+  const Camera& camera = scene.cameras[0];
+  EXPECT_EQ(camera.name, "front");
+  EXPECT_EQ(camera.width * 2, camera.height * 3);
+  EXPECT_NEAR(2 * std::atan(0.5 * camera.height / camera.fy), 0.8, 1e-12);
+  EXPECT_NEAR(glm::length(camera.eye() - glm::dvec3(0, 0, 4)), 0.0, 1e-12);
+}
+
+TEST_F(Gltf, RefusesRequiredExtensionsByName) {
+  for (const char* name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
+                           "KHR_texture_basisu", "ACME_plaid"}) {
+    GlbBuilder b;
+    b.triangle();
+    b.document["extensionsRequired"] = {name};
+    EXPECT_THAT(refusal(b), HasSubstr(std::string("requires the extension ") + name));
+  }
+}
+
+TEST_F(Gltf, SaysWhereTheFileIsWrong) {
+  const auto changed = [&](const std::function<void(GlbBuilder&)>& change) {
+    GlbBuilder b;
+    auto& primitive = b.triangle();
+    primitive["indices"] = b.accessor(std::vector<std::uint8_t>{0, 1, 2}, "SCALAR", 5121, 3);
+    change(b);
+    return refusal(b);
+  };
+  EXPECT_EQ(changed([](GlbBuilder&) {}), "accepted");
+  EXPECT_THAT(changed([](auto& b) { b.document["accessors"][0]["count"] = 4; }),
+              HasSubstr("accessors[0]: 4 elements of 12 bytes"));
+  EXPECT_THAT(changed([](auto& b) { b.document["accessors"][0]["count"] = 18446744073709551615u; }),
+              HasSubstr("accessors[0]"));
+  EXPECT_THAT(changed([](auto& b) { b.document["accessors"][0]["byteOffset"] = 8; }),
+              HasSubstr("accessors[0]: 3 elements"));
+  EXPECT_THAT(changed([](auto& b) { b.document["accessors"][0]["bufferView"] = 9; }),
+              HasSubstr("accessors[0]: names buffer view 9 of 2"));
+  EXPECT_THAT(changed([](auto& b) { b.document["accessors"][0]["type"] = "VEC2"; }),
+              HasSubstr("accessors[0]: has elements of the wrong type"));
+  EXPECT_THAT(changed([](auto& b) { b.document["accessors"][0]["componentType"] = 5130; }),
+              HasSubstr("accessors[0]: component type 5130"));
+  EXPECT_THAT(changed([](auto& b) {
+                b.document["accessors"][0].erase("bufferView");
+                b.document["accessors"][0]["count"] = 1u << 30;
+              }),
+              HasSubstr("without bytes of their own are too many"));
+  EXPECT_THAT(changed([](auto& b) { b.document["bufferViews"][0]["byteStride"] = 4; }),
+              HasSubstr("its stride of 4 bytes is less"));
+  EXPECT_THAT(changed([](auto& b) { b.document["bufferViews"][0]["byteOffset"] = 1e9; }),
+              HasSubstr("bufferViews[0]"));
+  EXPECT_THAT(changed([](auto& b) { b.document["bufferViews"][0]["buffer"] = 3; }),
+              HasSubstr("bufferViews[0]: names buffer 3 of 1"));
+  EXPECT_THAT(changed([](auto& b) {
+                b.document["accessors"][0]["count"] = 2;  // index 2 is now one too many
+              }),
+              HasSubstr("accessors[1]: index 2 names vertex 2 of 2"));
+  EXPECT_THAT(changed([](auto& b) { b.document["nodes"][0]["mesh"] = 4; }),
+              HasSubstr("there is no mesh 4 of 1"));
+  EXPECT_THAT(changed([](auto& b) { b.document["scene"] = 4; }),
+              HasSubstr("there is no scene 4 of 1"));
+  EXPECT_THAT(changed([](auto& b) { b.document["meshes"][0]["primitives"][0]["material"] = 2; }),
+              HasSubstr("there is no material 2 of 0"));
+  EXPECT_THAT(changed([](auto& b) {
+                b.document["nodes"][0]["scale"] = {1, 2};
+              }),
+              HasSubstr("nodes[0].scale: expected 3 numbers"));
+  EXPECT_THAT(changed([](auto& b) { b.document["asset"]["version"] = "1.0"; }),
+              HasSubstr("asset.version: glTF 1.0; 2.0 is read"));
+  EXPECT_THAT(changed([](auto& b) { b.document["meshes"][0]["primitives"][0]["mode"] = 1; }),
+              HasSubstr("the file holds no triangles"));
+  EXPECT_THAT(changed([](auto& b) {
+                json deep = 1;
+                for (int i = 0; i < 100; ++i) deep = json::array({deep});
+                b.document["extras"] = deep;
+              }),
+              HasSubstr("nested deeper than 64"));
+}
+
+TEST_F(Gltf, InstancesCannotFillTheMemory) {
+  GlbBuilder b;
+  b.primitive({{"POSITION",
+                b.add_accessor({{"componentType", 5126}, {"count", 3000000}, {"type", "VEC3"}})}});
+  b.document["nodes"] = json::array();
+  json& roots = b.document["scenes"][0]["nodes"] = json::array();
+  for (int i = 0; i < 100; ++i) {
+    b.document["nodes"].push_back({{"mesh", 0}});
+    roots.push_back(i);
+  }
+  EXPECT_THAT(refusal(b), HasSubstr("repeat its meshes to more than 16777216 vertices"));
+}
+
+TEST_F(Gltf, OpensFilesInItsFolderOnly) {
+  GlbBuilder b;
+  b.triangle();
+  json document = b.document;
+  document["buffers"] = json::array({{{"byteLength", b.bytes().size()}, {"uri", "sub/a b.bin"}}});
+  std::filesystem::create_directories(folder_ / "scene" / "sub");
+  save("scene/sub/a b.bin", b.bytes());
+  save("outside.bin", b.bytes());
+  std::filesystem::create_symlink(folder_ / "outside.bin", folder_ / "scene" / "link.bin");
+  const auto with_uri = [&](const std::string& uri) -> std::string {
+    document["buffers"][0]["uri"] = uri;
+    const std::string text = document.dump();
+    const auto path = save("scene/a.gltf", std::as_bytes(std::span(text)));
+    try {
+      const Scene scene = read_gltf_or_glb(path);
+      return "read " + std::to_string(soup_of(scene).triangles.size());
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.place().file, path.string());
+      return error.reason();
+    }
+  };
+  EXPECT_EQ(with_uri("sub/a%20b.bin"), "read 1");
+  EXPECT_THAT(with_uri("../outside.bin"),
+              HasSubstr("buffers[0].uri: \"../outside.bin\" leads out"));
+  EXPECT_THAT(with_uri((folder_ / "outside.bin").string()), HasSubstr("absolute"));
+  EXPECT_THAT(with_uri("link.bin"), HasSubstr("link that leads out"));
+  EXPECT_THAT(with_uri("missing.bin"), HasSubstr("no such file"));
+  EXPECT_THAT(with_uri("data:application/octet-stream;base64,AAAA"), HasSubstr("holds 3 bytes"));
+  document["buffers"][0]["byteLength"] = 1u << 30;
+  EXPECT_THAT(with_uri("sub/a%20b.bin"), HasSubstr("cut short"));
+}
+
+TEST_F(Gltf, SurvivesTruncationAndDamage) {
+  GlbBuilder b;
+  auto& primitive = b.triangle();
+  primitive["indices"] = b.accessor(std::vector<std::uint8_t>{0, 1, 2}, "SCALAR", 5121, 3);
+  primitive["attributes"]["TEXCOORD_0"] = b.floats({0, 0, 1, 0, 0, 1}, 2);
+  primitive["material"] = b.material(
+      {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", b.texture(Image8(2, 2))}}}}}});
+  const auto bytes = b.glb();
+  const auto read_bytes = [&](std::span<const std::byte> damaged) {
+    EXPECT_FALSE(defect(soup_of(read_gltf_or_glb(save("damaged.glb", damaged)))));
+  };
+  EXPECT_EQ(testing::survive_truncation(bytes, read_bytes).read, 0u);
+  testing::Survival survival;
+  std::vector<std::byte> damaged(bytes);
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    for (const unsigned flip : {0x01u, 0x08u, 0x40u, 0xffu}) {
+      damaged[i] = bytes[i] ^ std::byte(flip);
+      testing::expect_survival(damaged, read_bytes, "byte " + std::to_string(i), survival);
+      damaged[i] = bytes[i];
+    }
+  EXPECT_GT(survival.refused, bytes.size());
+}
+
+TEST_F(Gltf, DispatchesOurOwnFiles) {
+  Scene scene;
+  scene.info.name = "ours";
+  TriangleSoup soup;
+  soup.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  soup.triangles = {{0, 1, 2}};
+  soup.appearance = FaceColors{{{0.1f, 0.2f, 0.3f, 1.0f}}};
+  scene.primitives = soup;
+  write_tureen_glb(scene, folder_ / "ours.glb");
+  const Scene back = read_gltf_or_glb(folder_ / "ours.glb");
+  EXPECT_EQ(back.info.name, "ours");
+  EXPECT_TRUE(std::holds_alternative<FaceColors>(soup_of(back).appearance));
+}
+
+const std::filesystem::path data = std::filesystem::path(TUREEN_SOURCE_DIR) / "../shared/data";
+
+TEST_F(Gltf, HostileFilesEndInAResultOrASentence) {
+  if (!std::filesystem::exists(data / "hostile/gltf")) GTEST_SKIP() << "no shared data";
+  std::size_t read_count = 0, refused = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(data / "hostile/gltf")) {
+    const auto extension = entry.path().extension();
+    if (extension != ".gltf" && extension != ".glb") continue;
+    SCOPED_TRACE(entry.path().string());
+    try {
+      const Scene scene = read_gltf_or_glb(entry.path());
+      EXPECT_FALSE(defect(soup_of(scene)));
+      EXPECT_FALSE(soup_of(scene).triangles.empty());
+      std::printf("  read     %s (%zu triangles)\n", entry.path().filename().c_str(),
+                  soup_of(scene).triangles.size());
+      ++read_count;
+    } catch (const InputError& error) {
+      EXPECT_FALSE(error.place().file.empty());
+      EXPECT_GT(error.reason().size(), 10u) << error.reason();
+      std::printf("  refused  %s: %s\n", entry.path().filename().c_str(), error.reason().c_str());
+      ++refused;
+    }
+  }
+  EXPECT_GT(read_count, 3u);
+  EXPECT_GT(refused, 30u);
+}
+
+TEST_F(Gltf, ReadsTheFicus) {
+  const auto path = data / "soups/ficus_2dts.glb";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no shared data";
+  const Scene scene = read_gltf_or_glb(path);
+  const TriangleSoup& soup = soup_of(scene);
+  EXPECT_EQ(soup.triangles.size(), 33417u);
+  EXPECT_EQ(soup.positions.size(), 100251u);
+  const Bounds box = bounds(soup);
+  EXPECT_FLOAT_EQ(box.high.z, 1.141271948814392f);
+  EXPECT_FLOAT_EQ(box.low.y, -0.857197105884552f);
+  EXPECT_EQ(scene.info.up, glm::vec3(0, 0, 1));
+  EXPECT_THAT(scene.info.notes, Contains(HasSubstr("--up changes it")));
+  EXPECT_THAT(scene.info.notes, Contains(HasSubstr("taken as sRGB")));
+}
+
+}  // namespace
+}  // namespace tureen
