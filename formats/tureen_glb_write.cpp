@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "formats/output.hpp"
@@ -277,6 +278,23 @@ bool is_unshared(const TriangleSoup& soup) {
   return true;
 }
 
+struct Range {
+  glm::vec3 low{std::numeric_limits<float>::infinity()};
+  glm::vec3 high{-std::numeric_limits<float>::infinity()};
+};
+
+/// glTF's min and max of an accessor, coordinate by coordinate.
+Range finite_range(const std::vector<glm::vec3>& positions) {
+  Range range;
+  for (const glm::vec3& p : positions)
+    for (int k = 0; k < 3; ++k)
+      if (std::isfinite(p[k])) {
+        range.low[k] = std::min(range.low[k], p[k]);
+        range.high[k] = std::max(range.high[k], p[k]);
+      }
+  return range;
+}
+
 glm::u16vec4 linear_unorm16(const glm::vec3& display) {
   const glm::dvec3 linear = linear_from_srgb(glm::dvec3(display));
   return glm::u16vec4(glm::dvec4(linear, 1.0) * 65535.0 + 0.5);
@@ -290,13 +308,7 @@ json add_mesh(BinaryPlan& plan, json& extension, const TriangleSoup& soup) {
   const bool unshared = is_unshared(soup);
   const std::size_t faces = soup.triangles.size();
 
-  glm::vec3 low(std::numeric_limits<float>::infinity()), high(-low);
-  for (const glm::vec3& p : soup.positions)
-    for (int k = 0; k < 3; ++k)
-      if (std::isfinite(p[k])) {
-        low[k] = std::min(low[k], p[k]);
-        high[k] = std::max(high[k], p[k]);
-      }
+  std::vector<glm::vec3> corners;  // of the unshared copy, where there is one
 
   if (unshared || vertex_colors) {
     plan.accessor(attributes, "POSITION", bytes_of(soup.positions), vec3_float);
@@ -306,7 +318,6 @@ json add_mesh(BinaryPlan& plan, json& extension, const TriangleSoup& soup) {
       if (primitive.contains("indices")) extension["triangles"] = primitive["indices"];
     }
   } else {
-    std::vector<glm::vec3> corners;
     corners.reserve(3 * faces);
     for (const glm::uvec3& triangle : soup.triangles)
       for (int k = 0; k < 3; ++k) corners.push_back(soup.positions[triangle[k]]);
@@ -315,6 +326,7 @@ json add_mesh(BinaryPlan& plan, json& extension, const TriangleSoup& soup) {
     plan.accessor(extension, "triangles", bytes_of(soup.triangles), scalar_u32);
   }
   if (faces == 0 || !attributes.contains("POSITION")) return nullptr;
+  const auto [low, high] = finite_range(corners.empty() ? soup.positions : corners);
   if (low.x <= high.x && low.y <= high.y && low.z <= high.z) {
     json& accessor = plan.accessors[attributes["POSITION"].get<std::size_t>()];
     accessor["min"] = {low.x, low.y, low.z};
