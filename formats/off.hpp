@@ -33,7 +33,7 @@ Scene read_off(const std::filesystem::path& path, const ReadOptions& options = {
 
 /// Positions are written so that they read back bit for bit; colours as bytes, rounded, with alpha
 /// where it is not 1. FaceColors make an "OFF", VertexColors a "COFF". Returns what is lost.
-/// Throws UsageError where the appearance has no colours of its own, and OutputError.
+/// Other appearances become a mean colour a face. Throws OutputError.
 std::vector<std::string> write_off(const Scene& scene, const std::filesystem::path& path);
 
 }  // namespace tureen

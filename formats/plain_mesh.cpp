@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "soup/error.hpp"
+#include "soup/mean_color.hpp"
 #include "soup/quantise.hpp"
 
 namespace tureen {
@@ -119,8 +119,7 @@ PlainMesh::PlainMesh(const Scene& scene, const std::string& format) {
   } else {
     soup_ = &std::get<TriangleSoup>(scene.primitives);
   }
-  if (!face_rgba() && !vertex_rgba())
-    throw UsageError(format + " cannot hold " + appearance_name(soup_->appearance));
+  if (!face_rgba() && !vertex_rgba()) use_mean_colors(format);
   if (scene.info.up != assumed_up)
     lost.push_back(format + " knows no up axis; readers will assume (0, 0, 1).");
   if (scene.info.background != glm::vec3(0.0f))
@@ -128,6 +127,20 @@ PlainMesh::PlainMesh(const Scene& scene, const std::string& format) {
   if (!scene.cameras.empty()) lost.push_back(format + " holds no cameras.");
   if (scene.origin != glm::dvec3(0.0))
     lost.push_back(format + " holds no origin: positions are written relative to it.");
+}
+
+void PlainMesh::use_mean_colors(const std::string& format) {
+  FaceColors colors;
+  colors.rgba.reserve(soup_->triangles.size());
+  for (const glm::vec3& color : mean_colors(*soup_)) colors.rgba.emplace_back(color, 1.0f);
+  lost.push_back(format + " cannot hold " + appearance_name(soup_->appearance) +
+                 ": each face gets its mean colour, opaque.");
+  if (own_) {
+    own_->appearance = std::move(colors);
+  } else {
+    own_ = TriangleSoup{soup_->positions, soup_->triangles, std::move(colors)};
+    soup_ = &*own_;
+  }
 }
 
 const std::vector<glm::vec4>* PlainMesh::face_rgba() const {

@@ -70,13 +70,15 @@ class ProgressMeter {
   std::uint64_t steps_ = 0;
 };
 
-/// A scene as coloured triangles: its own soup where that has FaceColors or VertexColors, a
-/// stand-in otherwise.
+/// A scene as coloured triangles: its own soup where that has FaceColors or VertexColors, otherwise
+/// a copy of its triangles with the mean colour of each face (soup/mean_color.hpp), and a sentence.
 class PlainMesh {
  public:
   /// `format` names the format in the sentences. Keeps a reference to the scene where it can.
   PlainMesh(const Scene& scene, const std::string& format);
   PlainMesh(Scene&&, const std::string&) = delete;
+  PlainMesh(const PlainMesh&) = delete;
+  PlainMesh& operator=(const PlainMesh&) = delete;
 
   const TriangleSoup& soup() const { return *soup_; }
   /// Null where the other one is there.
@@ -86,8 +88,10 @@ class PlainMesh {
   std::vector<std::string> lost;
 
  private:
+  void use_mean_colors(const std::string& format);
+
   std::optional<TriangleSoup> own_;
-  const TriangleSoup* soup_ = nullptr;
+  const TriangleSoup* soup_ = nullptr;  // the scene's, or own_
 };
 
 /// The up axis of files that know none, and the sentence that says so.

@@ -27,8 +27,8 @@ Scene read_ply(Input& input, const ReadOptions& options = {});
 Scene read_ply(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// Binary, little endian; reads back bit for bit. Colours are uchar where that is exact, float
-/// where it is not; alpha is always there. Returns what is lost. Throws UsageError where the
-/// appearance has no colours of its own, and OutputError.
+/// where it is not; alpha is always there. Returns what is lost. Other
+/// appearances become a mean colour a face. Throws OutputError.
 std::vector<std::string> write_ply(const Scene& scene, const std::filesystem::path& path);
 
 }  // namespace tureen

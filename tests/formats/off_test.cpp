@@ -10,6 +10,7 @@
 
 #include "formats/format_testing.hpp"
 #include "formats/truncation.hpp"
+#include "soup/spherical_harmonics.hpp"
 
 namespace tureen {
 namespace {
@@ -233,6 +234,35 @@ TEST(Off, SaysWhatWritingLoses) {
   // Half up: an alpha of one half stays drawn.
   EXPECT_THAT(face_rgba(read_off(folder / "a.off")),
               ElementsAre(glm::vec4(128 / 255.0f, 0, 0, 128 / 255.0f)));
+}
+
+TEST(Off, WritesMeanColoursOfOtherAppearances) {
+  // Harmonics of degree 0 have the same colour from everywhere: 1/2 + Y_00 c.
+  TriangleSoup soup;
+  soup.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  soup.triangles.emplace_back(0, 1, 2);
+  const auto c = float(0.1 / harmonics::y00);
+  soup.appearance = Harmonics{.degree = 0, .coefficients = {glm::vec3(c, 0.0f, -c)}};
+  Scene scene;
+  scene.info.up = {0, 0, 1};
+  scene.primitives = soup;
+  const TemporaryFolder folder;
+  EXPECT_THAT(write_off(scene, folder / "a.off"),
+              ElementsAre("OFF cannot hold face harmonics: each face gets its mean colour, opaque.",
+                          "OFF holds colours in 8 bits: they are rounded."));
+  const Scene again = read_off(folder / "a.off");
+  EXPECT_EQ(soup_of(again).positions, soup.positions);
+  EXPECT_THAT(face_rgba(again), ElementsAre(glm::vec4(153, 128, 102, 255) / 255.0f));
+
+  SoftTriangles soft;
+  soft.positions = soup.positions;
+  soft.sigma = {1.0f};
+  soft.opacity = {0.9f};
+  soft.coefficients = {glm::vec3(c, 0.0f, -c)};
+  scene.primitives = soft;
+  EXPECT_THAT(write_off(scene, folder / "b.off"),
+              Contains(HasSubstr("cannot hold face harmonics")));
+  EXPECT_EQ(face_rgba(read_off(folder / "b.off")), face_rgba(again));
 }
 
 TEST(Off, ReportsProgress) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <set>
 #include <string>
 
 #include "formats/format_testing.hpp"
@@ -62,6 +63,15 @@ TEST(SceneFile, FindsMobileNerfByItsFolderAndByItsObj) {
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
   for (const char* name : {"", "/shape2.obj"})
     EXPECT_EQ(soup_of(read_scene(folder + name)).triangles.size(), 11026u) << name;
+}
+
+TEST(SceneFile, EveryFormatStandsInTheTableOnce) {
+  std::set<std::string> names, extensions;
+  for (const FormatInfo& format : known_formats()) {
+    EXPECT_TRUE(names.insert(format.name).second) << format.name;
+    for (const std::string& extension : format.extensions)
+      EXPECT_TRUE(extensions.insert(extension).second) << extension;
+  }
 }
 
 TEST(SceneFile, WritesByExtension) {
