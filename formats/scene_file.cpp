@@ -78,6 +78,12 @@ const std::vector<Format>& formats() {
        .extensions = {".pt"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_checkpoint(c.head); },
        .read = [](const Path& path, const ReadOptions& o) { return read_checkpoint(path, o); }},
+      {.name = "MobileNeRF",
+       .description = "a folder of shapes with feature textures and a color MLP, or a file of it",
+       .extensions = {".obj"},
+       .is_folder = true,
+       .recognises = [](const Candidate& c) { return is_mobilenerf(c.path); },
+       .read = read_mobilenerf},
   };
   return table;
 }
