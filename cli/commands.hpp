@@ -1,0 +1,21 @@
+// The subcommands, one file each. Adding one: a function here, its file, a line in program.cpp.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <functional>
+
+#include "cli/exit_code.hpp"
+
+namespace tureen::cli {
+
+/// What the chosen subcommand does, set while arguments are parsed and called afterwards.
+using Action = std::function<ExitCode()>;
+
+void add_compare(CLI::App& program, Action& action);
+void add_convert(CLI::App& program, Action& action);
+void add_info(CLI::App& program, Action& action);
+void add_render(CLI::App& program, Action& action);
+
+}  // namespace tureen::cli

@@ -1,0 +1,141 @@
+// `tureen compare`: how far two pictures are apart.
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "cli/choice.hpp"
+#include "cli/commands.hpp"
+#include "cli/heat_map.hpp"
+#include "cli/picture_file.hpp"
+#include "cli/report.hpp"
+#include "cli/values.hpp"
+#include "soup/error.hpp"
+#include "soup/metrics.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+/// A metric by name, and which way is worse.
+struct NamedMetric {
+  const char* key;  // in JSON and for --metric
+  double Metrics::*value;
+  bool lower_is_worse;
+  const char* meaning;
+};
+
+constexpr std::array named_metrics{
+    NamedMetric{"mae", &Metrics::mae, false, "mean absolute difference"},
+    NamedMetric{"mse", &Metrics::mse, false, "mean squared difference"},
+    NamedMetric{"psnr_db", &Metrics::psnr_db, true, "peak signal to noise, 100 when equal"},
+    NamedMetric{"ssim", &Metrics::ssim, true, "structural similarity, 1 when equal"},
+    NamedMetric{"flip", &Metrics::flip, false, "perceived difference, 67 pixels per degree"},
+    NamedMetric{"max_abs", &Metrics::max_abs, false, "largest difference in a channel"},
+    NamedMetric{"p999_abs", &Metrics::p999_abs, false, "99.9 % of channels differ by no more"},
+    NamedMetric{"coverage_mismatch", &Metrics::coverage_mismatch, false,
+                "fraction of pixels that one picture hits (alpha >= 1/2)"},
+    NamedMetric{"failing_fraction", &Metrics::failing_fraction, false,
+                "fraction of pixels off by more than --pixel-tolerance"},
+};
+
+struct Options {
+  std::string a, b, diff, background = "black";
+  const NamedMetric* metric = &named_metrics.front();  // that --tolerance is held against
+  std::optional<double> tolerance;
+  MetricOptions metrics;
+  bool json = false;
+};
+
+Json to_json(const Options& options, const Metrics& metrics, std::optional<bool> passed) {
+  Json json;
+  for (const NamedMetric& metric : named_metrics) json[metric.key] = metrics.*metric.value;
+  json["ssim_border"] = name(options.metrics.ssim_border);
+  json["non_finite"] = metrics.non_finite;
+  if (passed) {
+    json["metric"] = options.metric->key;
+    json["tolerance"] = *options.tolerance;
+    json["passed"] = *passed;
+  }
+  return json;
+}
+
+ExitCode compare_pictures(const Options& options) {
+  if (!options.diff.empty()) require_png_name(options.diff);
+  const glm::vec3 background(parse_background(options.background));
+  const ImageF a = composited(to_float(read_picture(options.a)), background);
+  const ImageF b = composited(to_float(read_picture(options.b)), background);
+  const Metrics metrics = compare(a, b, options.metrics);
+
+  std::optional<bool> passed;
+  const NamedMetric& metric = *options.metric;
+  const double value = metrics.*metric.value;
+  if (options.tolerance)
+    passed = metric.lower_is_worse ? value >= *options.tolerance : value <= *options.tolerance;
+
+  if (!options.diff.empty()) write_picture(side_by_side(a, b), options.diff);
+  if (options.json)
+    print_json(to_json(options, metrics, passed));
+  else
+    for (const NamedMetric& m : named_metrics)
+      say(fmt::format("{:<18} {:>12.6g}   {}", m.key, metrics.*m.value, m.meaning));
+  if (passed == false)
+    say(fmt::format("tureen: the pictures differ: {} is {:.6g}, the tolerance is {:.6g}",
+                    metric.key, value, *options.tolerance));
+  return passed == false ? ExitCode::check_failed : ExitCode::done;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& program, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("compare", "How far two pictures are apart");
+  command->footer(R"(Pictures with alpha are compared as they look on --background.
+
+Examples:
+  tureen compare ours.png theirs.png
+  tureen compare ours.png theirs.png --tolerance 0.002             fails when the mean
+                                                                   difference is larger
+  tureen compare ours.png theirs.png --metric psnr_db --tolerance 45
+                                                                   fails below 45 dB
+  tureen compare ours.png theirs.png --diff where.png              both, and a heat map
+
+Exit codes: 0 done, 1 past --tolerance, 2 wrong usage, 3 a picture cannot be read.)");
+  command->add_option("A", options->a, "a PNG or JPEG")->required()->type_name("");
+  command->add_option("B", options->b, "another of the same size")->required()->type_name("");
+  command->add_flag("--json", options->json, "the numbers as JSON on standard output");
+  command
+      ->add_option("--tolerance", options->tolerance,
+                   "exit with 1 when --metric is worse than this")
+      ->option_text("VALUE");
+  std::vector<std::pair<std::string, const NamedMetric*>> metrics;
+  for (const NamedMetric& metric : named_metrics) metrics.emplace_back(metric.key, &metric);
+  add_choice<const NamedMetric*>(*command, "--metric", options->metric, metrics,
+                                 "what --tolerance is held against: one of the names that are "
+                                 "printed; mae by default")
+      ->option_text("NAME");
+  command
+      ->add_option("--pixel-tolerance", options->metrics.pixel_tolerance,
+                   "a pixel fails when a channel is off by more than this; 1/255 by default")
+      ->check(CLI::Range(0.0, 1.0))
+      ->option_text("VALUE");
+  std::vector<std::pair<std::string, SsimBorder>> borders;
+  for (const SsimBorder border : {SsimBorder::zero_pad, SsimBorder::valid, SsimBorder::uniform7})
+    borders.emplace_back(name(border), border);
+  add_choice<SsimBorder>(*command, "--ssim-border", options->metrics.ssim_border, borders,
+                         "zero_pad (default; as 3DGS reports), valid, or uniform7 (scikit-image)")
+      ->option_text("MODE");
+  command
+      ->add_option("--background", options->background,
+                   "what shows through alpha: black (default), white, or r,g,b from 0 to 1")
+      ->option_text("COLOR");
+  command
+      ->add_option("--diff", options->diff,
+                   "write A, B and a heat map of their differences side by side")
+      ->option_text("OUT.png");
+  command->callback(
+      [options, &action] { action = [options] { return compare_pictures(*options); }; });
+}
+
+}  // namespace tureen::cli

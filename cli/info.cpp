@@ -1,0 +1,244 @@
+// `tureen info`: what a scene is, what it costs, and what is odd about it.
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/report.hpp"
+#include "cli/scene_argument.hpp"
+#include "formats/camera_file.hpp"
+#include "runtime/device_forecast.hpp"
+#include "runtime/plan.hpp"
+#include "soup/lint.hpp"
+#include "soup/spherical_harmonics.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+struct Options {
+  SceneArgument scene;
+  bool strict = false;
+  bool json = false;
+};
+
+Json to_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+const char* name(DirectionEncoding encoding) {
+  switch (encoding) {
+    case DirectionEncoding::none:
+      return "none";
+    case DirectionEncoding::xyz:
+      return "xyz";
+    case DirectionEncoding::harmonics2:
+      return "harmonics2";
+  }
+  return "";
+}
+
+const char* name(ViewConvention view) {
+  return view == ViewConvention::surface_to_eye ? "surface_to_eye" : "eye_to_surface";
+}
+
+Json mlp_json(const ColorMlp& mlp) {
+  Json widths = {mlp.layers.front().inputs};
+  for (const DenseLayer& layer : mlp.layers) widths.push_back(layer.outputs);
+  return {{"layers", widths},
+          {"direction_encoding", name(mlp.encoding)},
+          {"view_direction", name(mlp.view)},
+          {"blend_channel", mlp.blend_channel ? Json(*mlp.blend_channel) : Json(nullptr)}};
+}
+
+/// "16-16-16-3".
+std::string mlp_text(const ColorMlp& mlp) {
+  std::string text = std::to_string(mlp.layers.front().inputs);
+  for (const DenseLayer& layer : mlp.layers) text += "-" + std::to_string(layer.outputs);
+  return text;
+}
+
+/// The appearance in keys for programs and sentences for people.
+struct Described {
+  Json json = Json::object();
+  std::vector<std::string> lines;
+
+  void operator()(const FaceColors&) {}
+  void operator()(const VertexColors&) {}
+  void operator()(const Harmonics& sh) {
+    json["degree"] = sh.degree;
+    json["view_direction"] = name(sh.view);
+    lines.push_back(fmt::format("harmonics of degree {}, {} coefficients", sh.degree,
+                                harmonics::count(sh.degree)));
+  }
+  void operator()(const LatticeTexture& texture) {
+    std::map<std::uint32_t, std::size_t> faces_of_level;
+    for (const LatticePatch& patch : texture.patches) ++faces_of_level[patch.level];
+    json["levels"] = Json::array();
+    std::string text;
+    for (const auto& [level, faces] : faces_of_level) {
+      json["levels"].push_back({{"level", level}, {"triangles", faces}});
+      text +=
+          fmt::format("{}level {}: {} triangles", text.empty() ? "" : ", ", level, counted(faces));
+    }
+    json["texels"] = texture.texel_count();
+    json["texel_bits"] = texture.is_float() ? 32 : 8;
+    lines.push_back(text);
+    lines.push_back(fmt::format("{} texels of {} bits a channel", counted(texture.texel_count()),
+                                texture.is_float() ? 32 : 8));
+    describe(texture.mlp);
+  }
+  void operator()(const UvTextures& textures) {
+    json["materials"] = textures.materials.size();
+    json["images"] = Json::array();
+    for (const Image8& image : textures.images) {
+      json["images"].push_back({{"width", image.width}, {"height", image.height}});
+      lines.push_back(fmt::format("image of {} x {}", image.width, image.height));
+    }
+    describe(textures.mlp);
+  }
+
+ private:
+  void describe(const std::optional<ColorMlp>& mlp) {
+    if (!mlp) return;
+    json["color_mlp"] = mlp_json(*mlp);
+    lines.push_back("color MLP " + mlp_text(*mlp));
+  }
+};
+
+Json to_json(const LintFinding& finding) {
+  return {{"count", finding.count}, {"first", finding.first}};
+}
+
+Json to_json(const Lint& lint) {
+  return {{"clean", lint.sentences.empty()},
+          {"non_finite_vertices", to_json(lint.non_finite_vertices)},
+          {"degenerate_faces", to_json(lint.degenerate_faces)},
+          {"duplicate_faces", to_json(lint.duplicate_faces)},
+          {"never_visible_faces", to_json(lint.never_visible_faces)},
+          {"unused_vertices", to_json(lint.unused_vertices)},
+          {"extent_over_offset", lint.extent_over_offset},
+          {"sentences", lint.sentences}};
+}
+
+struct NamedDevice {
+  const char* name;
+  DeviceLimits limits;
+};
+
+/// What common devices report for GL_MAX_TEXTURE_SIZE and GL_MAX_ARRAY_TEXTURE_LAYERS.
+const std::vector<NamedDevice>& named_devices() {
+  static const std::vector<NamedDevice> devices{
+      {"the least of OpenGL ES 3.0 and WebGL 2", {2048, 256, false}},
+      {"older phones", {4096, 512, false}},
+      {"phones, browsers without a GPU", {8192, 2048, false}},
+      {"desktop GPUs, llvmpipe", {16384, 2048, true}},
+  };
+  return devices;
+}
+
+ExitCode inform(const Options& options) {
+  Scene scene = read(options.scene);
+  const bool soft = std::holds_alternative<SoftTriangles>(scene.primitives);
+  const TriangleSoup& soup = opaque_soup(scene);
+  const Bounds box = bounds(soup);
+  const glm::dvec3 low = scene.origin + glm::dvec3(box.low);
+  const glm::dvec3 high = scene.origin + glm::dvec3(box.high);
+  const std::uint64_t on_disk = bytes_on_disk(options.scene.path);
+  const RenderPlan plan = make_plan(soup, named_devices().back().limits);
+  const DeviceForecast forecast = device_forecast(soup, plan);
+  const Lint findings = lint(soup);
+  Described appearance;
+  std::visit(appearance, soup.appearance);
+
+  Json devices = Json::array();
+  std::vector<std::string> device_lines;
+  bool fits_everywhere = true;
+  for (const NamedDevice& device : named_devices()) {
+    const std::uint64_t capacity = texel_capacity(device.limits);
+    const bool fits = forecast.largest_store_texels <= capacity;
+    fits_everywhere = fits_everywhere && fits;
+    devices.push_back({{"name", device.name},
+                       {"max_texture_size", device.limits.max_texture_size},
+                       {"max_array_layers", device.limits.max_array_layers},
+                       {"fits", fits}});
+    device_lines.push_back(
+        fmt::format("{} ({} x {}, {} layers): {}", device.name, device.limits.max_texture_size,
+                    device.limits.max_texture_size, device.limits.max_array_layers,
+                    fits ? "fits"
+                         : fmt::format("does not fit: {} has {} texels, a texture holds {}",
+                                       forecast.largest_store,
+                                       counted(forecast.largest_store_texels), counted(capacity))));
+  }
+
+  say(fmt::format("{}: {}", options.scene.path,
+                  scene.info.source.empty() ? "a scene" : scene.info.source));
+  if (!scene.info.name.empty()) say("  name         " + scene.info.name);
+  say(fmt::format("  triangles    {} of {} vertices{}", counted(soup.triangles.size()),
+                  counted(soup.positions.size()), soft ? ", soft ones, drawn as opaque" : ""));
+  say(fmt::format("  appearance   {}", appearance_name(soup.appearance)));
+  for (const std::string& line : appearance.lines) say("               " + line);
+  say(fmt::format("  bytes        {} on disk, {} in memory, {} on the device", bytes_text(on_disk),
+                  bytes_text(byte_size(soup)), bytes_text(forecast.bytes)));
+  say(fmt::format("  bounds       ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", low.x,
+                  low.y, low.z, high.x, high.y, high.z));
+  say(fmt::format("  up           ({:.6g}, {:.6g}, {:.6g})", scene.info.up.x, scene.info.up.y,
+                  scene.info.up.z));
+  say(fmt::format("  cameras      {}", scene.cameras.size()));
+  say_list("Notes:", scene.info.notes);
+  say_list("Plan:", plan.sentences);
+  say_list("Devices:", device_lines);
+  say_list("Lint:", findings.sentences.empty() ? std::vector<std::string>{"nothing found"}
+                                               : findings.sentences);
+
+  if (options.json) {
+    Json json = {{"file", options.scene.path},
+                 {"name", scene.info.name},
+                 {"source", scene.info.source},
+                 {"triangles", soup.triangles.size()},
+                 {"vertices", soup.positions.size()},
+                 {"soft_triangles", soft},
+                 {"appearance", appearance_name(soup.appearance)}};
+    json.update(appearance.json);
+    json.update({{"bytes_on_disk", on_disk},
+                 {"bytes_in_memory", byte_size(soup)},
+                 {"bytes_on_device", forecast.bytes},
+                 {"bounds", {{"low", to_json(low)}, {"high", to_json(high)}}},
+                 {"origin", to_json(scene.origin)},
+                 {"up", to_json(glm::dvec3(scene.info.up))},
+                 {"background", to_json(glm::dvec3(scene.info.background))},
+                 {"cameras", Json::parse(cameras_to_json(scene.cameras)).at("cameras")},
+                 {"notes", scene.info.notes},
+                 {"plan", plan.sentences},
+                 {"devices", devices},
+                 {"lint", to_json(findings)}});
+    print_json(json);
+  }
+  const bool clean = findings.sentences.empty() && fits_everywhere;
+  return options.strict && !clean ? ExitCode::check_failed : ExitCode::done;
+}
+
+}  // namespace
+
+void add_info(CLI::App& program, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("info", "What a scene is, what it costs, what is odd about it");
+  command->footer(
+      R"(Lint finds vertices that are not finite, faces without area, faces that repeat another or
+are transparent everywhere, vertices that no face uses, and coordinates too large for
+their floats. None of it keeps the scene from being drawn. The "cameras" of --json can be
+given to render --camera.
+
+Examples:
+  tureen info soup.glb
+  tureen info soup.glb --json | jq .triangles
+  tureen info soup.glb --strict               exit with 1 when lint finds anything, or the
+                                              scene fits only on some devices)");
+  add_scene_argument(*command, options->scene);
+  command->add_flag("--json", options->json, "everything as JSON on standard output");
+  command->add_flag("--strict", options->strict,
+                    "exit with 1 when there is anything to complain of");
+  command->callback([options, &action] { action = [options] { return inform(*options); }; });
+}
+
+}  // namespace tureen::cli

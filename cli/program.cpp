@@ -1,0 +1,147 @@
+#include "cli/program.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <new>
+
+#include "cli/commands.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/report.hpp"
+#include "cli/suggestion.hpp"
+#include "soup/error.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+/// The subcommand that was named, or the program itself.
+const CLI::App& named_command(const CLI::App& program) {
+  const std::vector<const CLI::App*> commands =
+      program.get_subcommands([](const CLI::App* command) { return command->parsed(); });
+  return commands.empty() ? program : *commands.front();
+}
+
+std::vector<std::string> command_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+/// The text in lines of at most `width` letters, broken between words.
+std::string wrapped(const std::string& text, std::size_t width) {
+  std::string result;
+  std::size_t column = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    if (column > 0 && column + 1 + (end - begin) > width) {
+      result += '\n';
+      column = 0;
+    } else if (column > 0) {
+      result += ' ';
+      ++column;
+    }
+    result.append(text, begin, end - begin);
+    column += end - begin;
+    begin = end + 1;
+  }
+  return result;
+}
+
+/// Help in lines that fit a terminal.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option_desc(const CLI::Option* option) const override {
+    return wrapped(option->get_description(), 60);
+  }
+};
+
+/// A sentence for arguments that CLI11 refuses.
+std::string explain(const CLI::App& program, const CLI::ParseError& error) {
+  const CLI::App& command = named_command(program);
+  if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
+    const std::vector<std::string> extras = command.remaining(true);
+    for (const std::string& extra : extras) {
+      if (extra.size() < 2 || extra[0] != '-') continue;
+      const std::string word = extra.substr(0, extra.find('='));
+      std::vector<std::string> known;
+      for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+      return command.get_name() + " has no option " + word + did_you_mean(word, known);
+    }
+    if (!extras.empty()) return "'" + extras.front() + "' is one argument too many";
+  }
+  return error.what();
+}
+
+int refuse(const CLI::App& program, const std::string& reason) {
+  const CLI::App& command = named_command(program);
+  say("tureen: " + reason);
+  say("Try: tureen " + (&command == &program ? "" : command.get_name() + " ") + "--help");
+  return int(ExitCode::usage);
+}
+
+/// CLI11 would take a mistyped subcommand for an argument too many.
+bool is_unknown_command(const CLI::App& program, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return false;
+  const std::vector<std::string> names = command_names(program);
+  return std::find(names.begin(), names.end(), argv[1]) == names.end();
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv) {
+  catch_interrupts();
+  CLI::App program("Draws trained triangle soups.", "tureen");
+  program.set_version_flag("--version", "tureen " TUREEN_VERSION);
+  program.require_subcommand(1);
+  const auto formatter = std::make_shared<HelpFormatter>();
+  formatter->column_width(26);
+  program.formatter(formatter);  // subcommands inherit it
+  program.footer(R"(Examples:
+  tureen render soup.glb -o picture.png
+  tureen info soup.glb
+  tureen COMMAND --help               what a command takes, with examples
+
+Exit codes: 0 done, 1 the comparison or the check failed, 2 wrong usage, 3 the input is
+bad, 4 no OpenGL context, 5 anything else.)");
+
+  Action action;
+  add_render(program, action);
+  add_info(program, action);
+  add_convert(program, action);
+  add_compare(program, action);
+
+  if (argc < 2) {
+    say(program.help());
+    return int(ExitCode::usage);
+  }
+  if (is_unknown_command(program, argc, argv))
+    return refuse(program, std::string("there is no command ") + argv[1] +
+                               did_you_mean(argv[1], command_names(program)));
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& help_or_version) {
+    return program.exit(help_or_version);
+  } catch (const UsageError& error) {
+    return refuse(program, error.reason());
+  } catch (const CLI::ParseError& error) {
+    return refuse(program, explain(program, error));
+  }
+
+  try {
+    return int(action());
+  } catch (const Interrupted&) {
+    say("tureen: interrupted");
+    return int(ExitCode::other);
+  } catch (const std::bad_alloc&) {
+    say("tureen: out of memory");
+    return int(ExitCode::other);
+  } catch (const std::exception& error) {
+    say(std::string("tureen: ") + error.what());
+    return int(exit_code_of(error));
+  }
+}
+
+}  // namespace tureen::cli

@@ -1,0 +1,208 @@
+// `tureen render`: pictures of a scene.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "cli/choice.hpp"
+#include "cli/commands.hpp"
+#include "cli/contact_sheet.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/picture_file.hpp"
+#include "cli/progress.hpp"
+#include "cli/report.hpp"
+#include "cli/scene_argument.hpp"
+#include "cli/values.hpp"
+#include "cli/view_options.hpp"
+#include "runtime/renderer.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+struct Options {
+  SceneArgument scene;
+  ViewOptions views;
+  std::string output = "out.png";
+  std::string background;  // empty: the scene's own
+  gl::Backend backend = gl::Backend::automatic;
+  PipelineKind pipeline = PipelineKind::tureen;
+  bool no_specialise = false;
+  int frames = 0;
+  bool json = false;
+};
+
+/// Milliseconds a frame, each from before the draw to after the device has finished.
+struct FrameTimes {
+  std::vector<double> ms;
+
+  double median() const {
+    std::vector<double> sorted = ms;
+    std::sort(sorted.begin(), sorted.end());
+    const std::size_t half = sorted.size() / 2;
+    return sorted.size() % 2 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
+  }
+  /// The smallest that 95 % of all are not above.
+  double p95() const {
+    std::vector<double> sorted = ms;
+    std::sort(sorted.begin(), sorted.end());
+    return sorted[(sorted.size() * 95 + 99) / 100 - 1];
+  }
+};
+
+double timed_draw(Renderer& renderer, const Camera& camera) {
+  const auto start = std::chrono::steady_clock::now();
+  renderer.draw(camera);
+  renderer.finish();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
+}
+
+/// `frames` frames through all cameras in turn. The first ones, which compile shaders and fill
+/// caches, are drawn before and not counted.
+FrameTimes benchmark(Renderer& renderer, const std::vector<Camera>& cameras, int frames) {
+  const int warm_up = std::clamp(frames, 3, 10);
+  Progress progress("timing");
+  FrameTimes times;
+  for (int i = -warm_up; i < frames; ++i) {
+    const double ms = timed_draw(renderer, cameras[std::size_t(i + warm_up) % cameras.size()]);
+    if (i >= 0) times.ms.push_back(ms);
+    progress.update(double(i + warm_up + 1) / (frames + warm_up));
+  }
+  return times;
+}
+
+struct Pictures {
+  std::vector<std::string> paths;
+  FrameTimes times;
+};
+
+Pictures draw_pictures(Renderer& renderer, const std::vector<Camera>& cameras,
+                       const std::string& pattern) {
+  const int count = int(cameras.size());
+  Pictures result;
+  std::vector<Image8> thumbnails;
+  Progress progress("drawing");
+  timed_draw(renderer, cameras.front());  // compiles shaders; not counted
+  for (int i = 0; i < count; ++i) {
+    progress.update(double(i) / count);
+    result.times.ms.push_back(timed_draw(renderer, cameras[std::size_t(i)]));
+    const Image8 picture = renderer.read_color();
+    const std::filesystem::path path = picture_name(pattern, i, count);
+    write_picture(picture, path);
+    result.paths.push_back(path.string());
+    if (count > 1) thumbnails.push_back(thumbnail(picture));
+  }
+  if (count > 1) {
+    const std::filesystem::path sheet =
+        picture_name(pattern, 0, count).replace_filename("contact_sheet.png");
+    write_picture(contact_sheet(thumbnails), sheet);
+    result.paths.push_back(sheet.string());
+  }
+  return result;
+}
+
+ExitCode render(const Options& options) {
+  // Everything that can be wrong with the arguments is said before the scene is read.
+  require_png_name(options.output);
+  picture_name(options.output, 0, std::max(options.views.orbit, 1));
+  if (!options.views.size.empty()) parse_size(options.views.size);
+  RenderOptions render_options;
+  if (!options.background.empty()) render_options.background = parse_background(options.background);
+  render_options.plan.pipeline = options.pipeline;
+  render_options.plan.specialise = !options.no_specialise;
+
+  Scene scene = read(options.scene);
+  const TriangleSoup& soup = opaque_soup(scene);
+  const Views views = resolve_views(options.views, scene, options.scene.path);
+  if (options.background.empty())
+    render_options.background = glm::vec4(scene.info.background, 1.0f);
+
+  const gl::Context context = gl::Context::create({.backend = options.backend});
+  throw_if_interrupted();
+  Renderer renderer(context, soup, scene.origin, render_options);
+
+  Pictures pictures = draw_pictures(renderer, views.cameras, options.output);
+  if (options.frames > 0) pictures.times = benchmark(renderer, views.cameras, options.frames);
+  const FrameTimes& times = pictures.times;
+
+  const Camera& first = views.cameras.front();
+  const gl::Capabilities& device = context.capabilities();
+  say_list("Reading " + options.scene.path + ":", scene.info.notes);
+  say_list("Cameras:", views.notes);
+  say_list("Plan:", renderer.plan().sentences);
+  say(fmt::format("{} triangles, {} on the device; {} x {} on {} ({})",
+                  counted(soup.triangles.size()), bytes_text(renderer.device_bytes()), first.width,
+                  first.height, device.renderer, context.description()));
+  say(fmt::format("{:.2f} ms a frame (median of {}, 95 % within {:.2f} ms)", times.median(),
+                  times.ms.size(), times.p95()));
+  for (const std::string& path : pictures.paths) say("wrote " + path);
+  if (options.json)
+    print_json(
+        {{"width", first.width},
+         {"height", first.height},
+         {"context", context.description()},
+         {"renderer", device.renderer},
+         {"triangles", soup.triangles.size()},
+         {"frame_ms", {{"median", times.median()}, {"p95", times.p95()}, {"n", times.ms.size()}}},
+         {"plan", renderer.plan().sentences},
+         {"output", pictures.paths}});
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_render(CLI::App& program, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("render", "Pictures of a scene");
+  command->footer(
+      R"(Without a view the scene's first camera draws, or else a view from the front, a little to
+the right and from above, that shows all of the scene.
+
+Examples:
+  tureen render soup.glb -o picture.png
+  tureen render soup.glb --orbit 8 -o orbit_%02d.png      and a contact_sheet.png
+  tureen render soup.glb --eye 3,0,1 --target 0,0,0.5 --up 0,0,1 --fov 35
+  tureen render soup.glb --camera transforms.json:12 --size 540x960
+  tureen render soup.glb --frames 100 --json              milliseconds a frame
+  tureen render soup.glb --pipeline published --frames 100 --json
+                                                          against the baseline
+
+Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL context,
+5 it does not fit on the device or cannot be written.)");
+  add_scene_argument(*command, options->scene);
+  command
+      ->add_option("-o,--output", options->output,
+                   "the picture, out.png by default; of several views %d becomes the number")
+      ->option_text("OUT.png");
+  add_view_options(*command, options->views);
+  command
+      ->add_option("--background", options->background,
+                   "what pixels without a triangle show: white, black, transparent, or r,g,b from "
+                   "0 to 1; the scene's own by default")
+      ->option_text("COLOR");
+  add_choice<gl::Backend>(*command, "--context", options->backend,
+                          {{"auto", gl::Backend::automatic},
+                           {"egl", gl::Backend::egl},
+                           {"osmesa", gl::Backend::osmesa}},
+                          "where OpenGL comes from: auto (EGL, else OSMesa), egl or osmesa")
+      ->option_text("NAME");
+  add_choice<PipelineKind>(
+      *command, "--pipeline", options->pipeline,
+      {{"auto", PipelineKind::tureen}, {"published", PipelineKind::published}},
+      "auto (our own), or published: drawn as DiffSoup's viewer draws, the baseline")
+      ->option_text("NAME");
+  command->add_flag("--no-specialise", options->no_specialise,
+                    "leave nothing out that the scene does not need (for comparisons)");
+  command
+      ->add_option("--frames", options->frames,
+                   "draw so many frames more, after a warm-up, and tell the time of each")
+      ->check(CLI::Range(1, 1000000))
+      ->option_text("N");
+  command->add_flag("--json", options->json,
+                    "what was drawn, and how fast, as JSON on standard output");
+  command->callback([options, &action] { action = [options] { return render(*options); }; });
+}
+
+}  // namespace tureen::cli

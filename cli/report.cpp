@@ -1,0 +1,49 @@
+#include "cli/report.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdio>
+
+#include "soup/error.hpp"
+
+namespace tureen::cli {
+
+void say(const std::string& line) {
+  std::string safe = line;
+  for (char& c : safe)
+    if ((static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') || c == 0x7f) c = '?';
+  std::fprintf(stderr, "%s\n", safe.c_str());
+}
+
+void say_list(const std::string& heading, const std::vector<std::string>& lines) {
+  if (lines.empty()) return;
+  say(heading);
+  for (const std::string& line : lines) say("  " + line);
+}
+
+void print_json(const Json& document) {
+  const std::string text = document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+    throw OutputError({}, "standard output cannot be written");
+}
+
+std::string counted(std::uint64_t number) {
+  std::string text = std::to_string(number);
+  for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, 1, ',');
+  return text;
+}
+
+std::string bytes_text(std::uint64_t bytes) {
+  if (bytes < 1024) return bytes == 1 ? "1 byte" : std::to_string(bytes) + " bytes";
+  constexpr std::array units{"KiB", "MiB", "GiB", "TiB"};
+  double value = double(bytes) / 1024;
+  std::size_t unit = 0;
+  while (value >= 1024 && unit + 1 < units.size()) {
+    value /= 1024;
+    ++unit;
+  }
+  return fmt::format("{:.{}f} {}", value, value < 10 ? 1 : 0, units[unit]);
+}
+
+}  // namespace tureen::cli

@@ -1,0 +1,30 @@
+// What the program says: prose for people on standard error, JSON for programs on standard output.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace tureen::cli {
+
+/// Keys stay in the order in which they were written.
+using Json = nlohmann::ordered_json;
+
+/// A line of prose. Control characters in it are shown as '?': names from files must not steer a
+/// terminal.
+void say(const std::string& line);
+
+/// Lines under a heading, indented; nothing when there are none.
+void say_list(const std::string& heading, const std::vector<std::string>& lines);
+
+/// The document and a line's end. Text that is not UTF-8 has U+FFFD where it breaks.
+void print_json(const Json& document);
+
+/// "33,417".
+std::string counted(std::uint64_t number);
+
+/// "917 bytes", "1.2 KiB", "34 MiB".
+std::string bytes_text(std::uint64_t bytes);
+
+}  // namespace tureen::cli

@@ -1,0 +1,67 @@
+#include "cli/scene_argument.hpp"
+
+#include <glm/geometric.hpp>
+
+#include "cli/choice.hpp"
+#include "cli/progress.hpp"
+#include "cli/suggestion.hpp"
+#include "cli/values.hpp"
+#include "soup/error.hpp"
+
+namespace tureen::cli {
+
+void add_scene_argument(CLI::App& command, SceneArgument& argument, const char* name) {
+  command.add_option(name, argument.path, "the scene: a file or a folder, told by its content")
+      ->required()
+      ->type_name("");
+  add_choice<VertexColorSpace>(command, "--vertex-colors", argument.vertex_colors,
+                               {{"auto", VertexColorSpace::automatic},
+                                {"srgb", VertexColorSpace::srgb},
+                                {"linear", VertexColorSpace::linear}},
+                               "what COLOR_0 of a foreign glTF holds: auto (decided by its "
+                               "generator), srgb or linear")
+      ->option_text("SPACE");
+  command
+      .add_option("--up", argument.up,
+                  "the direction that is up, in world coordinates, instead of the scene's own: "
+                  "x,y,z")
+      ->option_text("X,Y,Z");
+}
+
+Scene read(const SceneArgument& argument) {
+  glm::dvec3 up(0.0);
+  if (!argument.up.empty()) {
+    up = parse_vector(argument.up);
+    if (!(glm::length(up) > 0)) throw UsageError("--up 0,0,0 is no direction");
+  }
+  const std::filesystem::path path = argument.path;
+  std::error_code error;
+  if (!std::filesystem::exists(path, error))
+    throw InputError({argument.path, {}, {}}, why_missing(path));
+  Progress progress("reading " + path.filename().string());
+  ReadOptions options;
+  options.vertex_colors = argument.vertex_colors;
+  options.progress = [&](double fraction) { progress.update(fraction); };
+  Scene scene = read_scene(path, options);
+  if (!argument.up.empty()) scene.info.up = glm::vec3(glm::normalize(up));
+  return scene;
+}
+
+std::uint64_t bytes_on_disk(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(path, error)) {
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    return error ? 0 : size;
+  }
+  std::uint64_t total = 0;
+  for (std::filesystem::recursive_directory_iterator it(path, error), end; !error && it != end;
+       it.increment(error)) {
+    std::error_code ignored;
+    if (!it->is_regular_file(ignored)) continue;
+    const std::uintmax_t size = it->file_size(ignored);
+    if (!ignored) total += size;
+  }
+  return total;
+}
+
+}  // namespace tureen::cli

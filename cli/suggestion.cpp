@@ -1,0 +1,59 @@
+#include "cli/suggestion.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace tureen::cli {
+
+int edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::vector<int>> distance(a.size() + 1, std::vector<int>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) distance[i][0] = int(i);
+  for (std::size_t j = 0; j <= b.size(); ++j) distance[0][j] = int(j);
+  for (std::size_t i = 1; i <= a.size(); ++i)
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      int best = std::min(distance[i - 1][j] + 1, distance[i][j - 1] + 1);
+      best = std::min(best, distance[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1));
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        best = std::min(best, distance[i - 2][j - 2] + 1);
+      distance[i][j] = best;
+    }
+  return distance[a.size()][b.size()];
+}
+
+std::string nearest(const std::string& word, std::span<const std::string> known) {
+  std::string best;
+  // One slip is forgiven even in a short word.
+  int best_distance = std::max(1, int(word.size()) / 3) + 1;
+  for (const std::string& candidate : known)
+    if (const int distance = edit_distance(word, candidate); distance < best_distance) {
+      best = candidate;
+      best_distance = distance;
+    }
+  return best;
+}
+
+std::string did_you_mean(const std::string& word, std::span<const std::string> known) {
+  const std::string near = nearest(word, known);
+  return near.empty() ? "" : "; did you mean " + near + "?";
+}
+
+std::string why_missing(const std::filesystem::path& path) {
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error)) return "there is no folder " + folder.string();
+  // A folder with more names than this is not searched: the message must not take seconds.
+  constexpr std::size_t most_names = 10000;
+  std::vector<std::string> names;
+  for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end;
+       it.increment(error)) {
+    if (names.size() == most_names) break;
+    names.push_back(it->path().filename().string());
+  }
+  std::sort(names.begin(), names.end());  // the order of a folder is any
+  const std::string near = nearest(path.filename().string(), names);
+  if (near.empty()) return "there is no such file or folder";
+  const std::filesystem::path whole = path.parent_path() / near;
+  return "there is no such file or folder; did you mean " + whole.string() + "?";
+}
+
+}  // namespace tureen::cli

@@ -1,0 +1,24 @@
+// "Did you mean ..?"
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace tureen::cli {
+
+/// Insertions, deletions, substitutions and swaps of neighbours that lead from a to b (optimal
+/// string alignment).
+int edit_distance(const std::string& a, const std::string& b);
+
+/// The nearest of `known`, or "" when none is near: more than a third of the letters are wrong.
+std::string nearest(const std::string& word, std::span<const std::string> known);
+
+/// "; did you mean NAME?" with the nearest of `known`, or "".
+std::string did_you_mean(const std::string& word, std::span<const std::string> known);
+
+/// A sentence on why this path does not exist: the folder that is not there, or a name in the
+/// folder that is close. The path does not exist.
+std::string why_missing(const std::filesystem::path& path);
+
+}  // namespace tureen::cli

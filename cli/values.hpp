@@ -1,0 +1,28 @@
+// The kinds of value that options take, from text. All throw UsageError with an example of what
+// is expected.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <string>
+
+namespace tureen::cli {
+
+struct PictureSize {
+  int width = 0;
+  int height = 0;
+};
+
+/// "1280x720".
+PictureSize parse_size(const std::string& text);
+
+/// "1,-2.5,3e2"; finite.
+glm::dvec3 parse_vector(const std::string& text);
+
+/// "white", "black", "transparent" (black with alpha 0), or "r,g,b" with each from 0 to 1.
+glm::vec4 parse_background(const std::string& text);
+
+/// A whole number from `low` to `high`, and nothing else.
+int parse_integer(const std::string& text, int low, int high);
+
+}  // namespace tureen::cli

@@ -1,0 +1,38 @@
+// Which views to draw: the options of the command line, and the cameras that they ask for.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "soup/scene.hpp"
+
+namespace tureen::cli {
+
+/// As typed; empty and 0 stand for what was not given.
+struct ViewOptions {
+  std::string size;                   // "1280x720"
+  std::string camera;                 // "FILE", "FILE:3" or "FILE:all"
+  std::string eye;                    // "x,y,z" in world coordinates
+  std::string target;                 // "x,y,z"
+  std::optional<double> fov_degrees;  // full vertical angle
+  int orbit = 0;                      // number of views
+};
+
+/// --size, --camera, --eye, --target, --fov and --orbit, with their help and exclusions. --up
+/// belongs to the scene (cli/scene_argument.hpp).
+void add_view_options(CLI::App& command, ViewOptions& options);
+
+struct Views {
+  std::vector<Camera> cameras;     // at least one
+  std::vector<std::string> notes;  // on what a camera file lacked
+};
+
+/// The cameras, in this order of preference: those of --camera; --eye; --orbit; the scene's first;
+/// a three-quarter view that frames the scene. Without --size a camera keeps its own size and a
+/// view of ours has 1280x720. `scene_path` is the scene's own, which --camera may name to take its
+/// cameras. Throws UsageError and InputError.
+Views resolve_views(const ViewOptions& options, const Scene& scene, const std::string& scene_path);
+
+}  // namespace tureen::cli

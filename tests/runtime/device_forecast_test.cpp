@@ -1,0 +1,49 @@
+#include "runtime/device_forecast.hpp"
+
+#include <gtest/gtest.h>
+
+#include "runtime/renderer.hpp"
+#include "runtime/texel_store.hpp"
+#include "support/contexts.hpp"
+#include "support/random_soups.hpp"
+
+namespace tureen {
+namespace {
+
+class DeviceForecastOf : public testing::TestWithParam<test::Kind> {};
+
+TEST_P(DeviceForecastOf, IsWhatTheRendererTakesUpToPadding) {
+  const gl::Context context = gl::Context::create(test::osmesa);
+  for (const bool specialise : {true, false}) {
+    test::SoupOptions options;
+    options.kind = GetParam();
+    test::Random random(17);
+    const TriangleSoup soup = test::random_soup(options, random);
+    RenderOptions render;
+    render.plan.specialise = specialise;
+    const Renderer renderer(context, soup, glm::dvec3(0), render);
+    const DeviceForecast forecast = device_forecast(soup, renderer.plan());
+    // Stores of this size fill one layer at most: each is padded by less than a row, of at most 16
+    // bytes a texel; no appearance has more than six stores.
+    const auto row_bytes =
+        (std::uint64_t(1) << TexelLayout::of(device_limits(context.capabilities())).row_bits) * 16;
+    EXPECT_GE(renderer.device_bytes(), forecast.bytes) << "specialise " << specialise;
+    EXPECT_LE(renderer.device_bytes(), forecast.bytes + 6 * row_bytes)
+        << "specialise " << specialise;
+    EXPECT_GT(forecast.largest_store_texels, 0u);
+    EXPECT_FALSE(forecast.largest_store.empty());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, DeviceForecastOf, testing::ValuesIn(test::all_kinds),
+                         [](const auto& info) { return test::to_string(info.param); });
+
+TEST(DeviceForecast, CapacityGrowsWithWhatTheDeviceCan) {
+  // 2048 columns, 512 rows, 256 layers; and twice the columns.
+  EXPECT_EQ(texel_capacity({2048, 256, false}), std::uint64_t(1) << 28);
+  EXPECT_EQ(texel_capacity({4096, 256, false}), std::uint64_t(1) << 29);
+  EXPECT_EQ(texel_capacity({16384, 2048, false}), std::uint64_t(1) << 32);
+}
+
+}  // namespace
+}  // namespace tureen
