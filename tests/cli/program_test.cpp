@@ -1,0 +1,329 @@
+// The program from outside: exit codes, what it says, and what it leaves on the disk.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "cli/child.hpp"
+#include "formats/camera_file.hpp"
+#include "formats/output.hpp"
+#include "formats/png.hpp"
+#include "soup/camera.hpp"
+
+namespace tureen {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ChildResult;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+/// A folder of its own for each test.
+class Program : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    folder = fs::path(testing::TempDir()) /
+             (std::string("tureen_") + info->test_suite_name() + "_" + info->name());
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+  }
+  void TearDown() override {
+    if (!HasFailure()) fs::remove_all(folder);
+  }
+
+  ChildResult run(const std::vector<std::string>& arguments) const {
+    return test::run_tureen(arguments, folder);
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder / name, std::ios::binary) << text;
+  }
+  void write_png(const std::string& name, const Image8& image) const {
+    Output output(folder / name);
+    output.write(encode_png(image));
+    output.commit();
+  }
+  Image8 read_png(const std::string& name) const {
+    Input input = Input::open(folder / name);
+    return read_image(input);
+  }
+  /// Two coloured triangles, z up, and one that repeats the first.
+  void write_scene() const {
+    write("scene.off",
+          "COFF\n4 3 0\n-1 0 -1\n1 0 -1\n0 0 1\n0 1 0\n"
+          "3 0 1 2 255 0 0\n3 0 1 3 0 255 0\n3 1 2 0 0 0 255\n");
+  }
+  bool exists(const std::string& name) const { return fs::exists(folder / name); }
+  std::vector<std::string> keys(const nlohmann::ordered_json& json) const {
+    std::vector<std::string> result;
+    for (const auto& [key, value] : json.items()) result.push_back(key);
+    return result;
+  }
+
+  fs::path folder;
+};
+
+// --- Usage ----------------------------------------------------------------------------------
+
+TEST_F(Program, HelpTeachesAndGoesToStandardOutput) {
+  for (const char* command : {"render", "info", "convert", "compare"}) {
+    const ChildResult result = run({command, "--help"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.out, HasSubstr(std::string("Examples:\n  tureen ") + command));
+    EXPECT_THAT(result.err, IsEmpty());
+  }
+  EXPECT_THAT(run({"--help"}).out, HasSubstr("Exit codes: 0 done"));
+  EXPECT_THAT(run({"--version"}).out, HasSubstr("tureen "));
+}
+
+TEST_F(Program, WrongUsageIsTwoAndAHint) {
+  const auto expect = [&](const std::vector<std::string>& arguments, const std::string& words) {
+    const ChildResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, HasSubstr(words));
+    EXPECT_THAT(result.out, IsEmpty());
+  };
+  write_scene();
+  expect({}, "Usage: tureen");
+  expect({"rendr", "scene.off"}, "there is no command rendr; did you mean render?");
+  expect({"zebra"}, "there is no command zebra\n");
+  expect({"render", "scene.off", "--sise", "8x8"},
+         "render has no option --sise; did you mean --size?");
+  expect({"render"}, "SCENE is required");
+  expect({"render", "scene.off", "other.off"}, "'other.off' is one argument too many");
+  expect({"render", "scene.off", "--size", "80"}, "'80' is no size; write it as 1280x720");
+  expect({"render", "scene.off", "--context", "elg"},
+         "--context takes auto, egl, osmesa, not 'elg'");
+  expect({"render", "scene.off", "--eye", "1,2"}, "'1,2' is no vector");
+  expect({"render", "scene.off", "--target", "1,2,3"}, "--target requires --eye");
+  expect({"render", "scene.off", "--orbit", "0"}, "--orbit");
+  expect({"render", "scene.off", "--background", "pink"}, "'pink' is no background");
+  expect({"render", "scene.off", "-o", "out.jpg"}, "pictures are written as PNG");
+  expect({"render", "scene.off", "-o", "out%s.png"}, "no name for pictures");
+  expect({"compare", "a.png", "b.png", "--metric", "psnr"}, "did you mean psnr_db?");
+}
+
+TEST_F(Program, ABadInputIsThreeAndAPlace) {
+  const auto expect = [&](const std::vector<std::string>& arguments, const std::string& words) {
+    const ChildResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_THAT(result.err, HasSubstr(words));
+    EXPECT_THAT(result.out, IsEmpty());
+  };
+  write_scene();
+  write("broken.off", "COFF\n3 1 0\n0 0 0\n1 0 zero\n0 1 0\n3 0 1 2\n");
+  write("cameras.json", "{\"cameras\": []}");
+  expect({"info", "scen.off"},
+         "scen.off: there is no such file or folder; did you mean scene.off?");
+  expect({"info", "nowhere/scene.off"}, "there is no folder nowhere");
+  expect({"info", "broken.off"}, "broken.off:4:");
+  expect({"render", "broken.off"}, "broken.off:4:");
+  expect({"compare", "scene.off", "scene.off"}, "scene.off: ");
+  expect({"render", "scene.off", "--camera", "cameras.json"}, "cameras.json: it holds no cameras");
+  expect({"render", "scene.off", "--camera", "scene.off"}, "it holds no cameras");
+}
+
+// --- compare --------------------------------------------------------------------------------
+
+TEST_F(Program, CompareReportsAndFailsPastItsTolerance) {
+  const Image8 grey(32, 24, glm::u8vec4(100, 100, 100, 255));
+  Image8 other = grey;
+  other.at(5, 5) = glm::u8vec4(151, 100, 100, 255);
+  write_png("a.png", grey);
+  write_png("b.png", other);
+  const ChildResult result = run({"compare", "a.png", "b.png", "--json"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::ordered_json::parse(result.out);
+  EXPECT_THAT(keys(json),
+              ElementsAre("mae", "mse", "psnr_db", "ssim", "flip", "max_abs", "p999_abs",
+                          "coverage_mismatch", "failing_fraction", "ssim_border", "non_finite"));
+  EXPECT_NEAR(json["max_abs"].get<double>(), 0.2, 1e-6);
+  EXPECT_NEAR(json["failing_fraction"].get<double>(), 1.0 / (32 * 24), 1e-12);
+  EXPECT_EQ(json["ssim_border"], "zero_pad");
+
+  EXPECT_EQ(run({"compare", "a.png", "b.png", "--tolerance", "0.01"}).exit_code, 0);
+  const ChildResult failed =
+      run({"compare", "a.png", "b.png", "--tolerance", "0.1", "--metric", "max_abs", "--json"});
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_THAT(failed.err, HasSubstr("max_abs is 0.2, the tolerance is 0.1"));
+  EXPECT_EQ(nlohmann::json::parse(failed.out)["passed"], false);
+  // More is better for the PSNR: 43 dB here.
+  EXPECT_EQ(
+      run({"compare", "a.png", "b.png", "--tolerance", "40", "--metric", "psnr_db"}).exit_code, 0);
+  EXPECT_EQ(
+      run({"compare", "a.png", "b.png", "--tolerance", "50", "--metric", "psnr_db"}).exit_code, 1);
+}
+
+TEST_F(Program, CompareShowsWhereAndRefusesOtherSizes) {
+  write_png("a.png", Image8(20, 10, glm::u8vec4(0, 0, 0, 255)));
+  Image8 other(20, 10, glm::u8vec4(0, 0, 0, 255));
+  other.at(3, 4) = glm::u8vec4(255, 255, 255, 255);
+  write_png("b.png", other);
+  write_png("c.png", Image8(20, 11));
+  EXPECT_EQ(run({"compare", "a.png", "b.png", "--diff", "diff.png"}).exit_code, 0);
+  const Image8 diff = read_png("diff.png");
+  EXPECT_EQ(diff.width, 60);
+  EXPECT_EQ(diff.height, 10);
+  EXPECT_EQ(diff.at(20 + 3, 4), glm::u8vec4(255));
+  EXPECT_EQ(diff.at(40 + 3, 4), glm::u8vec4(255));           // the hottest colour
+  EXPECT_EQ(diff.at(40 + 4, 4), glm::u8vec4(0, 0, 0, 255));  // no difference
+  const ChildResult result = run({"compare", "a.png", "c.png"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("the pictures differ in size: 20 x 10 and 20 x 11"));
+}
+
+TEST_F(Program, CompareLooksAtPicturesOnTheirBackground) {
+  write_png("clear.png", Image8(16, 16, glm::u8vec4(255, 255, 255, 0)));
+  write_png("black.png", Image8(16, 16, glm::u8vec4(0, 0, 0, 255)));
+  const auto mae = [&](const std::string& background) {
+    return nlohmann::json::parse(
+        run({"compare", "clear.png", "black.png", "--json", "--background", background})
+            .out)["mae"];
+  };
+  EXPECT_EQ(mae("black"), 0);
+  EXPECT_EQ(mae("white"), 1);
+}
+
+// --- info -----------------------------------------------------------------------------------
+
+TEST_F(Program, InfoTellsWhatASceneIs) {
+  write_scene();
+  const ChildResult result = run({"info", "scene.off", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::ordered_json::parse(result.out);
+  for (const char* key :
+       {"file", "triangles", "vertices", "appearance", "bytes_on_disk", "bytes_in_memory",
+        "bytes_on_device", "bounds", "up", "cameras", "notes", "plan", "devices", "lint"})
+    EXPECT_TRUE(json.contains(key)) << key;
+  EXPECT_EQ(json["triangles"], 3);
+  EXPECT_EQ(json["appearance"], "face colours");
+  EXPECT_EQ(json["bytes_on_disk"], fs::file_size(folder / "scene.off"));
+  EXPECT_EQ(json["bounds"]["high"], nlohmann::json({1.0, 1.0, 1.0}));
+  EXPECT_EQ(json["lint"]["duplicate_faces"]["count"], 1);
+  EXPECT_EQ(json["lint"]["duplicate_faces"]["first"], nlohmann::json({2}));
+  EXPECT_FALSE(json["plan"].empty());
+  EXPECT_TRUE(json["devices"][0]["fits"].get<bool>());
+  EXPECT_THAT(result.err, HasSubstr("1 of 3 faces repeats the corners of an earlier face: face 2"));
+}
+
+TEST_F(Program, InfoIsStrictOnRequest) {
+  write_scene();
+  EXPECT_EQ(run({"info", "scene.off", "--strict"}).exit_code, 1);
+  write("clean.off", "COFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255 0 0\n");
+  const ChildResult result = run({"info", "clean.off", "--strict"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("nothing found"));
+}
+
+// --- convert --------------------------------------------------------------------------------
+
+TEST_F(Program, ConvertNeverOverwritesSilently) {
+  write_scene();
+  const ChildResult first = run({"convert", "scene.off", "scene.ply", "--json"});
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_THAT(keys(nlohmann::ordered_json::parse(first.out)),
+              ElementsAre("output", "bytes_on_disk", "notes", "lost"));
+  write("scene.ply", "precious");
+  const ChildResult second = run({"convert", "scene.off", "scene.ply"});
+  EXPECT_EQ(second.exit_code, 2);
+  EXPECT_THAT(second.err, HasSubstr("scene.ply exists already; --force replaces it"));
+  EXPECT_EQ(fs::file_size(folder / "scene.ply"), 8u);
+  EXPECT_EQ(run({"convert", "scene.off", "scene.ply", "--force"}).exit_code, 0);
+  EXPECT_GT(fs::file_size(folder / "scene.ply"), 8u);
+  const ChildResult itself = run({"convert", "scene.off", "scene.off", "--force"});
+  EXPECT_EQ(itself.exit_code, 2);
+  EXPECT_THAT(itself.err, HasSubstr("is the scene itself"));
+  const ChildResult unknown = run({"convert", "scene.off", "scene.xyz"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("no format that we write ends in .xyz"));
+  EXPECT_FALSE(exists("scene.xyz"));
+}
+
+// --- render ---------------------------------------------------------------------------------
+
+TEST_F(Program, RenderDrawsAndReports) {
+  write_scene();
+  const ChildResult result =
+      run({"render", "scene.off", "-o", "picture.png", "--size", "64x48", "--eye", "0,-5,0",
+           "--target", "0,0,0", "--frames", "5", "--context", "osmesa", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::ordered_json::parse(result.out);
+  EXPECT_THAT(keys(json), ElementsAre("width", "height", "context", "renderer", "triangles",
+                                      "frame_ms", "plan", "output"));
+  EXPECT_EQ(json["width"], 64);
+  EXPECT_EQ(json["height"], 48);
+  EXPECT_EQ(json["triangles"], 3);
+  EXPECT_EQ(json["frame_ms"]["n"], 5);
+  EXPECT_GT(json["frame_ms"]["median"].get<double>(), 0);
+  EXPECT_GE(json["frame_ms"]["p95"].get<double>(), json["frame_ms"]["median"].get<double>());
+  EXPECT_EQ(json["output"], nlohmann::json({"picture.png"}));
+  const Image8 picture = read_png("picture.png");
+  EXPECT_EQ(picture.width, 64);
+  EXPECT_EQ(picture.height, 48);
+  // From the front the red triangle hides the green one; the corners are background.
+  EXPECT_EQ(picture.at(32, 24), glm::u8vec4(255, 0, 0, 255));
+  EXPECT_EQ(picture.at(0, 0), glm::u8vec4(0, 0, 0, 255));
+  EXPECT_THAT(result.err, HasSubstr("wrote picture.png"));
+}
+
+TEST_F(Program, RenderShowsItsBackgroundWhereNothingIs) {
+  write_scene();
+  const auto corner = [&](const std::string& background) {
+    EXPECT_EQ(run({"render", "scene.off", "--size", "16x16", "--background", background,
+                   "--context", "osmesa"})
+                  .exit_code,
+              0);
+    return read_png("out.png").at(0, 0);
+  };
+  EXPECT_EQ(corner("white"), glm::u8vec4(255));
+  EXPECT_EQ(corner("transparent"), glm::u8vec4(0));
+  EXPECT_EQ(corner("0,0.2,1"), glm::u8vec4(0, 51, 255, 255));
+}
+
+TEST_F(Program, RenderWritesAnOrbitAndAContactSheet) {
+  write_scene();
+  const ChildResult result = run({"render", "scene.off", "--orbit", "3", "--size", "40x30", "-o",
+                                  "view.png", "--context", "osmesa", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(nlohmann::json::parse(result.out)["output"],
+            nlohmann::json({"view_00.png", "view_01.png", "view_02.png", "contact_sheet.png"}));
+  for (const char* name : {"view_00.png", "view_01.png", "view_02.png"})
+    EXPECT_EQ(read_png(name).width, 40);
+  EXPECT_GT(read_png("contact_sheet.png").width, 40);
+  EXPECT_FALSE(exists("view.png"));
+}
+
+TEST_F(Program, RenderTakesCamerasFromAFile) {
+  write_scene();
+  const Camera cameras[2] = {look_at({0, -5, 0}, {0, 0, 0}, {0, 0, 1}, 0.7, 32, 24),
+                             look_at({0, 5, 0}, {0, 9, 0}, {0, 0, 1}, 0.7, 20, 10)};
+  write("cameras.json", cameras_to_json(cameras));
+  const auto draw = [&](const std::string& camera, const std::string& output) {
+    return run({"render", "scene.off", "--camera", camera, "-o", output, "--context", "osmesa"});
+  };
+  EXPECT_EQ(draw("cameras.json", "a.png").exit_code, 0);
+  EXPECT_EQ(read_png("a.png").at(16, 12), glm::u8vec4(255, 0, 0, 255));
+  EXPECT_EQ(draw("cameras.json:1", "b.png").exit_code, 0);
+  EXPECT_EQ(read_png("b.png").width, 20);  // its own size; it looks away
+  EXPECT_EQ(read_png("b.png").at(10, 5), glm::u8vec4(0, 0, 0, 255));
+  EXPECT_EQ(draw("cameras.json:all", "c.png").exit_code, 0);
+  EXPECT_TRUE(exists("c_01.png"));
+  const ChildResult beyond = draw("cameras.json:2", "d.png");
+  EXPECT_EQ(beyond.exit_code, 2);
+  EXPECT_THAT(beyond.err, HasSubstr("cameras are numbered from 0 to 1"));
+}
+
+TEST_F(Program, NothingIsLeftWhereAPictureCannotBeWritten) {
+  write_scene();
+  const ChildResult result =
+      run({"render", "scene.off", "--size", "8x8", "-o", "nowhere/out.png", "--context", "osmesa"});
+  EXPECT_EQ(result.exit_code, 5);
+  EXPECT_THAT(result.err, HasSubstr("nowhere/out.png"));
+  EXPECT_FALSE(exists("nowhere"));
+}
+
+}  // namespace
+}  // namespace tureen
