@@ -17,8 +17,7 @@ TEST_P(DeviceForecastOf, IsWhatTheRendererTakesUpToPadding) {
   for (const bool specialise : {true, false}) {
     test::SoupOptions options;
     options.kind = GetParam();
-    test::Random random(17);
-    const TriangleSoup soup = test::random_soup(options, random);
+    const TriangleSoup soup = test::random_soup(17, options);
     RenderOptions render;
     render.plan.specialise = specialise;
     const Renderer renderer(context, soup, glm::dvec3(0), render);
@@ -36,7 +35,7 @@ TEST_P(DeviceForecastOf, IsWhatTheRendererTakesUpToPadding) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, DeviceForecastOf, testing::ValuesIn(test::all_kinds),
-                         [](const auto& info) { return test::to_string(info.param); });
+                         [](const auto& kind) { return test::to_string(kind.param); });
 
 TEST(DeviceForecast, CapacityGrowsWithWhatTheDeviceCan) {
   // 2048 columns, 512 rows, 256 layers; and twice the columns.
