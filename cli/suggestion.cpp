@@ -29,7 +29,10 @@ std::string nearest(const std::string& word, std::span<const std::string> known)
       best = candidate;
       best_distance = distance;
     }
-  return best;
+  if (!best.empty() || word.empty()) return best;
+  for (const std::string& candidate : known)
+    if (candidate.compare(0, word.size(), word) == 0) return candidate;
+  return "";
 }
 
 std::string did_you_mean(const std::string& word, std::span<const std::string> known) {

@@ -11,7 +11,8 @@ namespace tureen::cli {
 /// string alignment).
 int edit_distance(const std::string& a, const std::string& b);
 
-/// The nearest of `known`, or "" when none is near: more than a third of the letters are wrong.
+/// The nearest of `known`; where more than a third of the letters are wrong, the first that begins
+/// with the word, or else "".
 std::string nearest(const std::string& word, std::span<const std::string> known);
 
 /// "; did you mean NAME?" with the nearest of `known`, or "".

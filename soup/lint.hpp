@@ -25,8 +25,9 @@ struct Lint {
   LintFinding non_finite_vertices;
   /// No area: the cross product of two edges is below 1e-12 of the longest edge squared.
   LintFinding degenerate_faces;
-  /// The same three corners, bit by bit and in any order, as a face before: the lower index wins
-  /// every pixel and this one never shows. The degenerate are not counted again.
+  /// The same three corners, bit by bit and in any order, as a face before: one of the two can
+  /// never show (in the same order the lower index wins every pixel). The degenerate are not
+  /// counted again.
   LintFinding duplicate_faces;
   /// Alpha below alpha_threshold (or the material's own) everywhere on the face. Sufficient, for
   /// UV textures not necessary: there the bound is that of the whole image.

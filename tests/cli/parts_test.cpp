@@ -32,7 +32,9 @@ TEST(Suggestion, NamesTheNearestAndNothingThatIsFar) {
   const std::vector<std::string> known{"render", "info", "convert", "compare"};
   EXPECT_EQ(nearest("covnert", known), "convert");
   EXPECT_EQ(nearest("inf", known), "info");
+  EXPECT_EQ(nearest("comp", known), "compare");  // it begins so
   EXPECT_EQ(nearest("tradeoff", known), "");
+  EXPECT_EQ(nearest("", known), "");
 }
 
 TEST(Values, ReadWhatIsMeantAndRefuseTheRest) {

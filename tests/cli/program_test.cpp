@@ -54,7 +54,7 @@ class Program : public testing::Test {
   void write_scene() const {
     write("scene.off",
           "COFF\n4 3 0\n-1 0 -1\n1 0 -1\n0 0 1\n0 1 0\n"
-          "3 0 1 2 255 0 0\n3 0 1 3 0 255 0\n3 1 2 0 0 0 255\n");
+          "3 0 1 2 255 0 0\n3 0 1 3 0 255 0\n3 0 1 2 0 0 255\n");
   }
   bool exists(const std::string& name) const { return fs::exists(folder / name); }
   std::vector<std::string> keys(const nlohmann::ordered_json& json) const {
