@@ -19,8 +19,8 @@ constexpr double window_angle = 0.17;  // of the cone, radians
 const glm::dvec3 window_irradiance(2.15, 1.93, 1.62);
 
 // Rays start this far above a surface: facets of concave parts lie above the true surface by up
-// to 0.008 (a chord of 0.1 on the bend of the shoulder, radius 0.15).
-constexpr double offset = 0.016, nearest = 0.002;
+// to 0.012 (a chord of 0.12 on the bend of the shoulder, radius 0.15).
+constexpr double offset = 0.022, nearest = 0.002;
 
 struct Sample {
   glm::dvec3 direction;

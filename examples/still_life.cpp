@@ -12,7 +12,7 @@ namespace tureen::example {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr int segments = 56;  // around everything that is turned, but small things
+constexpr int segments = 48;  // around everything that is turned, but small things
 
 /// Oval porcelain: wider from handle to handle.
 const glm::dmat3 oval(1.14, 0, 0, 0, 1, 0, 0, 0, 1);
@@ -27,7 +27,7 @@ struct Vessel {
   double widest;  // radius where the pattern is
   int rows;
   int columns = segments;
-  double texel_size = 0.0225;
+  double texel_size = 0.030;  // level 3 on the belly: a finer one would double the file
   std::function<bool(const SurfacePoint&)> plain = {};
 };
 
@@ -85,7 +85,7 @@ void add_doily(Model& model) {
   // High enough above the wood for a depth buffer, too low to see.
   model.add({.position = ring(inner, outer, {.centre = {0, 0.012, 0}, .frame = oval}),
              .paint = [=](const SurfacePoint& at) { return lace(at.uv, measure); },
-             .columns = segments,
+             .columns = 48,
              .rows = 2,
              .closed = true,
              .texel_size = 0.020});
@@ -112,7 +112,7 @@ void add_tureen(Model& model) {
       model,
       profile(
           {{0.66, 0.075}, {0.675, 0.10}, {0.62, 0.15}, {0.49, 0.22}, {0.445, 0.29}, {0.50, 0.35}}),
-      {.widest = 0.6, .rows = 3, .texel_size = 0.030}, tureen_foot);
+      {.widest = 0.6, .rows = 5, .texel_size = 0.026}, tureen_foot);
   add_porcelain(model,
                 profile({{0.42, 0.315},
                          {0.62, 0.375},
@@ -123,7 +123,7 @@ void add_tureen(Model& model) {
                          {0.935, 1.21},
                          {0.965, 1.285},
                          {0.985, 1.315}}),
-                {.widest = 1.0, .rows = 9}, tureen_body);
+                {.widest = 1.0, .rows = 12}, tureen_body);
   add_porcelain(model,
                 profile({{0.965, 1.290},
                          {1.005, 1.325},
@@ -133,7 +133,7 @@ void add_tureen(Model& model) {
                          {0.47, 1.665},
                          {0.24, 1.725},
                          {0.10, 1.75}}),
-                {.widest = 0.97, .rows = 7}, tureen_lid);
+                {.widest = 0.97, .rows = 8}, tureen_lid);
   add_porcelain(model,
                 profile({{0.17, 1.735},
                          {0.105, 1.765},
