@@ -52,7 +52,7 @@ void add_table(Model& model) {
              .texel_size = 0.028,
              .plain =
                  [](const SurfacePoint& at) {
-                   return glm::length(at.position) < 1.15;  // under the platter
+                   return glm::length(at.position) < 1.38;  // under platter and lace
                  }});
   // The rim starts a hair below the top, so that the two overlap without a crack.
   model.add({.position = turned(profile({{r - 0.14, -0.17},
@@ -72,10 +72,12 @@ void add_table(Model& model) {
              .rows = 3,
              .closed = true,
              .texel_size = 0.08});
-  model.add({.position = disc(r - 0.139, {{0, -0.17, 0}, {1, 0, 0, 0, -1, 0, 0, 0, -1}}),
+  // Seen by nobody but whoever looks from below.
+  model.add({.position = turned(profile({{0.0, -0.17}, {r - 0.139, -0.17}}), {}),
              .paint = [](const SurfacePoint& at) { return wood(at.position); },
-             .columns = segments / 4,
-             .rows = segments / 4,
+             .columns = segments,
+             .rows = 1,
+             .closed = true,
              .texel_size = 0.5});
 }
 
@@ -112,7 +114,7 @@ void add_tureen(Model& model) {
       model,
       profile(
           {{0.66, 0.075}, {0.675, 0.10}, {0.62, 0.15}, {0.49, 0.22}, {0.445, 0.29}, {0.50, 0.35}}),
-      {.widest = 0.6, .rows = 5, .texel_size = 0.026}, tureen_foot);
+      {.widest = 0.6, .rows = 5, .texel_size = 0.036}, tureen_foot);
   add_porcelain(model,
                 profile({{0.42, 0.315},
                          {0.62, 0.375},
@@ -143,7 +145,7 @@ void add_tureen(Model& model) {
                          {0.185, 2.01},
                          {0.11, 2.075},
                          {0.0, 2.098}}),
-                {.widest = 0.18, .rows = 9, .columns = 20, .texel_size = 0.022}, tureen_knob);
+                {.widest = 0.18, .rows = 9, .columns = 18, .texel_size = 0.022}, tureen_knob);
   for (const double side : {-1.0, 1.0}) {
     // An ear: out from the shoulder, up, and back into the belly.
     const Curve ear({glm::dvec3(side * 1.02, 0.70, 0), glm::dvec3(side * 1.24, 0.71, 0),
@@ -154,8 +156,8 @@ void add_tureen(Model& model) {
         {.position =
              tube(ear, [](double v) { return 0.055 + 0.035 * std::pow(std::abs(2 * v - 1), 3.0); }),
          .paint = [](const SurfacePoint& at) { return tureen_handle(at.uv); },
-         .columns = 10,
-         .rows = 18,
+         .columns = 9,
+         .rows = 16,
          .closed = true,
          .texel_size = 0.022});
   }
@@ -175,8 +177,8 @@ void add_lemon(Model& model, glm::dvec3 centre, glm::dvec3 axis) {
                               {0.0, 0.375}});
   model.add({.position = turned(skin, {centre, frame_along(axis)}),
              .paint = [](const SurfacePoint& at) { return lemon_skin(at.uv); },
-             .columns = 20,
-             .rows = 13,
+             .columns = 18,
+             .rows = 11,
              .closed = true,
              .texel_size = 0.03});
 }
@@ -196,7 +198,7 @@ void add_half_lemon(Model& model, glm::dvec3 centre, glm::dvec3 axis) {
                  [](const SurfacePoint& at) {
                    return lemon_skin({at.uv.x, at.uv.y * 0.5});
                  },
-             .columns = 32,
+             .columns = 26,
              .rows = 6,
              .closed = true,
              .texel_size = 0.03});
@@ -222,7 +224,7 @@ void add_leaf(Model& model, glm::dvec3 root, glm::dvec3 direction, double length
   model.add({.position = strip(middle, size.x, 0.28),
              .paint = [=](const SurfacePoint& at) { return leaf(at.uv, size, seed); },
              .columns = 2,
-             .rows = 5,
+             .rows = 4,
              .texel_size = 0.030,
              .translucency = 0.35});
 }
@@ -258,8 +260,8 @@ void add_branch(Model& model, std::vector<glm::dvec3> points, int leaves, std::u
   Random random(seed);
   model.add({.position = tube(twig, [](double v) { return 0.026 - 0.015 * v; }),
              .paint = [](const SurfacePoint& at) { return bark(at.uv); },
-             .columns = 6,
-             .rows = 10,
+             .columns = 5,
+             .rows = 9,
              .closed = true,
              .texel_size = 0.035});
   for (int i = 0; i < leaves; ++i) {
