@@ -17,7 +17,7 @@
 namespace tureen::testing {
 
 inline void append_little(std::string& out, std::uint64_t value, int bytes) {
-  for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> (8 * i) & 0xff);
+  for (int i = 0; i < bytes; ++i) out += static_cast<char>(i < 8 ? value >> (8 * i) & 0xff : 0);
 }
 
 inline std::span<const std::byte> as_bytes(const std::string& text) {
