@@ -146,7 +146,7 @@ class Uploader {
     result_.constants["LATTICE_LEVEL"] = std::to_string(plan_.lattice.uniform_level);
     add("features0", std::move(stores.features0));
     if (plan_.color_mlp) add("features1", std::move(stores.features1));
-    if (plan_.opaque_count < plan_.faces.size()) add("alphas", std::move(stores.alphas));
+    if (plan_.opaque_count < plan_.faces.size()) add("alpha_cells", std::move(stores.alpha_cells));
     if (plan_.lattice.uniform_level < 0) add("patches", std::move(stores.patches));
     if (texture.mlp) add_mlp(*texture.mlp, plan_.feature_ranges);
   }

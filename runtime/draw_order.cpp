@@ -77,10 +77,10 @@ bool coincident(const TriangleSoup& soup, std::uint32_t a, std::uint32_t b) {
 }
 
 void append_clusters(const TriangleSoup& soup, std::span<const std::uint32_t> faces,
-                     std::uint32_t first, std::uint32_t last, std::uint32_t cluster_size,
+                     std::uint32_t first, std::uint32_t last, std::uint32_t size,
                      std::vector<Cluster>& clusters) {
   while (first < last) {
-    std::uint32_t end = std::min(first + cluster_size, last);
+    std::uint32_t end = std::min(first + size, last);
     while (end < last && coincident(soup, faces[end - 1], faces[end])) ++end;
     glm::dvec3 low(INFINITY), high(-INFINITY);
     for (std::uint32_t slot = first; slot < end; ++slot)

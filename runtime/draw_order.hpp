@@ -2,6 +2,7 @@
 // depth test before they cost a texture read, and coincident ones by their index.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
@@ -18,9 +19,13 @@ struct Cluster {
   glm::vec3 centre{0.0f};
 };
 
-/// Faces of a cluster. Measured on llvmpipe with the 15,000-triangle cut-out cloud: smaller
-/// clusters order better but cost more draws; docs/benchmarks.md has the table.
-inline constexpr std::uint32_t default_cluster_size = 64;
+/// Faces of a cluster in a soup of this many. Between 1 and 256 the size hardly matters (the 15,000
+/// triangle cut-out cloud on llvmpipe takes 51 +- 2 ms of CPU time a visibility pass whatever it
+/// is, its variant that covers everything 117 to 150), so it is small enough to order well and
+/// large enough that sorting at most a few thousand clusters a frame costs nothing.
+constexpr std::uint32_t cluster_size(std::size_t faces) {
+  return static_cast<std::uint32_t>(std::max<std::size_t>(64, faces / 4096));
+}
 
 /// Sorts `faces` (indices into soup.triangles) along a space-filling curve. Faces whose corners are
 /// bit-identical, in the same order, end up side by side with the lower index first.
@@ -32,7 +37,7 @@ bool coincident(const TriangleSoup& soup, std::uint32_t a, std::uint32_t b);
 /// Cuts slots [first, last) into clusters. Coincident faces never lie in different clusters, so
 /// that the lower index is always drawn first.
 void append_clusters(const TriangleSoup& soup, std::span<const std::uint32_t> faces,
-                     std::uint32_t first, std::uint32_t last, std::uint32_t cluster_size,
+                     std::uint32_t first, std::uint32_t last, std::uint32_t size,
                      std::vector<Cluster>& clusters);
 
 /// Orders clusters front to back for a frame and hands out the vertex ranges to draw.

@@ -1,5 +1,5 @@
-// Lattice texels on the device: eight interleaved channels become two stores of features and one of
-// alpha, in the order that the plan asks for.
+// Lattice texels on the device: eight interleaved channels become two stores of features, in the
+// order that the plan asks for, and one of alpha by lattice cell.
 #pragma once
 
 #include "runtime/plan.hpp"
@@ -10,11 +10,13 @@ namespace tureen {
 struct LatticeStores {
   TexelStore features0;  // f0..f3
   TexelStore features1;  // f4..f6, 0
-  TexelStore alphas;
-  TexelStore patches;  // (first texel, level) a slot
+  /// Alpha at the four corners of each cell, so that an alpha test costs one read instead of three;
+  /// docs/decisions/alpha-cells.md has the measurement.
+  TexelStore alpha_cells;
+  TexelStore patches;  // (first texel, level, first cell, 0) a slot
 };
 
-/// Makes only the stores that the plan reads: features1 with a network, alphas with cut-outs,
+/// Makes only the stores that the plan reads: features1 with a network, alpha_cells with cut-outs,
 /// patches without a uniform level. Throws DeviceLimitError.
 LatticeStores upload_lattice(const LatticeTexture& texture, const RenderPlan& plan,
                              const TexelLayout& layout);

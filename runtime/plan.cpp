@@ -109,8 +109,9 @@ class Planner {
                  plan_.opaque_count, plan_.faces.size()));
 
     const auto opaque = std::uint32_t(plan_.opaque_count), all = std::uint32_t(plan_.faces.size());
-    append_clusters(soup_, plan_.faces, 0, opaque, default_cluster_size, plan_.clusters);
-    append_clusters(soup_, plan_.faces, opaque, all, default_cluster_size, plan_.clusters);
+    const std::uint32_t size = cluster_size(plan_.faces.size());
+    append_clusters(soup_, plan_.faces, 0, opaque, size, plan_.clusters);
+    append_clusters(soup_, plan_.faces, opaque, all, size, plan_.clusters);
   }
 
   void plan_appearance(const FaceColors&) { plan_.flat_colors = true; }

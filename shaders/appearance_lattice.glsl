@@ -5,23 +5,37 @@
 
 uniform sampler2DArray features0;  // f0..f3
 uniform sampler2DArray features1;  // f4..f6
-uniform sampler2DArray alphas;     // alpha alone, so that cut-outs read nothing else
+// Alpha at the four corners of each lattice cell: (x+1, y), (x, y+1), (x, y), (x+1, y+1). The cells
+// of a face follow each other as the texels of a lattice one row smaller do. A cut-out costs one read.
+uniform sampler2DArray alpha_cells;
 #if LATTICE_LEVEL < 0
-uniform usampler2DArray patches;  // first texel, level
+uniform usampler2DArray patches;  // first texel, level, first cell
 #endif
 
-LatticeFootprint face_footprint(uint face, vec2 b) {
+struct FacePatch {
+  uint first_texel;
+  int level;
+  uint first_cell;
+};
+
+FacePatch patch_of(uint face) {
 #if LATTICE_LEVEL >= 0
   const uint n = 1u << LATTICE_LEVEL;
-  uint first = face * ((n + 1u) * (n + 2u) / 2u);
-  LatticeFootprint at = lattice_footprint(LATTICE_LEVEL, b);
+  return FacePatch(face * ((n + 1u) * (n + 2u) / 2u), LATTICE_LEVEL, face * (n * (n + 1u) / 2u));
 #else
-  uvec2 patch_of_face = texelFetch(patches, texel_position(face), 0).xy;
-  uint first = patch_of_face.x;
-  LatticeFootprint at = lattice_footprint(int(patch_of_face.y), b);
+  uvec4 entry = texelFetch(patches, texel_position(face), 0);
+  return FacePatch(entry.x, int(entry.y), entry.z);
 #endif
-  at.texels += first;
-  return at;
+}
+
+bool fragment_exists(uint face, vec2 b) {
+  FacePatch at = patch_of(face);
+  LatticeCell cell = lattice_cell(at.level, b);
+  uint index = at.first_cell + lattice_texel_index(cell.x, cell.y);
+  vec4 alpha = texelFetch(alpha_cells, texel_position(index), 0);
+  bool upper;
+  vec3 weights = lattice_weights(cell.p, upper);
+  return dot(weights, vec3(alpha.xy, upper ? alpha.w : alpha.z)) >= ALPHA_THRESHOLD;
 }
 
 vec4 lattice_sample(sampler2DArray store, LatticeFootprint at) {
@@ -30,16 +44,14 @@ vec4 lattice_sample(sampler2DArray store, LatticeFootprint at) {
          at.weights.z * texelFetch(store, texel_position(at.texels.z), 0);
 }
 
-bool fragment_exists(uint face, vec2 b) {
-  return lattice_sample(alphas, face_footprint(face, b)).r >= ALPHA_THRESHOLD;
-}
-
 #if COLOR_MLP
 vec3 color_mlp(vec4 features0, vec4 features1, vec3 to_eye);
 #endif
 
 vec3 fragment_color(uint face, vec2 b, vec3 to_eye) {
-  LatticeFootprint at = face_footprint(face, b);
+  FacePatch of_face = patch_of(face);
+  LatticeFootprint at = lattice_footprint(of_face.level, b);
+  at.texels += of_face.first_texel;
   vec4 f = lattice_sample(features0, at);
 #if COLOR_MLP
   return color_mlp(f, lattice_sample(features1, at), to_eye);
