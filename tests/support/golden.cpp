@@ -7,30 +7,10 @@
 #include <filesystem>
 
 #include "formats/input.hpp"
-#include "formats/output.hpp"
 #include "formats/png.hpp"
+#include "support/evidence.hpp"
 
 namespace tureen::test {
-
-namespace {
-
-void write_png(const Image8& image, const std::filesystem::path& path) {
-  Output output(path);
-  output.write(encode_png(image));
-  output.commit();
-}
-
-/// The difference of each channel, times 16 so that a single step can be seen.
-Image8 enlarged_difference(const Image8& a, const Image8& b) {
-  Image8 result(a.width, a.height, glm::u8vec4(0, 0, 0, 255));
-  for (std::size_t i = 0; i < a.pixels.size(); ++i)
-    for (int c = 0; c < 3; ++c)
-      result.pixels[i][c] =
-          std::uint8_t(std::min(255, 16 * std::abs(int(a.pixels[i][c]) - int(b.pixels[i][c]))));
-  return result;
-}
-
-}  // namespace
 
 void expect_golden(const Image8& actual, const std::string& name, const std::string& variant) {
   namespace fs = std::filesystem;
@@ -57,10 +37,9 @@ void expect_golden(const Image8& actual, const std::string& name, const std::str
   if (same_size && off * 300 <= actual.pixels.size() && off_by_more * 3000 <= actual.pixels.size())
     return;
 
-  fs::create_directories(folder);
-  write_png(actual, folder / "actual.png");
-  if (!expected.pixels.empty()) write_png(expected, folder / "expected.png");
-  if (same_size) write_png(enlarged_difference(expected, actual), folder / "difference.png");
+  write_evidence(actual, folder, "actual");
+  if (!expected.pixels.empty()) write_evidence(expected, folder, "expected");
+  if (same_size) write_evidence(enlarged_difference(expected, actual), folder, "difference");
   ADD_FAILURE() << (expected.pixels.empty() ? "there is no golden "
                     : !same_size            ? "the size differs from the golden "
                                             : "the picture differs from the golden ")

@@ -1,0 +1,92 @@
+// Trained soups of others, as a user loads them, against the oracle. Skipped where the data, which
+// is not part of the project, is not there.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "formats/scene_file.hpp"
+#include "runtime/navigation.hpp"
+#include "soup/metrics.hpp"
+#include "support/agreement.hpp"
+
+namespace tureen {
+namespace {
+
+using test::Drawn;
+
+std::filesystem::path data(const std::string& name) {
+  return std::filesystem::path(TUREEN_SOURCE_DIR) / "../shared/data/soups" / name;
+}
+
+gl::Context& context() {
+  static gl::Context shared = gl::Context::create({});
+  return shared;
+}
+
+/// The side that `tureen render` shows first, and the opposite one.
+std::vector<Camera> two_views(const Scene& scene) {
+  return orbit(subject_of(scene), 2, three_quarter_view, {.width = 960, .height = 720});
+}
+
+Drawn draw(const Scene& scene, const Camera& camera, const PlanPreferences& plan) {
+  return test::draw(context(), std::get<TriangleSoup>(scene.primitives), scene.origin, camera,
+                    plan);
+}
+
+struct RealSoup {
+  const char* name;
+  /// The plant fills 7 % of its picture; the one part of the drums that is there, 11,026 triangles
+  /// scattered over the whole, 1.6 to 2.2 %, which still is 11,000 pixels.
+  double least_compared;
+};
+void PrintTo(const RealSoup& soup, std::ostream* out) { *out << soup.name; }
+
+class RealData : public testing::TestWithParam<RealSoup> {};
+
+TEST_P(RealData, AgreesWithTheOracle) {
+  const auto [name, least_compared] = GetParam();
+  if (!std::filesystem::exists(data(name))) GTEST_SKIP() << "no ../shared/data";
+  const Scene scene = read_scene(data(name));
+  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  int view = 0;
+  for (const Camera& camera : two_views(scene)) {
+    const OracleImage oracle = test::snapped_oracle(soup, scene.origin, camera);
+    Drawn drawn = draw(scene, camera, {.site = ShadingSite::deferred});
+    const std::string which = "view " + std::to_string(view++);
+    test::expect_agreement(oracle, drawn, which, {.least_compared = least_compared});
+    // The plan that a user gets may shade forward; it covers the same pixels.
+    drawn.color = draw(scene, camera, {}).color;
+    test::expect_agreement(oracle, drawn, which + " as planned",
+                           {.least_compared = least_compared});
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Soup, RealData,
+                         testing::Values(RealSoup{"ficus_2dts.glb", 0.05},
+                                         RealSoup{"ficus_2dts.off", 0.05},
+                                         RealSoup{"mobilenerf_drums", 0.01}),
+                         [](const auto& i) {
+                           std::string name = i.param.name;
+                           for (char& c : name) c = c == '.' ? '_' : c;
+                           return name;
+                         });
+
+// Both hold the same bytes for colours, one a vertex, the other a face, and the same positions, one
+// in decimals: the pictures are equal here. The issue asks for 45 dB; one pixel in sixteen that is
+// a step off would leave 60.
+TEST(RealDataPair, GlbAndOffShowTheSamePlant) {
+  if (!std::filesystem::exists(data("ficus_2dts.glb"))) GTEST_SKIP() << "no ../shared/data";
+  const Scene glb = read_scene(data("ficus_2dts.glb")), off = read_scene(data("ficus_2dts.off"));
+  const std::vector<Camera> of_glb = two_views(glb), of_off = two_views(off);
+  for (std::size_t view = 0; view < of_glb.size(); ++view) {
+    const ImageF a = to_float(draw(glb, of_glb[view], {}).color);
+    const ImageF b = to_float(draw(off, of_off[view], {}).color);
+    const double psnr = psnr_from_mse(mean_squared_error(a, b));
+    RecordProperty("psnr_of_view_" + std::to_string(view), std::to_string(psnr));
+    EXPECT_GT(psnr, 60.0) << "view " << view;
+  }
+}
+
+}  // namespace
+}  // namespace tureen
