@@ -29,7 +29,9 @@ struct Meta {
 
 Meta read_meta(const fs::path& path, std::vector<std::string>& notes) {
   Meta meta;
-  if (!fs::exists(path)) {
+  // A link that leads nowhere or to itself is there, and Input::open says what is wrong with it.
+  std::error_code ignored;
+  if (fs::symlink_status(path, ignored).type() == fs::file_type::not_found) {
     notes.emplace_back("meta.json is missing: level 5, up -y and a black background are assumed");
     return meta;
   }
@@ -99,7 +101,11 @@ Image8 read_lut(const fs::path& path, std::uint64_t texels) {
                           " pixels cannot be " + std::to_string(texels) + " texels in rows of " +
                           std::to_string(width) + ": " + std::to_string(expected) +
                           " rows expected");
-  return decode_image(bytes, input.name());
+  Image8 image = decode_image(bytes, input.name());
+  // A decoder may look past other chunks for the header that it believes (Apple's CgBI is one).
+  if (std::uint64_t(image.width) != width || std::uint64_t(image.height) != height)
+    input.fail_at(8, "the first chunk of the PNG is not its header");
+  return image;
 }
 
 ColorMlp read_mlp(const fs::path& path) {

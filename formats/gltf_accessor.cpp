@@ -1,6 +1,7 @@
 #include "formats/gltf_accessor.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 
 namespace tureen {
@@ -108,17 +109,23 @@ bool is_index_type(int type) {
          type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
 }
 
-/// Calls visit(element, bytes) for every element that has bytes, then for every one that the
-/// sparse part replaces.
-template <class Visit>
-void for_each_element(GltfDocument& document, const Checked& checked, Visit&& visit) {
+std::size_t bytes_of_element(const Checked& checked) {
+  return checked.component_bytes * std::size_t(checked.components);
+}
+
+/// All elements; nowhere (first is null) where the accessor has no bytes of its own.
+GltfDocument::Elements dense_elements(GltfDocument& document, const Checked& checked) {
   const tinygltf::Accessor& accessor = *checked.accessor;
-  const std::size_t each = checked.component_bytes * std::size_t(checked.components);
-  if (accessor.bufferView >= 0) {
-    const auto elements = document.elements(accessor.bufferView, accessor.byteOffset,
-                                            accessor.count, each, checked.where);
-    for (std::size_t i = 0; i < accessor.count; ++i) visit(i, elements.first + i * elements.stride);
-  }
+  if (accessor.bufferView < 0) return {};
+  return document.elements(accessor.bufferView, accessor.byteOffset, accessor.count,
+                           bytes_of_element(checked), checked.where);
+}
+
+/// Calls visit(element, bytes) for every element that the sparse part replaces.
+template <class Visit>
+void for_each_sparse(GltfDocument& document, const Checked& checked, Visit&& visit) {
+  const tinygltf::Accessor& accessor = *checked.accessor;
+  const std::size_t each = bytes_of_element(checked);
   if (!accessor.sparse.isSparse) return;
 
   const auto& sparse = accessor.sparse;
@@ -144,36 +151,42 @@ void for_each_element(GltfDocument& document, const Checked& checked, Visit&& vi
     if (element >= accessor.count)
       document.fail(where, "replaces element " + std::to_string(element) + " of " +
                                std::to_string(accessor.count));
-    visit(std::size_t(element), values.first + i * values.stride);
+    visit(element, values.first + i * values.stride);
   }
 }
 
 }  // namespace
 
-std::size_t accessor_count(const GltfDocument& document, int index) {
-  const auto& accessors = document.model().accessors;
-  return index < 0 || std::size_t(index) >= accessors.size() ? 0
-                                                             : accessors[std::size_t(index)].count;
+std::size_t accessor_count(GltfDocument& document, int index) {
+  const Checked checked = check(document, index);
+  dense_elements(document, checked);
+  return checked.accessor->count;
 }
 
-FloatAccessor read_float_accessor(GltfDocument& document, int index,
-                                  std::initializer_list<int> components) {
+FloatElements read_float_elements(GltfDocument& document, int index,
+                                  std::initializer_list<int> components,
+                                  const std::vector<std::uint32_t>& wanted) {
   const Checked checked = check(document, index);
   if (std::find(components.begin(), components.end(), checked.components) == components.end())
     document.fail(checked.where, "has elements of the wrong type for this use");
-  FloatAccessor result{checked.accessor->count, checked.components, {}};
-  const auto allocate = [&] {
-    if (result.values.empty()) result.values.resize(result.count * std::size_t(result.components));
+  const auto elements = dense_elements(document, checked);
+  const auto per_element = std::size_t(checked.components);
+  FloatElements result{checked.components, std::vector<float>(wanted.size() * per_element)};
+  const auto store = [&](std::size_t place, const std::byte* bytes) {
+    for (std::size_t c = 0; c < per_element; ++c)
+      result.values[place * per_element + c] =
+          load_float(bytes + c * checked.component_bytes, checked.accessor->componentType,
+                     checked.accessor->normalized);
   };
-  // Without bytes the count was held against the budget; with them, elements() holds it against
-  // the buffer before the first visit.
-  if (checked.accessor->bufferView < 0) allocate();
-  for_each_element(document, checked, [&](std::size_t i, const std::byte* bytes) {
-    allocate();
-    for (int c = 0; c < result.components; ++c)
-      result.values[i * std::size_t(result.components) + std::size_t(c)] =
-          load_float(bytes + std::size_t(c) * checked.component_bytes,
-                     checked.accessor->componentType, checked.accessor->normalized);
+  if (elements.first)
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      assert(wanted[i] < checked.accessor->count);
+      store(i, elements.first + wanted[i] * elements.stride);
+    }
+  for_each_sparse(document, checked, [&](std::uint32_t element, const std::byte* bytes) {
+    const auto found = std::lower_bound(wanted.begin(), wanted.end(), element);
+    if (found != wanted.end() && *found == element)
+      store(std::size_t(found - wanted.begin()), bytes);
   });
   return result;
 }
@@ -181,13 +194,16 @@ FloatAccessor read_float_accessor(GltfDocument& document, int index,
 std::vector<std::uint32_t> read_index_accessor(GltfDocument& document, int index,
                                                std::size_t limit) {
   const Checked checked = check(document, index);
-  if (checked.components != 1 || !is_index_type(checked.accessor->componentType))
+  const int type = checked.accessor->componentType;
+  if (checked.components != 1 || !is_index_type(type))
     document.fail(checked.where, "indices must be unsigned scalars");
-  std::vector<std::uint32_t> result;
-  if (checked.accessor->bufferView < 0) result.resize(checked.accessor->count);
-  for_each_element(document, checked, [&](std::size_t i, const std::byte* bytes) {
-    if (result.empty()) result.resize(checked.accessor->count);
-    result[i] = load_unsigned(bytes, checked.accessor->componentType);
+  const auto elements = dense_elements(document, checked);
+  std::vector<std::uint32_t> result(checked.accessor->count);
+  if (elements.first)
+    for (std::size_t i = 0; i < result.size(); ++i)
+      result[i] = load_unsigned(elements.first + i * elements.stride, type);
+  for_each_sparse(document, checked, [&](std::uint32_t element, const std::byte* bytes) {
+    result[element] = load_unsigned(bytes, type);
   });
   for (std::size_t i = 0; i < result.size(); ++i)
     if (result[i] >= limit)

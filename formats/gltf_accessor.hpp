@@ -11,22 +11,26 @@
 
 namespace tureen {
 
-struct FloatAccessor {
-  std::size_t count = 0;
+/// How many elements accessors[index] has, once it is certain that its bytes are there (or, for one
+/// without bytes, that the document's vertex_budget() allows it). Throws InputError otherwise.
+std::size_t accessor_count(GltfDocument& document, int index);
+
+/// Some elements of an accessor.
+struct FloatElements {
   int components = 0;
-  std::vector<float> values;  // count * components
+  std::vector<float> values;  // `components` for each element asked for, in that order
 };
 
-/// Normalised integers become [0, 1] or [-1, 1] (glTF 2.0, section 3.6.2.2); others keep their
-/// value. `components` lists how many an element may have.
-FloatAccessor read_float_accessor(GltfDocument& document, int index,
-                                  std::initializer_list<int> components);
+/// The elements `wanted`, ascending and without repetition, each below accessor_count(). Normalised
+/// integers become [0, 1] or [-1, 1] (glTF 2.0, section 3.6.2.2); others keep their value.
+/// `components` lists how many an element may have. Takes the time of what is wanted, and of the
+/// sparse part, not of the accessor: exporters let thousands of primitives draw on one large one.
+FloatElements read_float_elements(GltfDocument& document, int index,
+                                  std::initializer_list<int> components,
+                                  const std::vector<std::uint32_t>& wanted);
 
 /// Unsigned scalars, each below `limit`.
 std::vector<std::uint32_t> read_index_accessor(GltfDocument& document, int index,
                                                std::size_t limit);
-
-/// How many elements it has, 0 where there is no such accessor.
-std::size_t accessor_count(const GltfDocument& document, int index);
 
 }  // namespace tureen

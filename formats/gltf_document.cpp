@@ -171,9 +171,7 @@ Image8 GltfDocument::image(int index) {
     if (error.reason().rfind("images[", 0) == 0 || error.reason().rfind("buffer", 0) == 0) throw;
     json.fail(error.reason());
   }
-  // One image is bounded by max_image_pixels; all of them together are, too, with some grace.
-  image_pixels_ += result.pixels.size();
-  if (image_pixels_ > 2 * max_image_pixels) json.fail("the images of this file are too large");
+  if (!images_.take(result)) json.fail(image_budget_reason);
   return result;
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "formats/glb_container.hpp"
+#include "formats/image_budget.hpp"
 #include "formats/input.hpp"
 #include "formats/json_view.hpp"
 #include "formats/tinygltf.hpp"
@@ -60,7 +61,7 @@ class GltfDocument {
   tinygltf::Model model_;
   std::vector<std::optional<std::vector<std::byte>>> buffers_;
   std::uint64_t loaded_bytes_ = 0;
-  std::uint64_t image_pixels_ = 0;
+  ImageBudget images_;
 };
 
 }  // namespace tureen

@@ -31,6 +31,14 @@ std::vector<glm::uvec3> assembled(const std::vector<std::uint32_t>& corners, int
   return triangles;
 }
 
+/// Room for `more` elements: exactly that many for a first, large primitive, and in strides that
+/// double where many small ones follow each other.
+template <class T>
+void make_room(std::vector<T>& values, std::size_t more) {
+  const std::size_t total = values.size() + more;
+  if (total > values.capacity()) values.reserve(std::max(total, 2 * values.size()));
+}
+
 }  // namespace
 
 void GltfSoupBuilder::add_mesh(int index, const glm::dmat4& world_from_mesh) {
@@ -76,19 +84,21 @@ void GltfSoupBuilder::add_primitive(const tinygltf::Primitive& primitive, const 
   }
   if (!primitive.targets.empty()) notes.push_back("morph targets are not applied");
 
-  const FloatAccessor positions = read_float_accessor(document_, position->second, {3});
-  std::vector<glm::uvec3> triangles = triangles_of(primitive, where, positions.count);
+  const std::size_t vertices = accessor_count(document_, position->second);
+  if (vertices >= unused) document_.fail(where, "has more vertices than 32 bits can count");
+  std::vector<glm::uvec3> triangles = triangles_of(primitive, where, vertices);
 
   // Only the vertices that this primitive uses, in order: exporters let many primitives draw on
   // one large accessor.
-  std::vector<std::uint32_t> renamed(positions.count, unused), used;
+  std::vector<std::uint32_t> used;
+  if (renamed_.size() < vertices) renamed_.resize(vertices, unused);
   for (const glm::uvec3& triangle : triangles)
-    for (int k = 0; k < 3; ++k) renamed[triangle[k]] = 0;
-  for (std::size_t i = 0; i < renamed.size(); ++i)
-    if (renamed[i] != unused) {
-      renamed[i] = std::uint32_t(soup_.positions.size() + used.size());
-      used.push_back(std::uint32_t(i));
-    }
+    for (int k = 0; k < 3; ++k)
+      if (renamed_[triangle[k]] == unused) {
+        renamed_[triangle[k]] = 0;
+        used.push_back(triangle[k]);
+      }
+  if (!std::is_sorted(used.begin(), used.end())) std::sort(used.begin(), used.end());
   const std::size_t total = soup_.positions.size() + used.size();
   if (total > document_.vertex_budget() || total >= unused ||
       soup_.triangles.size() + triangles.size() > 4 * document_.vertex_budget())
@@ -98,55 +108,70 @@ void GltfSoupBuilder::add_primitive(const tinygltf::Primitive& primitive, const 
   const Part part{soup_.positions.size(), used.size(), soup_.triangles.size(), triangles.size(),
                   material(primitive.material)};
   parts_.push_back(part);
-  soup_.positions.reserve(total);
-  for (const std::uint32_t v : used) {
-    const float* p = &positions.values[3 * std::size_t(v)];
-    soup_.positions.emplace_back(world_from_mesh * glm::dvec4(p[0], p[1], p[2], 1.0));
-  }
-  soup_.triangles.reserve(soup_.triangles.size() + triangles.size());
+  for (std::size_t i = 0; i < used.size(); ++i)
+    renamed_[used[i]] = std::uint32_t(part.first_vertex + i);
+  add_positions(position->second, world_from_mesh, used);
+  make_room(soup_.triangles, triangles.size());
   for (const glm::uvec3& t : triangles)
-    soup_.triangles.emplace_back(renamed[t.x], renamed[t.y], renamed[t.z]);
+    soup_.triangles.emplace_back(renamed_[t.x], renamed_[t.y], renamed_[t.z]);
+  for (const std::uint32_t v : used) renamed_[v] = unused;
 
   const auto color = primitive.attributes.find("COLOR_0");
   if (color != primitive.attributes.end()) {
-    if (accessor_count(document_, color->second) != positions.count)
+    if (accessor_count(document_, color->second) != vertices)
       document_.fail(where + ".attributes.COLOR_0", "has not as many elements as POSITION");
     add_colors(color->second, where, used);
   }
   add_uv(primitive, materials_[part.material], where, used);
 }
 
+void GltfSoupBuilder::add_positions(int accessor, const glm::dmat4& world_from_mesh,
+                                    const std::vector<std::uint32_t>& used) {
+  const FloatElements positions = read_float_elements(document_, accessor, {3}, used);
+  make_room(soup_.positions, used.size());
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    const float* p = &positions.values[3 * i];
+    soup_.positions.emplace_back(world_from_mesh * glm::dvec4(p[0], p[1], p[2], 1.0));
+  }
+}
+
 void GltfSoupBuilder::add_colors(int accessor, const std::string& where,
                                  const std::vector<std::uint32_t>& used) {
-  const FloatAccessor colors = read_float_accessor(document_, accessor, {3, 4});
+  const FloatElements colors = read_float_elements(document_, accessor, {3, 4}, used);
   if (document_.model().accessors[std::size_t(accessor)].componentType !=
           TINYGLTF_COMPONENT_TYPE_FLOAT &&
       !document_.model().accessors[std::size_t(accessor)].normalized)
     document_.fail(where + ".attributes.COLOR_0", "holds integers that are not normalised");
   const std::size_t first = soup_.positions.size() - used.size();
+  make_room(vertex_colors_, first + used.size() - vertex_colors_.size());
   vertex_colors_.resize(first, glm::vec4(1.0f));
-  for (const std::uint32_t v : used) {
-    const float* c = &colors.values[std::size_t(v) * std::size_t(colors.components)];
-    vertex_colors_.emplace_back(c[0], c[1], c[2], colors.components == 4 ? c[3] : 1.0f);
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    glm::vec4 rgba(1.0f);
+    // Floats may be anything; glTF clamps each to [0, 1] before it is multiplied (2.0, section
+    // 3.7.2.1). Written so that NaN becomes 0.
+    for (int c = 0; c < colors.components; ++c)
+      rgba[c] = std::min(
+          std::max(0.0f, colors.values[i * std::size_t(colors.components) + std::size_t(c)]), 1.0f);
+    vertex_colors_.push_back(rgba);
   }
 }
 
 void GltfSoupBuilder::add_uv(const tinygltf::Primitive& primitive, const GltfMaterial& material,
                              const std::string& where, const std::vector<std::uint32_t>& used) {
-  if (material.image < 0) return;
+  if (material.image < 0 || used.empty()) return;
   const std::string name = "TEXCOORD_" + std::to_string(material.texture_coordinate);
   const auto attribute = primitive.attributes.find(name);
   if (attribute == primitive.attributes.end())
     document_.fail(where, "its material wants " + name + ", which it lacks");
-  const FloatAccessor uv = read_float_accessor(document_, attribute->second, {2});
+  if (used.back() >= accessor_count(document_, attribute->second))
+    document_.fail(where + ".attributes." + name, "has not as many elements as POSITION");
+  const FloatElements uv = read_float_elements(document_, attribute->second, {2}, used);
   const std::size_t first = soup_.positions.size() - used.size();
+  make_room(uv_, first + used.size() - uv_.size());
   uv_.resize(first, glm::vec2(0.0f));
-  for (const std::uint32_t v : used) {
-    if (v >= uv.count)
-      document_.fail(where + ".attributes." + name, "has not as many elements as POSITION");
-    uv_.emplace_back(material.uv_transform * glm::dvec3(uv.values[2 * std::size_t(v)],
-                                                        uv.values[2 * std::size_t(v) + 1], 1.0));
-  }
+  for (std::size_t i = 0; i < used.size(); ++i)
+    uv_.emplace_back(material.uv_transform *
+                     glm::dvec3(uv.values[2 * i], uv.values[2 * i + 1], 1.0));
 }
 
 std::size_t GltfSoupBuilder::material(int index) {

@@ -40,6 +40,8 @@ class GltfSoupBuilder {
                      const glm::dmat4& world_from_mesh);
   std::vector<glm::uvec3> triangles_of(const tinygltf::Primitive& primitive,
                                        const std::string& where, std::size_t vertices);
+  void add_positions(int accessor, const glm::dmat4& world_from_mesh,
+                     const std::vector<std::uint32_t>& used);
   void add_colors(int accessor, const std::string& where, const std::vector<std::uint32_t>& used);
   void add_uv(const tinygltf::Primitive& primitive, const GltfMaterial& material,
               const std::string& where, const std::vector<std::uint32_t>& used);
@@ -56,6 +58,9 @@ class GltfSoupBuilder {
   std::map<int, std::size_t> material_index_;  // of the file's, -1 among them
   std::vector<glm::vec4> vertex_colors_;       // as stored; empty until the first
   std::vector<glm::vec2> uv_;                  // empty until the first
+  /// From an accessor's vertices to the soup's while one primitive is added, `unused` in between:
+  /// kept, because a fresh one would cost every primitive the length of the accessor.
+  std::vector<std::uint32_t> renamed_;
 };
 
 }  // namespace tureen

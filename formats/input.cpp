@@ -19,7 +19,10 @@ Input Input::open(const std::filesystem::path& path) {
   input.name_ = path.string();
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw InputError({input.name_, {}, {}}, "no such file");
+  if (status.type() == std::filesystem::file_type::not_found)
+    throw InputError({input.name_, {}, {}}, "no such file");
+  if (!std::filesystem::status_known(status))  // links in a ring, a name too long, no permission
+    throw InputError({input.name_, {}, {}}, "cannot be looked up: " + error.message());
   if (std::filesystem::is_directory(status))
     throw InputError({input.name_, {}, {}}, "is a folder, expected a file");
   input.size_ = std::filesystem::file_size(path, error);

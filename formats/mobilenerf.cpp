@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "formats/image_budget.hpp"
 #include "formats/json_file.hpp"
 #include "formats/obj.hpp"
 #include "formats/png.hpp"
@@ -145,7 +146,8 @@ void append(TriangleSoup& soup, UvTextures& textures, const fs::path& path,
 }
 
 /// Two images of equal size and the material that samples them.
-void append_material(UvTextures& textures, const std::array<fs::path, 2>& features) {
+void append_material(UvTextures& textures, const std::array<fs::path, 2>& features,
+                     ImageBudget& budget) {
   UvMaterial material;
   material.wrap_u = material.wrap_v = UvMaterial::Wrap::clamp;
   material.filter = UvMaterial::Filter::nearest;
@@ -155,6 +157,7 @@ void append_material(UvTextures& textures, const std::array<fs::path, 2>& featur
     Input input = Input::open(path);
     material.images.push_back(static_cast<std::uint32_t>(textures.images.size()));
     textures.images.push_back(read_image(input));
+    if (!budget.take(textures.images.back())) input.fail_at(0, image_budget_reason);
   }
   const Image8& first = textures.images[material.images[0]];
   const Image8& second = textures.images[material.images[1]];
@@ -202,6 +205,7 @@ Scene read_mobilenerf(const fs::path& path, const ReadOptions& options) {
   Scene scene;
   TriangleSoup soup;
   UvTextures textures;
+  ImageBudget budget;
   std::vector<int> missing, untextured;
   for (int i = 0; i < network.shapes; ++i) {
     if (options.progress) options.progress(double(i) / network.shapes);
@@ -212,12 +216,13 @@ Scene read_mobilenerf(const fs::path& path, const ReadOptions& options) {
     }
     const std::string stem = "shape" + std::to_string(i) + ".pngfeat";
     const std::array<fs::path, 2> features{folder / (stem + "0.png"), folder / (stem + "1.png")};
-    if (!fs::exists(features[0]) || !fs::exists(features[1])) {
+    std::error_code ignored;
+    if (!fs::exists(features[0], ignored) || !fs::exists(features[1], ignored)) {
       untextured.push_back(i);
       continue;
     }
     const auto material = static_cast<std::uint32_t>(textures.materials.size());
-    append_material(textures, features);
+    append_material(textures, features, budget);
     for (const auto& [piece, file] : pieces->second) append(soup, textures, file, material);
   }
   const std::string of = " of " + std::to_string(network.shapes) + " ";

@@ -134,7 +134,8 @@ const Format& format_to_read(const Candidate& candidate) {
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& path, const ReadOptions& options) {
-  Candidate candidate{path, std::filesystem::is_directory(path), {}};
+  std::error_code ignored;  // what is wrong with the path, Input::open says
+  Candidate candidate{path, std::filesystem::is_directory(path, ignored), {}};
   std::array<std::byte, head_size> head;
   if (!candidate.is_folder) {
     Input input = Input::open(path);

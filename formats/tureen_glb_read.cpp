@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "formats/glb_container.hpp"
+#include "formats/image_budget.hpp"
 #include "formats/json_view.hpp"
 #include "formats/png.hpp"
 #include "formats/tureen_glb.hpp"
@@ -183,18 +184,25 @@ class Reader {
     const JsonView notes = extension_["notes"];
     for (std::size_t i = 0; i < notes.size(); ++i) info.notes.push_back(notes.at(i).text());
     info.up = vector<3, float>(extension_["up"]);
+    if (info.up == glm::vec3(0.0f)) extension_["up"].fail("has no direction");
     info.background = vector<3, float>(extension_["background"]);
     scene.origin = vector<3, double>(extension_["origin"]);
     const JsonView cameras = extension_["cameras"];
     for (std::size_t i = 0; i < cameras.size(); ++i) scene.cameras.push_back(camera(cameras.at(i)));
   }
 
+  /// Pictures of any other size cannot be drawn, and a driver may do worse than say so.
+  static int side(const JsonView& view) {
+    const std::uint64_t pixels = view.natural(max_image_side);
+    if (pixels == 0) view.fail("a picture without pixels");
+    return int(pixels);
+  }
+
   static Camera camera(const JsonView& view) {
-    constexpr auto max_side = std::uint64_t(std::numeric_limits<int>::max());
     Camera result;
     result.name = view["name"].text();
-    result.width = int(view["width"].natural(max_side));
-    result.height = int(view["height"].natural(max_side));
+    result.width = side(view["width"]);
+    result.height = side(view["height"]);
     result.fx = view["fx"].number();
     result.fy = view["fy"].number();
     result.cx = view["cx"].number();
@@ -373,9 +381,11 @@ class Reader {
     for (std::size_t i = 0; i < materials.size(); ++i)
       textures.materials.push_back(material(materials.at(i)));
     const JsonView images = view["images"];
+    ImageBudget budget;
     for (std::size_t i = 0; i < images.size(); ++i) {
       next_image(images.at(i));
       textures.images.push_back(image(images.at(i)));
+      if (!budget.take(textures.images.back())) images.at(i).fail(image_budget_reason);
     }
     return textures;
   }

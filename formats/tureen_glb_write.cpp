@@ -373,6 +373,7 @@ std::string utf8(const std::string& text, std::vector<std::string>& losses) {
 
 json info_json(const Scene& scene, std::vector<std::string>& losses) {
   const SceneInfo& info = scene.info;
+  if (info.up == glm::vec3(0.0f)) throw UsageError("a GLB cannot hold an up axis of no direction");
   json extension = {{"version", tureen_extension_version},
                     {"name", utf8(info.name, losses)},
                     {"source", utf8(info.source, losses)},
@@ -387,6 +388,10 @@ json info_json(const Scene& scene, std::vector<std::string>& losses) {
     for (int column = 0; column < 4; ++column)
       for (int row = 0; row < 4; ++row) matrix.push_back(camera.view_from_world[column][row]);
     const std::string what = "camera \"" + camera.name + "\"";
+    for (const int side : {camera.width, camera.height})
+      if (side < 1 || side > max_image_side)
+        throw UsageError("a GLB cannot hold " + what + " of " + std::to_string(camera.width) +
+                         " x " + std::to_string(camera.height) + " pixels");
     require_finite(matrix, what);
     require_finite(std::array{camera.fx, camera.fy, camera.cx, camera.cy}, what);
     extension["cameras"].push_back({{"name", utf8(camera.name, losses)},

@@ -355,6 +355,34 @@ TEST(DiffSoupExport, WhatIsWrongIsNamed) {
   EXPECT_FALSE(is_diffsoup_export(folder / "a/mesh.ply"));
 }
 
+TEST(DiffSoupExport, AHeaderThatOnlyLooksLikeOneIsRefused) {
+  // Apple's chunk CgBI, which the decoder passes over, filled so that its content stands where the
+  // header's would and promises all texels; then the true header, of one pixel. Behind that chunk
+  // deflated data has no zlib header: two bytes less.
+  const TemporaryFolder folder;
+  write_diffsoup_export(random_scene(12, 40, 3), folder / "a");
+  const fs::path path = folder / "a/lut1.png";
+  const std::string promised = read_text(path).substr(16, 10);  // width, height, depth, colours
+  const auto bytes = encode_png(Image8(1, 1));
+  std::string small(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::size_t data = small.find("IDAT");
+  small[data - 1] = char(small[data - 1] - 2);
+  small.erase(data + 4, 2);
+  write_text(path, small.substr(0, 8) + std::string("\0\0\0\012CgBI", 8) + promised + "CRC." +
+                       small.substr(8));
+  Input input = Input::open(path);
+  ASSERT_EQ(read_image(input).width, 1) << "the decoder no longer passes over the chunk";
+  EXPECT_THAT(refusal(folder / "a"), HasSubstr("the first chunk of the PNG is not its header"));
+}
+
+TEST(DiffSoupExport, ALinkInARingIsRefusedWithASentence) {
+  const TemporaryFolder folder;
+  write_diffsoup_export(random_scene(13, 2, 1), folder / "a");
+  fs::remove(folder / "a/meta.json");
+  fs::create_symlink("meta.json", folder / "a/meta.json");
+  EXPECT_THAT(refusal(folder / "a"), HasSubstr("meta.json: cannot be looked up: "));
+}
+
 TEST(DiffSoupExport, WithoutMetaTheViewersDefaultsHold) {
   const TemporaryFolder folder;
   write_diffsoup_export(random_scene(9, 2, 5), folder / "a");

@@ -291,7 +291,20 @@ TEST(TureenGlbFile, RefusesWhatItCannotHoldOrKnow) {
   expect_refusal([&](auto& j) { j["bufferViews"][0]["byteStride"] = 16; }, "packs tightly");
   expect_refusal([&](auto& j) { j["extensions"][x]["cameras"][0]["width"] = -1; },
                  "cameras[0].width: expected a whole number, not -1");
+  expect_refusal([&](auto& j) { j["extensions"][x]["cameras"][0]["width"] = 2147483647; },
+                 "cameras[0].width: 2147483647 is beyond 65536");
+  expect_refusal([&](auto& j) { j["extensions"][x]["cameras"][0]["height"] = 0; },
+                 "cameras[0].height: a picture without pixels");
+  expect_refusal([&](auto& j) { j["extensions"][x]["up"] = {0, 0, 0}; }, "up: has no direction");
 
+  // What is not read is not written.
+  const Scene good = scene;
+  scene.cameras[0].width = 65537;
+  EXPECT_THROW(write_tureen_glb(scene, temporary("never")), UsageError);
+  scene = good;
+  scene.info.up = glm::vec3(0);
+  EXPECT_THROW(write_tureen_glb(scene, temporary("never")), UsageError);
+  scene = good;
   scene.cameras[0].fx = std::numeric_limits<double>::infinity();
   EXPECT_THROW(write_tureen_glb(scene, temporary("never")), UsageError);
   EXPECT_FALSE(std::filesystem::exists(temporary("never")));
