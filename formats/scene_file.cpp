@@ -73,11 +73,13 @@ const std::vector<Format>& formats() {
        .recognises = [](const Candidate& c) { return c.is_folder && is_diffsoup_export(c.path); },
        .read = read_diffsoup_export,
        .write = write_diffsoup_export},
+#ifndef __EMSCRIPTEN__  // its sources are left out there, see CMakeLists.txt
       {.name = "checkpoint",
        .description = "of torch: DiffSoup, Triangle Splatting, Triangle Splatting+, MeshSplatting",
        .extensions = {".pt"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_checkpoint(c.head); },
        .read = [](const Path& path, const ReadOptions& o) { return read_checkpoint(path, o); }},
+#endif
       {.name = "MobileNeRF",
        .description = "a folder of shapes with feature textures and a color MLP, or a file of it",
        .extensions = {".obj"},
