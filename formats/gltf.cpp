@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "formats/gltf_soup.hpp"
+#include "formats/png.hpp"
 #include "formats/tureen_glb.hpp"
 
 namespace tureen {
@@ -181,8 +182,8 @@ class Importer {
         json.perspective.aspectRatio > 0.0 ? json.perspective.aspectRatio : 16.0 / 9.0;
     glm::dmat3 axes(world_from_node);
     const double volume = std::abs(glm::determinant(axes));
-    if (!(fov > 0.0 && fov < 3.14159) || !(aspect < 100.0 && aspect > 0.01) || !(volume > 0.0) ||
-        !std::isfinite(volume)) {
+    if (!(fov > 0.0 && fov < 3.14159) || !(aspect > 0.01) || !(height * aspect <= max_image_side) ||
+        !(volume > 0.0) || !std::isfinite(volume)) {
       builder_.notes.push_back("cameras that see nothing are left out");
       return;
     }

@@ -230,6 +230,50 @@ TEST_F(Gltf, ReadsQuantisedPositionsStridesAndSparseValues) {
   EXPECT_EQ(p[5], glm::vec3(5, 6, 7));
 }
 
+TEST_F(Gltf, ReadsEveryComponentTypeNormalisedOrNot) {
+  const auto check = [&](auto zero, int component, double one) {
+    using T = decltype(zero);
+    const T low = std::numeric_limits<T>::lowest(), high = std::numeric_limits<T>::max();
+    for (const bool normalized : {false, true}) {
+      GlbBuilder b;
+      // Four numbers a vertex, one of them padding, so that every type is aligned.
+      const int position = b.accessor(std::vector<T>{low, high, 1, 0, 0, 0, 0, 0, 3, 2, 1, 0},
+                                      "VEC3", component, 3, normalized);
+      b.document["bufferViews"][0]["byteStride"] = 4 * sizeof(T);
+      b.primitive({{"POSITION", position}});
+      const glm::vec3 p = soup_of(read(b)).positions[0];
+      const double scale = normalized ? one : 1.0;
+      SCOPED_TRACE(std::to_string(component) + (normalized ? " normalised" : ""));
+      EXPECT_EQ(p.x, float(normalized ? std::max(double(low) / one, -1.0) : double(low)));
+      EXPECT_EQ(p.y, float(double(high) / scale));
+      EXPECT_NEAR(p.z, 1.0 / scale, 1e-8);  // one rounding of a number up to 1/127
+    }
+  };
+  check(std::int8_t(0), 5120, 127);
+  check(std::uint8_t(0), 5121, 255);
+  check(std::int16_t(0), 5122, 32767);
+  check(std::uint16_t(0), 5123, 65535);
+}
+
+TEST_F(Gltf, ReplacesSparseElementsWhetherUsedOrNot) {
+  GlbBuilder b;
+  std::vector<float> dense;
+  for (int v = 0; v < 5; ++v) dense.insert(dense.end(), {float(v), 0, 0});
+  const int position = b.floats(dense, 3);
+  const std::vector<std::uint8_t> which = {2, 3};  // the face below does not use 2
+  const std::vector<float> values = {20, 20, 20, 30, 30, 30};
+  b.document["accessors"][std::size_t(position)]["sparse"] = {
+      {"count", 2},
+      {"indices", {{"bufferView", b.view(which.data(), 2)}, {"componentType", 5121}}},
+      {"values", {{"bufferView", b.view(values.data(), 24)}}}};
+  b.primitive({{"POSITION", position}})["indices"] =
+      b.accessor(std::vector<std::uint8_t>{4, 3, 1}, "SCALAR", 5121, 3);
+  const TriangleSoup soup = soup_of(read(b));
+  EXPECT_THAT(soup.positions,
+              ::testing::ElementsAre(glm::vec3(1, 0, 0), glm::vec3(30), glm::vec3(4, 0, 0)));
+  EXPECT_EQ(soup.triangles[0], glm::uvec3(2, 1, 0));
+}
+
 TEST_F(Gltf, AppliesTheWholeHierarchyAndInstances) {
   GlbBuilder b;
   b.triangle();
@@ -403,6 +447,10 @@ TEST_F(Gltf, ReadsCameras) {
   EXPECT_EQ(camera.width * 2, camera.height * 3);
   EXPECT_NEAR(2 * std::atan(0.5 * camera.height / camera.fy), 0.8, 1e-12);
   EXPECT_NEAR(glm::length(camera.eye() - glm::dvec3(0, 0, 4)), 0.0, 1e-12);
+
+  // Wider than any picture: 720 rows of this shape have 68,400 columns.
+  b.document["cameras"][0]["perspective"]["aspectRatio"] = 95;
+  EXPECT_TRUE(read(b).cameras.empty());
 }
 
 TEST_F(Gltf, RefusesRequiredExtensionsByName) {
