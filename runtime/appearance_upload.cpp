@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "runtime/gl/state.hpp"
 #include "runtime/lattice_upload.hpp"
 #include "soup/lattice.hpp"
 
@@ -255,6 +256,7 @@ void DeviceAppearance::bind(const gl::Program& program) const {
   for (std::size_t unit = 0; unit < samplers.size(); ++unit) {
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     glBindTexture(GL_TEXTURE_2D_ARRAY, samplers[unit].store.texture());
+    gl::use_texture_sampling(static_cast<unsigned>(unit));
     program.set(samplers[unit].name, static_cast<int>(unit));
   }
   if (!mlp.weights.empty()) {

@@ -9,6 +9,7 @@
 
 #include "runtime/color_mlp_source.hpp"
 #include "runtime/geometry.hpp"
+#include "runtime/gl/state.hpp"
 #include "runtime/pipeline.hpp"
 #include "runtime/shader_source.hpp"
 #include "runtime/targets.hpp"
@@ -59,13 +60,7 @@ class PublishedPipeline final : public Pipeline {
   }
 
   void draw(const FrameCamera& frame, const glm::vec4& background) override {
-    glViewport(0, 0, width_, height_);
-    glDisable(GL_BLEND);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_DITHER);
-    glDisable(GL_SCISSOR_TEST);
-    glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
+    gl::use_plain_rasterisation(width_, height_);
     glDepthFunc(GL_LESS);
 
     glBindFramebuffer(GL_FRAMEBUFFER, feature_framebuffer_.id());
@@ -114,12 +109,17 @@ class PublishedPipeline final : public Pipeline {
   static void bind_texture(int unit, GLuint texture) {
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     glBindTexture(GL_TEXTURE_2D, texture);
+    gl::use_texture_sampling(static_cast<unsigned>(unit));
   }
 
   void upload_lookup_textures(const LatticeTexture& texture, const RenderPlan& plan,
                               const DeviceLimits& limits) {
     const std::uint32_t per_face = lattice::texel_count(plan.lattice.uniform_level);
     const std::size_t texels = plan.faces.size() * per_face;
+    if (lut_width > limits.max_texture_size)
+      throw DeviceLimitError("the published pipeline wants lookup textures " +
+                             std::to_string(lut_width) + " wide; this device has " +
+                             std::to_string(limits.max_texture_size));
     const std::size_t rows = std::max<std::size_t>((texels + lut_width - 1) / lut_width, 1);
     if (rows > std::size_t(limits.max_texture_size))
       throw DeviceLimitError(

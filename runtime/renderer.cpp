@@ -4,7 +4,9 @@
 #include <cassert>
 
 #include "runtime/clip_range.hpp"
+#include "runtime/gl/state.hpp"
 #include "runtime/pipeline.hpp"
+#include "soup/error.hpp"
 
 namespace tureen {
 
@@ -14,6 +16,7 @@ struct Renderer::State {
   glm::dvec3 origin;
   glm::vec4 background;
   std::unique_ptr<Pipeline> pipeline;
+  int max_side = 0;
   int width = 0, height = 0;
 };
 
@@ -32,6 +35,8 @@ Renderer::Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dv
   state_->bounds = bounds(soup);
   state_->origin = origin;
   state_->background = options.background;
+  state_->max_side = capabilities.max_picture_side;
+  gl::use_plain_pixel_transfer();
   state_->pipeline = state_->plan.pipeline == PipelineKind::published
                          ? make_published_pipeline(capabilities, limits, soup, state_->plan)
                          : make_tureen_pipeline(capabilities, limits, soup, state_->plan);
@@ -47,23 +52,31 @@ void Renderer::set_background(glm::vec4 background) { state_->background = backg
 
 void Renderer::draw(const Camera& camera) {
   assert(camera.width > 0 && camera.height > 0);
+  if (std::max(camera.width, camera.height) > state_->max_side)
+    throw DeviceLimitError("a picture of " + std::to_string(camera.width) + "x" +
+                           std::to_string(camera.height) + " is larger than this device draws: " +
+                           std::to_string(state_->max_side) + " pixels a side");
   if (camera.width != state_->width || camera.height != state_->height) {
     state_->pipeline->resize(camera.width, camera.height);
     state_->width = camera.width;
     state_->height = camera.height;
   }
   const glm::dvec3 eye = camera.eye() - state_->origin;
-  state_->pipeline->draw({camera, eye, clip_range(state_->bounds, eye)}, state_->background);
+  const DepthStorage storage =
+      state_->plan.reversed_depth ? DepthStorage::reversed_float : DepthStorage::fixed_24;
+  state_->pipeline->draw({camera, eye, clip_range(state_->bounds, eye, storage)},
+                         state_->background);
 }
 
 void Renderer::finish() const { glFinish(); }
 
 Image8 Renderer::read_color() const {
   const int width = state_->width, height = state_->height;
+  assert(width > 0 && "no frame has been drawn");
   Image8 image(width, height);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, state_->pipeline->color_framebuffer());
   glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  gl::use_plain_pixel_transfer();
   glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
   for (int y = 0; y < height / 2; ++y)
     std::swap_ranges(&image.at(0, y), &image.at(0, y) + width, &image.at(0, height - 1 - y));
@@ -74,10 +87,12 @@ std::vector<std::uint32_t> Renderer::read_faces() const {
   const GLuint framebuffer = state_->pipeline->visibility_framebuffer();
   if (!framebuffer) return {};
   const auto width = std::size_t(state_->width), height = std::size_t(state_->height);
-  std::vector<glm::uvec2> fragments(width * height);
+  // Four channels, though two are stored: ES 3.0 promises to read integers in no other way.
+  std::vector<glm::uvec4> fragments(width * height);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
   glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glReadPixels(0, 0, state_->width, state_->height, GL_RG_INTEGER, GL_UNSIGNED_INT,
+  gl::use_plain_pixel_transfer();
+  glReadPixels(0, 0, state_->width, state_->height, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
                fragments.data());
   std::vector<std::uint32_t> faces(fragments.size());
   for (std::size_t y = 0; y < height; ++y)
@@ -92,6 +107,7 @@ void Renderer::blit_to(unsigned framebuffer) const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, state_->pipeline->color_framebuffer());
   glReadBuffer(GL_COLOR_ATTACHMENT0);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  glDisable(GL_SCISSOR_TEST);
   glBlitFramebuffer(0, 0, state_->width, state_->height, 0, 0, state_->width, state_->height,
                     GL_COLOR_BUFFER_BIT, GL_NEAREST);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);

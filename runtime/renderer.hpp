@@ -2,6 +2,12 @@
 //
 // What it does not do: windows, input, loading files, choosing cameras. The context it was made
 // with must be current for every call, and on destruction.
+//
+// GL state, for whoever shares the context: every call sets what it depends on, save wireframe
+// (glPolygonMode), logic operations and conditional rendering, which must be off, and the depth
+// range, which must be GL's own. Nothing is restored: programs, vertex arrays, framebuffers,
+// buffers, textures, samplers, viewport, tests, masks and pixel storage are ours afterwards. The
+// clip control is left at GL's default.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -48,13 +54,14 @@ class Renderer {
   void set_background(glm::vec4 background);
 
   /// Draws one frame of camera.width x camera.height into a target of its own; returns before the
-  /// device has finished. Asserts a positive size.
+  /// device has finished. Asserts a positive size; throws DeviceLimitError for one beyond
+  /// Capabilities::max_picture_side.
   void draw(const Camera& camera);
 
   /// Waits for the device.
   void finish() const;
 
-  /// The last frame. Row 0 is the top row. Waits for the device.
+  /// The last frame. Row 0 is the top row. Waits for the device. Asserts that there was a frame.
   Image8 read_color() const;
 
   /// The face that each pixel of the last frame shows, row 0 on top, no_face where none does. Empty

@@ -2,6 +2,7 @@
 // over the covered pixels; or, for cheap appearances, colour at once.
 #include "runtime/appearance_upload.hpp"
 #include "runtime/geometry.hpp"
+#include "runtime/gl/state.hpp"
 #include "runtime/pipeline.hpp"
 #include "runtime/shader_source.hpp"
 #include "runtime/targets.hpp"
@@ -17,6 +18,7 @@ class TureenPipeline final : public Pipeline {
   TureenPipeline(const gl::Capabilities& capabilities, const DeviceLimits& limits,
                  const TriangleSoup& soup, const RenderPlan& plan)
       : plan_(plan),
+        api_(capabilities.api),
         multi_draw_(capabilities.multi_draw),
         appearance_(upload_appearance(soup, plan, TexelLayout::of(limits))),
         geometry_(soup, plan.faces),
@@ -50,12 +52,7 @@ class TureenPipeline final : public Pipeline {
   }
 
   void draw(const FrameCamera& frame, const glm::vec4& background) override {
-    glViewport(0, 0, width_, height_);
-    glDisable(GL_BLEND);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_DITHER);
-    glDisable(GL_SCISSOR_TEST);
-    glEnable(GL_DEPTH_TEST);
+    gl::use_plain_rasterisation(width_, height_);
     if (plan_.reversed_depth) set_clip_control(true);
     if (plan_.site == ShadingSite::forward) {
       draw_forward(frame, background);
@@ -83,10 +80,11 @@ class TureenPipeline final : public Pipeline {
     return gl::Program(assemble({.file = vertex}, api), assemble(source, api));
   }
 
-  static void set_clip_control(bool zero_to_one) {
+  void set_clip_control(bool zero_to_one) const {
     const GLenum depth = zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE;
 #ifndef __EMSCRIPTEN__
-    if (glClipControl)
+    // By the context, not by which pointer is set: one may be another context's.
+    if (api_ == gl::Api::desktop)
       glClipControl(GL_LOWER_LEFT, depth);
     else
       glClipControlEXT(GL_LOWER_LEFT, depth);
@@ -96,7 +94,6 @@ class TureenPipeline final : public Pipeline {
   }
 
   void clear_depth() const {
-    glDepthMask(GL_TRUE);
     const float far = plan_.reversed_depth ? 0.0f : 1.0f;
     glClearBufferfv(GL_DEPTH, 0, &far);
     glDepthFunc(plan_.reversed_depth ? GL_GREATER : GL_LESS);
@@ -172,6 +169,7 @@ class TureenPipeline final : public Pipeline {
     const int unit = appearance_.unit_count();
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     glBindTexture(GL_TEXTURE_2D, visible_.id());
+    gl::use_texture_sampling(static_cast<unsigned>(unit));
     shading_.set("visible", unit);
     glBindVertexArray(nothing_.id());
     glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -192,6 +190,7 @@ class TureenPipeline final : public Pipeline {
   }
 
   const RenderPlan& plan_;
+  gl::Api api_;
   bool multi_draw_;
   DeviceAppearance appearance_;
   Geometry geometry_;

@@ -1,5 +1,6 @@
 #include "runtime/gl/context.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <stdexcept>
 
@@ -63,6 +64,9 @@ Capabilities query_capabilities(Api api) {
                     contains(result.renderer, "softpipe") ||
                     contains(result.renderer, "SwiftShader");
   result.max_texture_size = integer_of(GL_MAX_TEXTURE_SIZE);
+  GLint viewport[2] = {0, 0};
+  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+  result.max_picture_side = std::min({result.max_texture_size, viewport[0], viewport[1]});
   result.max_array_layers = integer_of(GL_MAX_ARRAY_TEXTURE_LAYERS);
   return result;
 }

@@ -29,6 +29,7 @@ struct Capabilities {
   bool multi_draw = false;
   bool software = false;  // llvmpipe, softpipe or SwiftShader: timer queries mislead there
   int max_texture_size = 0;
+  int max_picture_side = 0;  // the widest and highest frame that can be drawn
   int max_array_layers = 0;
 };
 
@@ -44,6 +45,7 @@ class Context {
 
   Context(Context&&) noexcept;
   Context& operator=(Context&&) noexcept;
+  /// Destroys the context, and leaves none current if it was. Another that is current stays so.
   ~Context();
 
   /// Makes this context current on the calling thread and loads its functions.

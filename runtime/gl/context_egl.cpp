@@ -46,6 +46,7 @@ struct Egl {
   EGLContext (*create_context)(EGLDisplay, EGLConfig, EGLContext, const EGLint*);
   EGLBoolean (*destroy_context)(EGLDisplay, EGLContext);
   EGLBoolean (*make_current)(EGLDisplay, EGLSurface, EGLSurface, EGLContext);
+  EGLContext (*get_current_context)();
   EGLDisplay (*get_platform_display)(unsigned, void*, const EGLint*) = nullptr;
   EGLBoolean (*query_devices)(EGLint, EGLDevice*, EGLint*) = nullptr;
 
@@ -58,6 +59,7 @@ struct Egl {
     library.load(create_context, "eglCreateContext");
     library.load(destroy_context, "eglDestroyContext");
     library.load(make_current, "eglMakeCurrent");
+    library.load(get_current_context, "eglGetCurrentContext");
     load_extension(get_platform_display, "eglGetPlatformDisplayEXT");
     load_extension(query_devices, "eglQueryDevicesEXT");
   }
@@ -99,7 +101,9 @@ class EglPlatform final : public Context::Platform {
   EglPlatform(EGLDisplay display, EGLContext context, unsigned api)
       : display_(display), context_(context), api_(api) {}
   ~EglPlatform() override {
-    egl().make_current(display_, nullptr, nullptr, nullptr);
+    // Only our own: another context may have been made current since.
+    if (egl().get_current_context() == context_)
+      egl().make_current(display_, nullptr, nullptr, nullptr);
     egl().destroy_context(display_, context_);
     // The display is shared by every context of the process and stays initialised.
   }

@@ -37,12 +37,14 @@ struct OsMesa {
   OSMesaContext (*create_context)(const int*, OSMesaContext);
   void (*destroy_context)(OSMesaContext);
   unsigned char (*make_current)(OSMesaContext, void*, unsigned, int, int);
+  OSMesaContext (*get_current_context)();
   void* (*get_proc_address)(const char*);
 
   OsMesa() {
     library.load(create_context, "OSMesaCreateContextAttribs");
     library.load(destroy_context, "OSMesaDestroyContext");
     library.load(make_current, "OSMesaMakeCurrent");
+    library.load(get_current_context, "OSMesaGetCurrentContext");
     library.load(get_proc_address, "OSMesaGetProcAddress");
   }
 };
@@ -56,7 +58,9 @@ class OsMesaPlatform final : public Context::Platform {
  public:
   explicit OsMesaPlatform(OSMesaContext context) : context_(context) {}
   ~OsMesaPlatform() override {
-    osmesa().make_current(nullptr, nullptr, 0, 0, 0);
+    // Only our own: another context may have been made current since.
+    if (osmesa().get_current_context() == context_)
+      osmesa().make_current(nullptr, nullptr, 0, 0, 0);
     osmesa().destroy_context(context_);
   }
   void make_current() override {

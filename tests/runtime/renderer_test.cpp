@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "runtime/gl/api.hpp"
 #include "soup/error.hpp"
 #include "soup/lattice.hpp"
 #include "support/contexts.hpp"
@@ -70,6 +73,104 @@ TEST(Renderer, ASoupFarFromTheOriginLooksTheSame) {
     // The camera's matrix is good to 2^-53 of the offset: 2^-25 units, 1e-5 pixels at 2^28.
     EXPECT_LE(off, image.pixels.size() / 1000) << "2^" << exponent;
   }
+}
+
+// A stray face makes a scene large; what is near an eye within it must not be clipped for that.
+TEST(Renderer, AStrayFaceFarAwayDoesNotClipWhatIsNear) {
+  const gl::Context context = gl::Context::create(osmesa);
+  ASSERT_TRUE(context.capabilities().clip_control);
+  TriangleSoup soup;
+  soup.positions = {{-9, -9, -1}, {9, -9, -1}, {0, 18, -1}, {9e4, 0, 0}, {9e4, 1, 0}, {9e4, 0, 1}};
+  soup.triangles = {{0, 1, 2}, {3, 4, 5}};
+  soup.appearance = FaceColors{{{1, 0, 0, 1}, {0, 1, 0, 1}}};
+  const Camera camera = look_at({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.8, 16, 16);
+  for (const glm::u8vec4& pixel : draw(context, soup, {}, camera).pixels)
+    ASSERT_EQ(pixel, glm::u8vec4(255, 0, 0, 255));
+}
+
+// Interpolated from three equal values, alpha may not fall below them: the face would have holes.
+TEST(Renderer, AnAlphaOfOneHalfThroughoutHasNoHoles) {
+  const gl::Context context = gl::Context::create(osmesa);
+  RenderOptions generic;
+  generic.plan.specialise = false;
+  for (const Kind kind : {Kind::lattice, Kind::vertex_colors}) {
+    TriangleSoup soup = random_soup(8, {.kind = kind, .level = 5, .float_texels = true});
+    if (auto* texture = std::get_if<LatticeTexture>(&soup.appearance)) {
+      auto& texels = std::get<std::vector<float>>(texture->texels);
+      for (std::size_t i = LatticeTexture::features; i < texels.size();
+           i += LatticeTexture::channels)
+        texels[i] = 0.5f;
+    } else {
+      for (glm::vec4& color : std::get<VertexColors>(soup.appearance).rgba) color.a = 0.5f;
+    }
+    Random random(8);
+    const Camera camera = random_camera(random, 320, 240);
+    const Image8 expected = draw(context, soup, {}, camera);
+    const Image8 image = draw(context, soup, {}, camera, generic);
+    EXPECT_EQ(image.pixels, expected.pixels) << to_string(kind);
+  }
+}
+
+TEST(Renderer, APictureTooLargeForTheDeviceIsRefused) {
+  const gl::Context context = gl::Context::create(osmesa);
+  Renderer renderer(context, random_soup(9, {.kind = Kind::lattice}), {});
+  Random random(9);
+  const int side = context.capabilities().max_picture_side;
+  ASSERT_GT(side, 0);
+  try {
+    renderer.draw(random_camera(random, side + 1, 1));
+    FAIL();
+  } catch (const DeviceLimitError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("a picture of " + std::to_string(side + 1) + "x1"));
+  }
+  renderer.draw(random_camera(random, side, 1));
+  EXPECT_EQ(renderer.read_color().width, side);
+}
+
+// Whoever shares a context leaves it as it likes (runtime/renderer.hpp says what it may not).
+TEST(Renderer, StateThatSomebodyElseLeftChangesNothing) {
+  for (const gl::ContextRequest& request : {osmesa, egl_es30})
+    for (const Kind kind : {Kind::lattice_mlp, Kind::face_colors}) {
+      const gl::Context context = gl::Context::create(request);
+      const TriangleSoup soup = random_soup(10, {.kind = kind});
+      Random random(10);
+      const Camera camera = random_camera(random, 64, 48);
+      const Image8 expected = draw(context, soup, {}, camera);
+
+      const auto disturb = [] {
+        for (const GLenum capability :
+             {GL_BLEND, GL_CULL_FACE, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_RASTERIZER_DISCARD,
+              GL_SAMPLE_ALPHA_TO_COVERAGE, GL_POLYGON_OFFSET_FILL})
+          glEnable(capability);
+        glScissor(0, 0, 1, 1);
+        glColorMask(GL_FALSE, GL_TRUE, GL_FALSE, GL_TRUE);
+        glDepthMask(GL_FALSE);
+        glPixelStorei(GL_UNPACK_ROW_LENGTH, 7);
+        glPixelStorei(GL_UNPACK_SKIP_PIXELS, 1);
+        glPixelStorei(GL_PACK_ROW_LENGTH, 100);
+      };
+      disturb();
+      Renderer renderer(context, soup, {});
+      disturb();
+      renderer.draw(camera);
+      disturb();
+      EXPECT_EQ(renderer.read_color().pixels, expected.pixels) << to_string(kind);
+    }
+}
+
+TEST(Renderer, NamesTheSameFacesOnEs) {
+  const TriangleSoup soup = random_soup(12, {.kind = Kind::lattice});
+  Random random(12);
+  const Camera camera = random_camera(random, 64, 48);
+  std::vector<std::uint32_t> faces[2];
+  for (int i = 0; i < 2; ++i) {
+    const gl::Context context = gl::Context::create(i == 0 ? osmesa : egl_es30);
+    Renderer renderer(context, soup, {});
+    renderer.draw(camera);
+    faces[i] = renderer.read_faces();
+  }
+  EXPECT_EQ(faces[0], faces[1]);
+  EXPECT_NE(std::count(faces[0].begin(), faces[0].end(), no_face), std::ptrdiff_t(64 * 48));
 }
 
 // A device with small textures needs more layers; nothing else may change.
@@ -145,6 +246,19 @@ TEST(Context, SeveralLiveSideBySide) {
   const Image8 on_second = draw(second, soup, {}, camera);
   first.make_current();
   EXPECT_EQ(draw(first, soup, {}, camera).pixels, on_second.pixels);
+}
+
+TEST(Context, DestroyingOneLeavesAnotherCurrent) {
+  const TriangleSoup soup = random_soup(7, {.kind = Kind::face_colors});
+  Random random(7);
+  const Camera camera = random_camera(random, 64, 48);
+  gl::Context reference = gl::Context::create(osmesa);
+  const Image8 expected = draw(reference, soup, {}, camera);
+  for (const NamedContext& kind : every_context) {
+    gl::Context context = gl::Context::create(kind.request);
+    context = gl::Context::create(kind.request);  // the first is destroyed after this
+    EXPECT_EQ(draw(context, soup, {}, camera).pixels, expected.pixels) << kind.name;
+  }
 }
 
 TEST(Context, AnExternalContextIsTakenOverAsItIs) {

@@ -1,0 +1,33 @@
+#include "runtime/gl/state.hpp"
+
+#include <initializer_list>
+
+#include "runtime/gl/api.hpp"
+
+namespace tureen::gl {
+
+void use_plain_rasterisation(int width, int height) {
+  glViewport(0, 0, width, height);
+  for (const GLenum unwanted :
+       {GL_BLEND, GL_CULL_FACE, GL_DITHER, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_POLYGON_OFFSET_FILL,
+        GL_RASTERIZER_DISCARD, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_COVERAGE})
+    glDisable(unwanted);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+}
+
+void use_plain_pixel_transfer() {
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  for (const GLenum name :
+       {GL_UNPACK_ROW_LENGTH, GL_UNPACK_IMAGE_HEIGHT, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS,
+        GL_UNPACK_SKIP_IMAGES, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS})
+    glPixelStorei(name, 0);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+}
+
+void use_texture_sampling(unsigned unit) { glBindSampler(unit, 0); }
+
+}  // namespace tureen::gl

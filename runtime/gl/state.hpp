@@ -1,0 +1,17 @@
+// The GL state that we depend on and that somebody who shares the context may have changed.
+#pragma once
+
+namespace tureen::gl {
+
+/// Every fragment is written where it falls: the whole of a width x height target, no blending,
+/// culling, stencil, scissor, dithering, coverage tricks or masked channels. Depth is tested and
+/// written; the comparison is the caller's.
+void use_plain_rasterisation(int width, int height);
+
+/// Pixels move to and from memory in rows without gaps, and no pixel buffer stands in for memory.
+void use_plain_pixel_transfer();
+
+/// No sampler object overrides the filters of the texture on this unit.
+void use_texture_sampling(unsigned unit);
+
+}  // namespace tureen::gl
