@@ -79,11 +79,28 @@ class Forecaster {
                          1.0f);
       });
     const std::uint64_t texels = lattice_texels(texture);
-    const std::uint64_t channel = texture.is_float() ? 4 : 1;
-    add("lattice texels", texels, 4 * channel);
-    if (plan_.color_mlp) add("lattice texels", texels, 4 * channel);
-    if (plan_.opaque_count < plan_.faces.size()) add("lattice texels", texels, channel);
-    if (plan_.lattice.uniform_level < 0) add("lattice patches", slots(), 8);
+    const std::uint64_t four_channels = texture.is_float() ? 16 : 4;
+    add("lattice texels", texels, four_channels);
+    if (plan_.color_mlp) add("lattice texels", texels, four_channels);
+    if (plan_.opaque_count < plan_.faces.size())
+      add("lattice alpha", alpha_cells(texture), four_channels);
+    if (plan_.lattice.uniform_level < 0) add("lattice patches", slots(), 16);
+  }
+
+  /// Four alphas a cell; faces that share texels share cells where texels stay as the soup has
+  /// them.
+  std::uint64_t alpha_cells(const LatticeTexture& texture) const {
+    const LatticePlan& lattice = plan_.lattice;
+    const bool repacked = lattice.uniform_level >= 0 || !lattice.levels.empty();
+    std::set<std::pair<std::uint32_t, std::uint32_t>> known;
+    std::uint64_t cells = 0;
+    for (std::size_t slot = 0; slot < plan_.faces.size(); ++slot) {
+      const LatticePatch& patch = texture.patches[plan_.faces[slot]];
+      if (!repacked && !known.insert({patch.first_texel, patch.level}).second) continue;
+      cells += lattice::cell_count(lattice.levels.empty() ? int(patch.level)
+                                                          : int(lattice.levels[slot]));
+    }
+    return cells;
   }
 
   std::uint64_t lattice_texels(const LatticeTexture& texture) const {

@@ -11,6 +11,11 @@ namespace tureen {
 Geometry::Geometry(const TriangleSoup& soup, std::span<const std::uint32_t> faces)
     : vertex_array_(gl::VertexArray::create()), positions_(gl::Buffer::create()) {
   device_bytes_ = faces.size() * 3 * sizeof(glm::vec3);
+  // GL counts vertices in 31 bits.
+  constexpr std::size_t most_faces = 0x7fffffff / 3;
+  if (faces.size() > most_faces)
+    throw DeviceLimitError(std::to_string(faces.size()) + " triangles are more than the " +
+                           std::to_string(most_faces) + " that OpenGL draws from one buffer");
   glBindVertexArray(vertex_array_.id());
   glBindBuffer(GL_ARRAY_BUFFER, positions_.id());
   while (glGetError() != GL_NO_ERROR) {

@@ -10,6 +10,7 @@ namespace tureen {
 
 class Geometry {
  public:
+  /// Throws DeviceLimitError.
   Geometry(const TriangleSoup& soup, std::span<const std::uint32_t> faces);
 
   void bind() const { glBindVertexArray(vertex_array_.id()); }

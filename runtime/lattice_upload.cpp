@@ -14,12 +14,6 @@ namespace tureen {
 
 namespace {
 
-/// Cells of a lattice: as many as a lattice one row smaller has texels, and indexed alike.
-std::uint32_t cell_count(int level) {
-  const auto n = std::uint32_t(lattice::resolution(level));
-  return n * (n + 1) / 2;
-}
-
 /// What one run of texels or cells on the device comes from.
 struct Run {
   std::uint64_t first;  // on the device
@@ -56,7 +50,7 @@ class Placement {
       }
       if (new_cells) {
         cell_runs_.push_back({cell_count_, face, level});
-        cell_count_ += cell_count(level);
+        cell_count_ += lattice::cell_count(level);
       }
       patches_[slot] = glm::uvec4(std::uint32_t(first_texel), level, std::uint32_t(first_cell), 0);
     }
@@ -88,7 +82,7 @@ class Placement {
   template <class Visit>
   void for_each_cell(std::uint64_t first, std::uint64_t count, const Visit& visit) const {
     for_each_run(
-        cell_runs_, first, count, [](const Run& run) { return cell_count(run.level); },
+        cell_runs_, first, count, [](const Run& run) { return lattice::cell_count(run.level); },
         [&](const Run& run) {
           return [&, source = Source(texture_.patches[run.face], run.level),
                   n = lattice::resolution(run.level)](std::uint64_t i, std::uint32_t k) {

@@ -2,6 +2,7 @@
 // array texture. shaders/texel_store.glsl finds a texel by its index.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -23,8 +24,10 @@ struct TexelLayout {
 
   static TexelLayout of(const DeviceLimits& limits);
   std::uint64_t texels_per_layer() const { return std::uint64_t(1) << (row_bits + layer_bits); }
-  /// The most texels that one store can hold.
-  std::uint64_t capacity() const { return texels_per_layer() * std::uint64_t(max_layers); }
+  /// The most texels that one store can hold: shaders count them in 32 bits.
+  std::uint64_t capacity() const {
+    return std::min(texels_per_layer() * std::uint64_t(max_layers), std::uint64_t(1) << 32);
+  }
 };
 
 struct TexelFormat {

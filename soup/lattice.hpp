@@ -23,6 +23,13 @@ constexpr std::uint32_t texel_count(int level) {
   return (n + 1) * (n + 2) / 2;
 }
 
+/// Cells of one triangle, a square of four texels each but on the last diagonal: as many as a
+/// lattice one row smaller has texels, and indexed alike.
+constexpr std::uint32_t cell_count(int level) {
+  const std::uint32_t n = 1u << level;
+  return n * (n + 1) / 2;
+}
+
 /// Linear index of the texel (x, y): texels are stored diagonal by diagonal, x + y = 0, 1, ..
 constexpr std::uint32_t texel_index(int x, int y) {
   const int diagonal = x + y;

@@ -5,6 +5,7 @@
 #include "runtime/renderer.hpp"
 #include "runtime/texel_store.hpp"
 #include "support/contexts.hpp"
+#include "support/cutout_cloud.hpp"
 #include "support/random_soups.hpp"
 
 namespace tureen {
@@ -37,11 +38,27 @@ TEST_P(DeviceForecastOf, IsWhatTheRendererTakesUpToPadding) {
 INSTANTIATE_TEST_SUITE_P(Every, DeviceForecastOf, testing::ValuesIn(test::all_kinds),
                          [](const auto& kind) { return test::to_string(kind.param); });
 
+// Large enough that a wrong size of any store shows beside the padding: 5 stores, 2000 x 561
+// texels.
+TEST(DeviceForecast, IsRightForManyTexels) {
+  const gl::Context context = gl::Context::create(test::osmesa);
+  const Scene cloud = test::cutout_cloud({.triangles = 2000, .level = 5});
+  const auto& soup = std::get<TriangleSoup>(cloud.primitives);
+  for (const bool specialise : {true, false}) {
+    RenderOptions options;
+    options.plan.specialise = specialise;
+    const Renderer renderer(context, soup, cloud.origin, options);
+    const double forecast = double(device_forecast(soup, renderer.plan()).bytes);
+    EXPECT_NEAR(double(renderer.device_bytes()), forecast, 0.01 * forecast) << specialise;
+  }
+}
+
 TEST(DeviceForecast, CapacityGrowsWithWhatTheDeviceCan) {
   // 2048 columns, 512 rows, 256 layers; and twice the columns.
   EXPECT_EQ(texel_capacity({2048, 256, false}), std::uint64_t(1) << 28);
   EXPECT_EQ(texel_capacity({4096, 256, false}), std::uint64_t(1) << 29);
   EXPECT_EQ(texel_capacity({16384, 2048, false}), std::uint64_t(1) << 32);
+  EXPECT_EQ(texel_capacity({16384, 8192, false}), std::uint64_t(1) << 32) << "indices have 32 bits";
 }
 
 }  // namespace
