@@ -9,9 +9,11 @@ namespace tureen {
 namespace {
 
 std::string literal(float value) {
-  char text[32];
+  char text[32] = "";
   // Nine digits give every float back; the exponent form is a float literal in GLSL everywhere.
   std::snprintf(text, sizeof text, "%.8e", double(value));
+  // The program around us may have set a locale; GLSL knows only the point.
+  std::replace(text, text + sizeof text, ',', '.');
   return text;
 }
 
@@ -76,13 +78,14 @@ ColorMlpSource with_constants(const ColorMlp& mlp, const FeatureRanges& ranges) 
     for (int o = 0; o < layer.outputs; ++o) {
       const float* weights = &layer.weights[std::size_t(o) * layer.inputs];
       std::string sum = literal(layer.biases[o]);
-      double low = layer.biases[o], high = layer.biases[o];
+      double low = layer.biases[o], high = layer.biases[o], magnitude = std::abs(high);
       int zeros = 0;
       for (int i = 0; i < layer.inputs; ++i) {
         const double a = double(weights[i]) * inputs[i].low,
                      b = double(weights[i]) * inputs[i].high;
         low += std::min(a, b);
         high += std::max(a, b);
+        magnitude += std::max(std::abs(a), std::abs(b));
         if (inputs[i].low == 0.0f && inputs[i].high == 0.0f) continue;  // a dead input
         if (weights[i] == 0.0f) {
           ++zeros;
@@ -90,8 +93,9 @@ ColorMlpSource with_constants(const ColorMlp& mlp, const FeatureRanges& ranges) 
         }
         sum += " + " + literal(weights[i]) + " * " + inputs[i].name;
       }
-      // 1e-5 of the largest value covers the rounding of a sum of this many floats on the device.
-      const double rounding = 1e-5 * std::max(std::abs(low), std::abs(high));
+      // The rounding on the device of a sum of at most max_width + 1 float products, and of the
+      // features themselves: 64 * 2^-24 of the terms' magnitude, with room to spare.
+      const double rounding = 1e-5 * magnitude;
       const bool dead = !last && high <= -rounding;
       result.hidden_neurons += last ? 0 : 1;
       result.dead_neurons += dead ? 1 : 0;

@@ -95,8 +95,11 @@ void append_clusters(const TriangleSoup& soup, std::span<const std::uint32_t> fa
 
 void FrontToBack::sort(std::span<const Cluster> clusters, glm::vec3 eye, glm::vec3 forward) {
   keys_.resize(clusters.size());
-  for (std::uint32_t i = 0; i < clusters.size(); ++i)
-    keys_[i] = {glm::dot(clusters[i].centre - eye, forward), i};
+  for (std::uint32_t i = 0; i < clusters.size(); ++i) {
+    const float depth = glm::dot(clusters[i].centre - eye, forward);
+    // Coordinates near the end of float can make NaN, which no order has a place for.
+    keys_[i] = {std::isnan(depth) ? 0.0f : depth, i};
+  }
   std::sort(keys_.begin(), keys_.end(), [](const Key& a, const Key& b) {
     return a.depth < b.depth || (a.depth == b.depth && a.cluster < b.cluster);
   });

@@ -17,6 +17,23 @@ FaceAlpha classify(float lowest, float highest, float threshold) {
   return FaceAlpha::cut_out;
 }
 
+/// The smallest and the largest of a face's alphas so far.
+struct AlphaRange {
+  float low, high;
+  bool has_nan = false;
+
+  explicit AlphaRange(float first) : low(first), high(first), has_nan(std::isnan(first)) {}
+  void add(float alpha) {
+    low = std::min(low, alpha);
+    high = std::max(high, alpha);
+    has_nan = has_nan || std::isnan(alpha);
+  }
+  /// Comparisons pass NaN by: what it reaches has no alpha, the rest may have, so it is tested.
+  FaceAlpha classified() const {
+    return has_nan ? FaceAlpha::cut_out : classify(low, high, alpha_threshold);
+  }
+};
+
 /// How many texels of an image's channel reach a threshold, over any rectangle in constant time.
 class ReachingCounts {
  public:
@@ -53,8 +70,10 @@ struct Classify {
   void operator()(const VertexColors& colors) const {
     for (std::size_t t = 0; t < result.size(); ++t) {
       const glm::uvec3& v = soup.triangles[t];
-      const float a = colors.rgba[v.x].a, b = colors.rgba[v.y].a, c = colors.rgba[v.z].a;
-      result[t] = classify(std::min({a, b, c}), std::max({a, b, c}), alpha_threshold);
+      AlphaRange range(colors.rgba[v.x].a);
+      range.add(colors.rgba[v.y].a);
+      range.add(colors.rgba[v.z].a);
+      result[t] = range.classified();
     }
   }
 
@@ -73,18 +92,22 @@ struct Classify {
       const LatticePatch& patch = texture.patches[t];
       const Value* alpha = &values[std::size_t(patch.first_texel) * LatticeTexture::channels +
                                    LatticeTexture::features];
-      Value lowest = *alpha, highest = *alpha;
+      AlphaRange range(float(*alpha) * scale);
       for (std::uint32_t k = 1; k < lattice::texel_count(int(patch.level)); ++k) {
         alpha += LatticeTexture::channels;
-        lowest = std::min(lowest, *alpha);
-        highest = std::max(highest, *alpha);
+        range.add(float(*alpha) * scale);
       }
-      result[t] = classify(float(lowest) * scale, float(highest) * scale, alpha_threshold);
+      result[t] = range.classified();
     }
   }
 
   void operator()(const UvTextures& textures) const {
+    // Material by material, so that what is known of one image is in memory at a time.
+    std::vector<std::vector<std::uint32_t>> faces(textures.materials.size());
+    for (std::uint32_t t = 0; t < result.size(); ++t)
+      faces[textures.material_of_face[t]].push_back(t);
     for (std::size_t m = 0; m < textures.materials.size(); ++m) {
+      if (faces[m].empty()) continue;
       const UvMaterial& material = textures.materials[m];
       const bool always = !(material.mask_threshold > 0.0f);
       const bool tinted = !textures.vertex_rgba.empty();
@@ -94,15 +117,13 @@ struct Classify {
         const FaceAlpha alpha = always   ? FaceAlpha::opaque
                                 : tinted ? FaceAlpha::cut_out
                                          : classify(value, value, material.mask_threshold);
-        for (std::size_t t = 0; t < result.size(); ++t)
-          if (textures.material_of_face[t] == m) result[t] = alpha;
+        for (const std::uint32_t t : faces[m]) result[t] = alpha;
         continue;
       }
       const Image8& image = textures.images[material.images[0]];
       const float factor = textures.mlp ? 1.0f : material.factor[material.mask_channel];
       const ReachingCounts counts(image, material.mask_channel, factor, material.mask_threshold);
-      for (std::size_t t = 0; t < result.size(); ++t)
-        if (textures.material_of_face[t] == m) result[t] = within_image(textures, image, counts, t);
+      for (const std::uint32_t t : faces[m]) result[t] = within_image(textures, image, counts, t);
     }
   }
 

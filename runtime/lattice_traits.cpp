@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "soup/lattice.hpp"
 
@@ -51,12 +52,12 @@ LatticeTraits measure_values(const LatticeTexture& texture, const std::vector<Va
   traits.affine_residual.resize(faces.size());
   traits.ranges.fill({INFINITY, -INFINITY});
   traits.lowest_level = faces.empty() ? 0 : lattice::max_level;
-  std::vector<std::uint32_t> firsts(faces.size());
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> runs(faces.size());  // first, end
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const LatticePatch& patch = texture.patches[faces[i]];
     const int level = int(patch.level);
     const Value* face_texels = &values[std::size_t(patch.first_texel) * channels];
-    firsts[i] = patch.first_texel;
+    runs[i] = {patch.first_texel, patch.first_texel + std::uint64_t(lattice::texel_count(level))};
     traits.lowest_level = std::min(traits.lowest_level, level);
     traits.highest_level = std::max(traits.highest_level, level);
     for (std::uint32_t k = 0; k < lattice::texel_count(level); ++k)
@@ -72,8 +73,11 @@ LatticeTraits measure_values(const LatticeTexture& texture, const std::vector<Va
   }
   if (faces.empty()) traits.ranges.fill({});
   traits.ranges[LatticeTexture::features] = {};  // the eighth is no feature of a lattice
-  std::sort(firsts.begin(), firsts.end());
-  traits.shares_texels = std::adjacent_find(firsts.begin(), firsts.end()) != firsts.end();
+  std::sort(runs.begin(), runs.end());
+  traits.shares_texels =
+      std::adjacent_find(runs.begin(), runs.end(), [](const auto& run, const auto& next) {
+        return next.first < run.second;
+      }) != runs.end();
   return traits;
 }
 

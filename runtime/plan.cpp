@@ -160,7 +160,8 @@ class Planner {
 
     const LatticeTraits traits = measure(texture, plan_.faces);
     if (plan_.color_mlp && texture.mlp->blend_channel) {
-      const float blend = traits.ranges[*texture.mlp->blend_channel].high;
+      const FeatureRange& range = traits.ranges[*texture.mlp->blend_channel];
+      const float blend = std::max(range.high, -range.low);
       if (blend <= half_step) {
         plan_.color_mlp = false;
         say(

@@ -14,5 +14,7 @@ void main() {
   if (!fragment_exists(face, b)) discard;
 #endif
   uvec2 packed_b = uvec2(b * 65535.0 + 0.5);
+  // Both may have been rounded up: without this the point would leave the triangle.
+  packed_b.y = min(packed_b.y, 65535u - packed_b.x);
   fragment = uvec2(face, packed_b.x | (packed_b.y << 16));
 }

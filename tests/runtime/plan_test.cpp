@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "runtime/face_alpha.hpp"
 #include "runtime/renderer.hpp"
 #include "soup/error.hpp"
 #include "soup/lattice.hpp"
@@ -125,6 +128,41 @@ TEST(Plan, DeadNeuronsAreFoundByTheirBound) {
   for (int i = 0; i < 16; ++i) mlp.layers[0].weights[std::size_t(i)] = i < 7 ? -0.1f : 0.0f;
   mlp.layers[0].biases[0] = -0.5f;  // -0.5 - 0.1 (f0 + .. + f6) never reaches 0
   EXPECT_THAT(plan_of(soup).sentences, Contains(HasSubstr("1 of 32 hidden neurons")));
+}
+
+// -1000 + 999.999 f with f = 1 is below 0 by less than floats that large are rounded by.
+TEST(Plan, ANeuronWithinRoundingOfFiringIsNotDead) {
+  ColorMlp mlp;
+  mlp.encoding = DirectionEncoding::none;
+  mlp.layers = {{1, 1, {999.999f}, {-1000.0f}}, {1, 3, {1, 1, 1}, {0, 0, 0}}};
+  FeatureRanges ranges;
+  ranges[0] = {1.0f, 1.0f};
+  EXPECT_EQ(color_mlp_source(mlp, MlpWeights::constants, ranges).dead_neurons, 0);
+  mlp.layers[0].biases[0] = -1001.0f;
+  EXPECT_EQ(color_mlp_source(mlp, MlpWeights::constants, ranges).dead_neurons, 1);
+}
+
+TEST(Plan, AFaceWithAnAlphaThatIsNoNumberIsTested) {
+  TriangleSoup soup;
+  soup.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  soup.triangles = {{0, 1, 2}};
+  for (const int which : {0, 1, 2}) {
+    VertexColors colors{{glm::vec4(1), glm::vec4(1), glm::vec4(1)}};
+    colors.rgba[std::size_t(which)].a = NAN;
+    soup.appearance = colors;
+    EXPECT_EQ(classify_alpha(soup).front(), FaceAlpha::cut_out) << which;
+  }
+}
+
+// Texels that faces share in part stay where they are: apart they might fit on no device.
+TEST(Plan, TexelsSharedInPartAreNotCopied) {
+  TriangleSoup soup = random_soup(1, {.kind = Kind::lattice_mlp, .faces = 50, .level = 3});
+  unshare_texels(soup, 3);
+  EXPECT_EQ(plan_of(soup).lattice.uniform_level, 3);
+  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t)
+    lattice_of(soup).patches[t].first_texel = t;
+  EXPECT_EQ(plan_of(soup).lattice.uniform_level, -1);
+  EXPECT_TRUE(plan_of(soup).lattice.levels.empty());
 }
 
 TEST(Plan, WithoutSpecialisationNothingIsLeftOut) {
