@@ -39,8 +39,8 @@ bool contains(const std::string& text, const char* part) {
 }
 
 #ifndef NDEBUG
-void APIENTRY report(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message,
-                     const void*) {
+void GLAD_API_PTR report(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message,
+                         const void*) {
   // Performance hints and notices are not ours to mend.
   if (type == GL_DEBUG_TYPE_ERROR) std::fprintf(stderr, "OpenGL: %s\n", message);
 }
