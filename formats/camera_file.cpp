@@ -184,9 +184,7 @@ class Reader {
 
 }  // namespace
 
-CameraFile read_cameras(Input& input) {
-  return Reader(input.name()).read(read_json(input));
-}
+CameraFile read_cameras(Input& input) { return Reader(input.name()).read(read_json(input)); }
 
 CameraFile read_cameras(const std::filesystem::path& path) {
   Input input = Input::open(path);

@@ -11,8 +11,8 @@
 
 namespace {
 
-/// zlib instead of stb's own compressor: docs/decisions/png-by-stb.md has the figures. Only a browser
-/// build, which has no zlib, does without. The memory is stb's to free().
+/// zlib instead of stb's own compressor: docs/decisions/png-by-stb.md has the figures. Only a
+/// browser build, which has no zlib, does without. The memory is stb's to free().
 unsigned char* compress_for_stb(unsigned char* data, int size, int* packed_size, int) {
   uLongf bound = compressBound(static_cast<uLong>(size));
   auto* packed = static_cast<unsigned char*>(std::malloc(bound));

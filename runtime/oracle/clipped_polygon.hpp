@@ -19,9 +19,10 @@ struct ClippedPolygon {
 };
 
 /// How far beside the image a corner may lie, in pixels, before the polygon is cut off there. GL
-/// leaves this to the implementation. Corners that the cut makes are snapped too and move its edges:
-/// on 360 random soups with corners far outside, cutting at the border as llvmpipe does leaves 10
-/// pixels that disagree with it and are no depth ties, cutting 16,384 pixels further out 319.
+/// leaves this to the implementation. Corners that the cut makes are snapped too and move its
+/// edges: on 360 random soups with corners far outside, cutting at the border as llvmpipe does
+/// leaves 10 pixels that disagree with it and are no depth ties, cutting 16,384 pixels further out
+/// 319.
 inline constexpr double guard_band = 0.0;
 
 ClippedPolygon clip_triangle(const std::array<glm::dvec3, 3>& points, double near, int width,

@@ -37,8 +37,8 @@ struct OracleImage {
   std::vector<double> depth;  // infinity where no face
 };
 
-/// `soup` has no defect(); `origin` is Scene::origin. The near plane is that of clip_range() for reversed
-/// depth.
+/// `soup` has no defect(); `origin` is Scene::origin. The near plane is that of clip_range() for
+/// reversed depth.
 OracleImage render_oracle(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera,
                           const OracleOptions& options = {});
 

@@ -61,8 +61,8 @@ TEST(Golden, WithoutSpecialisation) {
                 "without_specialisation");
 }
 
-// The visibility buffer rounds barycentrics to 16 bits: at level 7, with noise for texels, that moves
-// a sample by 1/512 of the way to another texel, at most half a step of a colour.
+// The visibility buffer rounds barycentrics to 16 bits: at level 7, with noise for texels, that
+// moves a sample by 1/512 of the way to another texel, at most half a step of a colour.
 TEST(Golden, ForwardAndDeferredAgree) {
   for (const Kind kind : {Kind::face_colors, Kind::uv_textures, Kind::lattice_mlp}) {
     RenderOptions options;
