@@ -136,7 +136,8 @@ TEST(Off, RefusesByNameAndPlace) {
               HasSubstr("STCNOFF is a kind of OFF that we do not read: with texture coordinates"));
   EXPECT_THAT(message_of("4OFF 1"), HasSubstr("4OFF is a kind"));
   EXPECT_THAT(message_of("nOFF 1"), HasSubstr("with points of any dimension"));
-  EXPECT_EQ(message_of("OFF BINARY\n\0\0\0\1"), at + "1: binary OFF is not read; write it as text");
+  EXPECT_EQ(message_of(std::string("OFF BINARY\n\0\0\0\1", 15)),
+            at + "1: binary OFF is not read; write it as text");
   EXPECT_EQ(message_of("OFF\n"), at + "2: the file ends after its first word");
   EXPECT_EQ(message_of("OFF\n-1 0 0"),
             at + "2: the number of vertices of -1 is outside 0..4294967295");

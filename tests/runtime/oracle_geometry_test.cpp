@@ -29,8 +29,8 @@ Camera straight_camera(int width = 64, int height = 64) {
   camera.width = width;
   camera.height = height;
   camera.fx = camera.fy = 64;
-  camera.cx = width / 2;
-  camera.cy = height / 2;
+  camera.cx = 0.5 * width;
+  camera.cy = 0.5 * height;
   return camera;
 }
 
