@@ -108,6 +108,9 @@ Exit codes: 0 done, 1 past --tolerance, 2 wrong usage, 3 a picture cannot be rea
   command
       ->add_option("--tolerance", options->tolerance,
                    "exit with 1 when --metric is worse than this")
+      ->check([](const std::string& text) {
+        return text.starts_with('-') ? "a tolerance is at least 0, not " + text : std::string();
+      })
       ->option_text("VALUE");
   std::vector<std::pair<std::string, const NamedMetric*>> metrics;
   for (const NamedMetric& metric : named_metrics) metrics.emplace_back(metric.key, &metric);

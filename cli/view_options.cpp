@@ -76,7 +76,10 @@ Views from_file(const std::string& argument, const Scene& scene, const std::stri
 }  // namespace
 
 void add_view_options(CLI::App& command, ViewOptions& options) {
-  command.add_option("--size", options.size, "width and height in pixels, 1280x720 by default")
+  command
+      .add_option(
+          "--size", options.size,
+          "width and height in pixels, 1280x720 by default; a recorded camera keeps its own")
       ->option_text("WxH");
   auto* camera =
       command

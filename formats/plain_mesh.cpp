@@ -154,7 +154,7 @@ const std::vector<glm::vec4>* PlainMesh::vertex_rgba() const {
 }
 
 std::string assumed_up_note(const std::string& format) {
-  return format + " knows no up axis; (0, 0, 1) is assumed.";
+  return format + " knows no up axis: z is assumed; --up changes it";
 }
 
 bool are_bytes(const std::vector<glm::vec4>& rgba) {

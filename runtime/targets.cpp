@@ -29,7 +29,9 @@ gl::Framebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint de
   if (depth) glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
   glDrawBuffers(static_cast<GLsizei>(attachments.size()), attachments.data());
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw ContextError("this device cannot draw into the targets that a frame needs");
+    throw DeviceLimitError(
+        "the device has no memory for the targets of a picture of this size: a smaller one would "
+        "fit");
   return framebuffer;
 }
 

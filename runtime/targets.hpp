@@ -22,8 +22,9 @@ inline constexpr TargetFormat depth32f{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT
 /// A texture to draw into; nearest sampling.
 gl::Texture make_target(const TargetFormat& format, int width, int height);
 
-/// Throws ContextError when the device cannot draw into these together. `colors` become attachments
-/// 0, 1, ..; all of them are drawn to.
+/// Throws DeviceLimitError when the device cannot: all formats here are ones that OpenGL requires,
+/// so it is memory that a picture of this size lacks. `colors` become attachments 0, 1, ..; all of
+/// them are drawn to.
 gl::Framebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint depth);
 
 }  // namespace tureen

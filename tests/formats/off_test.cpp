@@ -44,7 +44,7 @@ TEST(Off, ReadsTriangleSplattingsCoff) {
               ElementsAre(glm::vec4(127 / 255.0f, 139 / 255.0f, 60 / 255.0f, 1.0f)));
   EXPECT_EQ(scene.info.name, "plant");
   EXPECT_EQ(scene.info.up, glm::vec3(0, 0, 1));
-  EXPECT_THAT(scene.info.notes, ElementsAre("OFF knows no up axis; (0, 0, 1) is assumed."));
+  EXPECT_THAT(scene.info.notes, ElementsAre("OFF knows no up axis: z is assumed; --up changes it"));
 }
 
 TEST(Off, ReadsHeadersOfAllKinds) {
@@ -285,7 +285,7 @@ TEST(Off, ReadsTheRealFicus) {
   EXPECT_EQ(soup_of(scene).triangles.size(), 33417u);
   EXPECT_EQ(soup_of(scene).positions.size(), 100251u);
   EXPECT_EQ(face_rgba(scene).front(), glm::vec4(162 / 255.0f, 155 / 255.0f, 127 / 255.0f, 1));
-  EXPECT_THAT(scene.info.notes, ElementsAre("OFF knows no up axis; (0, 0, 1) is assumed."));
+  EXPECT_THAT(scene.info.notes, ElementsAre("OFF knows no up axis: z is assumed; --up changes it"));
 }
 
 TEST(Off, HostileFilesEndWell) {
