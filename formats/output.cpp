@@ -31,6 +31,7 @@ Output::~Output() {
 }
 
 void Output::write(std::span<const std::byte> bytes) {
+  if (bytes.empty()) return;  // an empty span may have no address, which fwrite does not allow
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail("cannot be written");
   position_ += bytes.size();
 }
