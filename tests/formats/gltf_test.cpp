@@ -1,3 +1,4 @@
+// Long because each sentence of the glTF specification that we rely on has a test of its own here.
 // Foreign glTF: small files made here, each about one thing; then the hostile ones and a real one.
 #include "formats/gltf.hpp"
 
