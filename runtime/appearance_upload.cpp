@@ -7,6 +7,7 @@
 #include "runtime/gl/state.hpp"
 #include "runtime/lattice_upload.hpp"
 #include "soup/lattice.hpp"
+#include "soup/spherical_harmonics.hpp"
 
 namespace tureen {
 
@@ -95,7 +96,7 @@ class Uploader {
   void upload(const Harmonics& sh) {
     include("appearance_harmonics.glsl");
     const bool per_vertex = sh.domain == Harmonics::Domain::vertex;
-    const int stored = harmonics_count(sh.degree), kept = harmonics_count(plan_.harmonics_degree);
+    const int stored = harmonics::count(sh.degree), kept = harmonics::count(plan_.harmonics_degree);
     result_.constants["HARMONICS_DEGREE"] = std::to_string(plan_.harmonics_degree);
     result_.constants["HARMONICS_PER_VERTEX"] = per_vertex ? "1" : "0";
     result_.constants["VIEW_SIGN"] = sh.view == ViewConvention::surface_to_eye ? "1.0" : "-1.0";
@@ -124,8 +125,6 @@ class Uploader {
                                 }
                               }));
   }
-
-  static int harmonics_count(int degree) { return (degree + 1) * (degree + 1); }
 
   glm::vec3 anchor(std::uint64_t element, bool per_vertex) const {
     if (per_vertex) return soup_.positions[vertex_of(element)];

@@ -19,10 +19,9 @@ struct Cluster {
   glm::vec3 centre{0.0f};
 };
 
-/// Faces of a cluster in a soup of this many. Between 1 and 256 the size hardly matters (the 15,000
-/// triangle cut-out cloud on llvmpipe takes 51 +- 2 ms of CPU time a visibility pass whatever it
-/// is, its variant that covers everything 117 to 150), so it is small enough to order well and
-/// large enough that sorting at most a few thousand clusters a frame costs nothing.
+/// Faces of a cluster in a soup of this many. From 1 to 256 the size hardly mattered when it was
+/// chosen: small enough to order well, large enough that sorting at most a few thousand clusters a
+/// frame costs nothing.
 constexpr std::uint32_t cluster_size(std::size_t faces) {
   return static_cast<std::uint32_t>(std::max<std::size_t>(64, faces / 4096));
 }

@@ -36,9 +36,6 @@ struct RenderOptions {
 
 DeviceLimits device_limits(const gl::Capabilities& capabilities);
 
-/// Names no face in read_faces().
-inline constexpr std::uint32_t no_face = 0xffffffffu;
-
 class Renderer {
  public:
   /// Plans and uploads; the soup is not needed afterwards. It must have no defect(). Throws

@@ -97,6 +97,9 @@ struct UvTextures {
 
 using Appearance = std::variant<FaceColors, VertexColors, Harmonics, LatticeTexture, UvTextures>;
 
+/// Names no face where a face is expected: a pixel that shows the background.
+inline constexpr std::uint32_t no_face = 0xffffffffu;
+
 struct TriangleSoup {
   std::vector<glm::vec3> positions;   // relative to Scene::origin
   std::vector<glm::uvec3> triangles;  // indices into positions

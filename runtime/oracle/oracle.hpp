@@ -29,7 +29,7 @@ struct OracleOptions {
 };
 
 struct OracleImage {
-  static constexpr std::uint32_t no_face = 0xffffffff;
+  static constexpr std::uint32_t no_face = tureen::no_face;
 
   ImageF color;
   /// One a ray, (width * supersampling) a row, from the top: which face won, and how deep.
