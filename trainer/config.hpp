@@ -1,0 +1,86 @@
+// Every constant of training in one place. Defaults are ours, for an object; `preset` and
+// `published` give the other sets, a --config file or an option overrides single ones.
+//
+// Source: DiffSoup (arXiv 2603.27151), its supplement and its code; where ours differ the comment
+// says why, and docs/benchmarks.md has what it gains.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace tureen::trainer {
+
+enum class Preset {
+  object,  // pictures of one thing, usually with alpha, from all around
+  scene,   // photographs of a place, with points of structure from motion or without
+};
+
+enum class Initialisation {
+  automatic,  // points where the dataset has some, else random
+  points,     // equilateral triangles at points: 2/3 farthest-point, 1/3 uniform samples
+  random,     // equilateral triangles at random points of a box
+  mesh,       // the triangles of a scene that our readers read
+};
+
+/// How gradients of texels are kept between the passes of one step.
+enum class GradientPrecision { float32, float16 };
+
+struct Config {
+  Preset preset = Preset::object;
+
+  // --- The run
+  int steps = 10'000;
+  int batch = 4;  // views a step
+  std::uint64_t seed = 0;
+  int triangles = 15'000;  // the budget, met exactly at the end
+
+  // --- Initialisation
+  Initialisation initialisation = Initialisation::automatic;
+  int initial_triangles = 15'000;  // published, random: 100,000
+  float initial_radius = 0.25f;    // circumradius in mean distances to the nearest neighbour
+  float box = 0.0f;                // half side of the box for random points; 0: from the cameras
+
+  // --- The texture
+  int coarse_level = 0;            // the one level until lift_step
+  int min_level = 2;               // levels min_level .. max_level afterwards
+  int max_level = 3;               // published: 5, which is for pictures of 800 pixels and more
+  float lift_at = 0.5f;            // fraction of the steps after which the levels are lifted
+  bool lift_keeps_opacity = true;  // published: false, opacity starts again at one half
+
+  // --- The loss: l1_weight * mean |C - G| + ssim_weight * (1 - SSIM) / 2
+  float l1_weight = 0.8f;
+  float ssim_weight = 0.2f;
+  float opacity_l1_weight = 1.0f;  // scale of the score's loss, sum over channels of |C - G|
+  bool baseline = true;         // published: false. Subtracts a running mean from the score's loss
+  float baseline_rate = 0.25f;  // of its exponential moving average, by pixel
+
+  // --- Optimisation
+  float texture_rate = 5e-2f;  // features and opacity
+  float mlp_rate = 1e-2f;
+  float vertex_rate = 1e-3f;  // in units of the scene's extent; published real scenes: 1e-2
+  float decay = 0.01f;        // rates fall to this fraction, exponentially
+  float beta1 = 0.9f, beta2 = 0.999f, epsilon = 1e-8f;
+  bool dense_updates = false;  // published: true. Also step what no picture of the batch touched
+  bool reset_moments = false;  // published: true. Moments start again at every resampling
+  GradientPrecision gradient_precision = GradientPrecision::float32;
+
+  // --- Resampling: pruning and splitting
+  int resample_every = 100;
+  float resample_until = 0.95f;   // fraction of the steps; the last one only prunes
+  bool resample_textures = true;  // published: false. Children copy the parent's texels
+  float split_fraction = 0.2f;    // of the picture's height: longer projected edges are split
+  int split_views = 20;           // at most so many views choose edges
+
+  // --- The picture
+  float near = 0.01f;
+  float far = 100.0f;
+  float background[3] = {1, 1, 1};
+};
+
+/// Our choices for a kind of dataset.
+Config preset(Preset kind);
+
+/// The published choices wherever they differ from ours (--compat).
+Config published(Preset kind);
+
+}  // namespace tureen::trainer
