@@ -25,6 +25,11 @@ enum class Initialisation {
 /// How gradients of texels are kept between the passes of one step.
 enum class GradientPrecision { float32, float16 };
 
+/// Lengths of training: vertex_rate, near and far are in world units where the half side of the
+/// region of interest (trainer/initialise.hpp) is this, as it is about in NeRF-synthetic, where the
+/// published numbers come from; elsewhere they are multiplied by half side / reference_extent.
+inline constexpr double reference_extent = 1.5;
+
 struct Config {
   Preset preset = Preset::object;
 
@@ -38,7 +43,7 @@ struct Config {
   Initialisation initialisation = Initialisation::automatic;
   int initial_triangles = 15'000;  // published, random: 100,000
   float initial_radius = 0.25f;    // circumradius in mean distances to the nearest neighbour
-  float box = 0.0f;                // half side of the box for random points; 0: from the cameras
+  float box = 0.0f;  // half side of the box for random points in world units; 0: from the cameras
 
   // --- The texture
   int coarse_level = 0;            // the one level until lift_step
@@ -57,7 +62,7 @@ struct Config {
   // --- Optimisation
   float texture_rate = 5e-2f;  // features and opacity
   float mlp_rate = 1e-2f;
-  float vertex_rate = 1e-3f;  // in units of the scene's extent; published real scenes: 1e-2
+  float vertex_rate = 1e-3f;  // lengths of training, see above; published for photographs: 1e-2
   float decay = 0.01f;        // rates fall to this fraction, exponentially
   float beta1 = 0.9f, beta2 = 0.999f, epsilon = 1e-8f;
   bool dense_updates = false;  // published: true. Also step what no picture of the batch touched

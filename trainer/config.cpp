@@ -1,0 +1,37 @@
+#include "trainer/config.hpp"
+
+namespace tureen::trainer {
+
+Config preset(Preset kind) {
+  Config config;
+  config.preset = kind;
+  if (kind == Preset::scene) {
+    config.vertex_rate = 1e-2f;
+    // Nothing was behind the photographs: what no triangle covers is an error, not a white wall.
+    for (float& channel : config.background) channel = 0.0f;
+  } else {
+    config.near = 0.1f;
+    config.far = 10.0f;
+  }
+  return config;
+}
+
+Config published(Preset kind) {
+  Config config = preset(kind);
+  config.max_level = 5;
+  config.lift_keeps_opacity = false;
+  config.baseline = false;
+  config.dense_updates = true;
+  config.reset_moments = true;
+  config.resample_textures = false;
+  if (kind == Preset::object) {
+    // Random points there are 100,000 in a box of half side s = 1.2 .. 2.0, with a circumradius of
+    // 0.01. The mean distance to the nearest of n uniform points is 0.554 * 2 s / cbrt(n) (Chandra-
+    // sekhar 1943), 0.0358 for s = 1.5, of which 0.01 is this much.
+    config.initial_triangles = 100'000;
+    config.initial_radius = 0.28f;
+  }
+  return config;
+}
+
+}  // namespace tureen::trainer
