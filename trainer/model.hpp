@@ -2,12 +2,13 @@
 //
 // Texels are logits of all levels min_level .. max_level, concatenated a face, coarsest first. The
 // texture of a face at max_level is the sum over levels of what each interpolates there, then a
-// sigmoid; only then is it interpolated within the face (specs of soup/lattice.hpp).
+// sigmoid; only then is it interpolated within the face (soup/lattice.hpp).
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "soup/scene.hpp"
@@ -34,17 +35,48 @@ struct Model {
   std::size_t faces() const { return positions.size() / 3; }
   /// Texels of one face, over all levels.
   std::size_t texels() const;
+  /// The logits of one face: texels() x channels.
+  std::span<const float> face_logits(std::size_t face) const;
+  std::span<float> face_logits(std::size_t face);
 };
 
-/// Logits that interpolate, as `from`'s single or several levels do, but on levels
-/// min_level .. max_level: the field of `from` at min_level, zero above. Levels of `from` above
-/// min_level are lost. The coarse-to-fine step of training.
-Model lifted(const Model& from, int min_level, int max_level, bool keep_opacity);
+/// The sum of all levels of one face: texel_count(max_level) x channels logits.
+void fine_logits(const Model& model, std::size_t face, std::span<float> out);
 
-/// The fine texture of one face: texel_count(max_level) x channels values in [0, 1].
+enum class LiftedOpacity {
+  kept,
+  reset,  // logits 0, opacity 1/2 everywhere: as published
+};
+
+/// The model on levels min_level .. max_level; the coarse-to-fine step of training. At every texel
+/// of max_level the sum of the new levels is what the old ones interpolate there; where min_level
+/// is at least the old max_level, that function is the new min_level and all levels above are 0.
+/// Where max_level is below the old one, finer detail is lost. Positions and MLP stay.
+Model lifted(const Model& from, int min_level, int max_level, LiftedOpacity opacity);
+
+/// The fine texture of one face: texel_count(max_level) x channels values in [0, 1]. Alpha is at
+/// least alpha_threshold exactly where its logit is at least 0.
 void fine_texture(const Model& model, std::size_t face, std::vector<float>& out);
 
-/// The soup that `tureen render` draws: float texels at max_level with the color MLP.
+/// The soup that `tureen render` draws: float texels at max_level with the color MLP. Cameras and
+/// info are the caller's to fill.
 Scene to_scene(const Model& model);
+
+struct FromScene {
+  int min_level = 0;
+  int max_level = 0;
+  std::uint64_t seed = 0;  // of the MLP, where the scene brings none that fits
+};
+
+/// The triangles of any scene, each with three vertices of its own, to be trained further.
+///
+/// A lattice texture whose color MLP is shaped like ours keeps all of it: what it shows at the
+/// texels of max_level (values beyond 1e-4 .. 1 - 1e-4 are clamped there, a fortieth of a byte's
+/// step, so that gradients still reach them). Any other appearance becomes base colour: of
+/// lattices without such an MLP the colour is kept texel by texel, of vertex colours corner by
+/// corner, of the rest the mean of the face; the MLP then begins at random and with little weight,
+/// and opacity at 1/2 but for lattices. The origin moves to the middle of the soup where that is
+/// further away than the soup is large. Throws InputError when there is no triangle.
+Model from_scene(Scene scene, const FromScene& options);
 
 }  // namespace tureen::trainer
