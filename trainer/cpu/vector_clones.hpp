@@ -1,0 +1,37 @@
+// One function compiled for several generations of x86-64: the loader picks the best that the
+// processor has, so that a loop is vectorised as wide as it can be and the program still runs
+// everywhere.
+#pragma once
+
+#include <cstddef>  // defines __GLIBC__, where it is that
+
+/// Before the definition of a function that holds hot loops (not a template: it becomes an indirect
+/// function of the linker's):
+///
+///   TUREEN_VECTOR_CLONES void scale(std::span<float> values, float factor) { .. }
+///
+/// What it calls is only compiled for each generation if it is inlined: keep callees `static` or
+/// `inline` and mark those that -O3 might leave out of line TUREEN_ALWAYS_INLINE.
+///
+/// The generations differ in fused multiply-adds, so results agree between machines of one
+/// generation to the bit and between others to rounding.
+///
+/// Nothing for other compilers and processors (Clang knows no x86-64-v names here), without glibc's
+/// indirect functions, and under sanitizers, whose run time is not ready when they are resolved.
+#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__CUDACC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if __GNUC__ >= 12
+#define TUREEN_VECTOR_CLONES \
+  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#endif
+#endif
+#ifndef TUREEN_VECTOR_CLONES
+#define TUREEN_VECTOR_CLONES
+#endif
+
+/// Instead of `inline`.
+#if defined(__GNUC__)
+#define TUREEN_ALWAYS_INLINE inline __attribute__((always_inline))
+#else
+#define TUREEN_ALWAYS_INLINE inline
+#endif
