@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/suggestion.hpp"
+#include "formats/suggestion.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {

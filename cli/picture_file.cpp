@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cctype>
 
-#include "cli/suggestion.hpp"
 #include "formats/output.hpp"
 #include "formats/png.hpp"
+#include "formats/suggestion.hpp"
 
 namespace tureen::cli {
 

@@ -8,7 +8,7 @@
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/report.hpp"
-#include "cli/suggestion.hpp"
+#include "formats/suggestion.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {

@@ -4,8 +4,8 @@
 
 #include "cli/choice.hpp"
 #include "cli/progress.hpp"
-#include "cli/suggestion.hpp"
 #include "cli/values.hpp"
+#include "formats/suggestion.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {

@@ -6,10 +6,10 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 
-#include "cli/suggestion.hpp"
 #include "cli/values.hpp"
 #include "formats/camera_file.hpp"
 #include "formats/scene_file.hpp"
+#include "formats/suggestion.hpp"
 #include "runtime/navigation.hpp"
 #include "soup/error.hpp"
 

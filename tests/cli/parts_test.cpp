@@ -10,7 +10,7 @@
 #include "cli/picture_file.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
-#include "cli/suggestion.hpp"
+#include "formats/suggestion.hpp"
 #include "cli/values.hpp"
 #include "cli/view_options.hpp"
 #include "soup/error.hpp"

@@ -1,9 +1,9 @@
-#include "cli/suggestion.hpp"
+#include "formats/suggestion.hpp"
 
 #include <algorithm>
 #include <vector>
 
-namespace tureen::cli {
+namespace tureen {
 
 int edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::vector<int>> distance(a.size() + 1, std::vector<int>(b.size() + 1));
@@ -59,4 +59,4 @@ std::string why_missing(const std::filesystem::path& path) {
   return "there is no such file or folder; did you mean " + whole.string() + "?";
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen

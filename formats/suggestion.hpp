@@ -1,11 +1,11 @@
-// "Did you mean ..?"
+// "Did you mean ..?": for names in files and on command lines.
 #pragma once
 
 #include <filesystem>
 #include <span>
 #include <string>
 
-namespace tureen::cli {
+namespace tureen {
 
 /// Insertions, deletions, substitutions and swaps of neighbours that lead from a to b (optimal
 /// string alignment).
@@ -22,4 +22,4 @@ std::string did_you_mean(const std::string& word, std::span<const std::string> k
 /// folder that is close. The path does not exist.
 std::string why_missing(const std::filesystem::path& path);
 
-}  // namespace tureen::cli
+}  // namespace tureen

@@ -1,0 +1,240 @@
+// Configurations: the table of fields against the struct, and files of them.
+#include "trainer/config.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <random>
+#include <set>
+#include <sstream>
+
+#include "soup/error.hpp"
+#include "trainer/config_fields.hpp"
+#include "trainer/config_file.hpp"
+
+namespace tureen::trainer {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+Config read(const std::string& text, const ConfigDefaults& defaults = {}) {
+  Input input = Input::memory("run.json", std::as_bytes(std::span(text)));
+  return read_config(input, defaults);
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    read(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "(it was read)";
+}
+
+// --- The table ------------------------------------------------------------------------------
+
+/// Stands for a value of any type in an aggregate initialiser.
+struct Anything {
+  template <class T>
+  operator T() const;
+};
+
+/// How many values fill a Config: an initialiser of one more is ill-formed.
+template <class... Values>
+constexpr int value_count() {
+  if constexpr (requires { Config{Values{}..., Anything{}}; })
+    return value_count<Values..., Anything>();
+  else
+    return int(sizeof...(Values));
+}
+
+int values_of(const ConfigField& field) {
+  return std::holds_alternative<Color Config::*>(field.member) ? 3 : 1;
+}
+
+TEST(ConfigFields, AreAllMembersOfConfigOnceAndInOrder) {
+  int values = 0;
+  const Config config;
+  const char* last = nullptr;
+  std::set<std::string> names;
+  for (const ConfigField& field : config_fields()) {
+    values += values_of(field);
+    const char* address =
+        std::visit([&](auto member) { return reinterpret_cast<const char*>(&(config.*member)); },
+                   field.member);
+    EXPECT_LT(last, address) << field.name << " does not follow the field before it in Config";
+    last = address;
+    EXPECT_TRUE(names.insert(field.name).second) << field.name << " twice";
+    EXPECT_FALSE(std::string(field.meaning).empty()) << field.name;
+  }
+  // Distinct members, as many as there are: all.
+  EXPECT_EQ(values, value_count<>())
+      << "Config has members that trainer/config_fields.cpp does not list, or the reverse";
+}
+
+TEST(ConfigFields, HaveAReasonForEveryRange) {
+  for (const ConfigField& field : config_fields()) {
+    const bool number = std::holds_alternative<int Config::*>(field.member) ||
+                        std::holds_alternative<float Config::*>(field.member) ||
+                        std::holds_alternative<std::uint64_t Config::*>(field.member) ||
+                        std::holds_alternative<Color Config::*>(field.member);
+    EXPECT_EQ(number, field.range.low < field.range.high) << field.name;
+    EXPECT_EQ(number, !std::string(field.range.reason).empty()) << field.name;
+  }
+}
+
+TEST(ConfigFields, PresetsAndPublishedChoicesAreSound) {
+  for (const Preset kind : {Preset::object, Preset::scene}) {
+    EXPECT_EQ(defect(preset(kind)).value_or(""), "");
+    EXPECT_EQ(defect(published(kind)).value_or(""), "");
+  }
+}
+
+TEST(ConfigFields, OpenEndsExcludeTheEnd) {
+  const Range low{0, 1, Range::Ends::low_open, ""}, high{0, 1, Range::Ends::high_open, ""};
+  EXPECT_FALSE(low.contains(0));
+  EXPECT_TRUE(low.contains(1));
+  EXPECT_TRUE(high.contains(0));
+  EXPECT_FALSE(high.contains(1));
+  EXPECT_FALSE(low.contains(std::nan("")));
+  EXPECT_EQ(low.text(), "more than 0, at most 1");
+  EXPECT_EQ(high.text(), "from 0 to less than 1");
+}
+
+// --- Files ----------------------------------------------------------------------------------
+
+/// A configuration that differs from the default in every field, and is sound.
+Config random_config(std::mt19937& random) {
+  Config config;
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  for (const ConfigField& field : config_fields()) {
+    const double high = std::min(field.range.high, 1e6);
+    std::visit(
+        [&](auto member) {
+          auto& value = config.*member;
+          using Value = std::remove_reference_t<decltype(value)>;
+          if constexpr (std::is_same_v<Value, Color>)
+            for (float& channel : value) channel = float(uniform(0, 0.99));
+          else if constexpr (std::is_same_v<Value, float>)
+            value = float(uniform(field.range.low + 1e-6, high * (1 - 1e-6)));
+          else if constexpr (std::is_same_v<Value, std::uint64_t>)
+            value = (std::uint64_t(random()) << 32 | random()) | 1;
+          else if constexpr (std::is_same_v<Value, int>)
+            value += 1;
+          else if constexpr (std::is_same_v<Value, bool>)
+            value = !value;
+          else
+            value = Value(1);
+        },
+        field.member);
+  }
+  config.coarse_level = 1;
+  config.near = config.far / 2;
+  return config;
+}
+
+void expect_equal(const Config& a, const Config& b) {
+  for (const ConfigField& field : config_fields())
+    std::visit(
+        [&](auto member) {
+          EXPECT_EQ(std::memcmp(&(a.*member), &(b.*member), sizeof(a.*member)), 0) << field.name;
+        },
+        field.member);
+}
+
+TEST(ConfigFile, ComesBackToTheBit) {
+  std::mt19937 random(20261121);
+  for (int round = 0; round < 200; ++round) {
+    const Config config = random_config(random);
+    ASSERT_EQ(defect(config).value_or(""), "");
+    for (const ConfigField& field : config_fields())
+      EXPECT_NE(value_text(config, field), value_text(Config{}, field)) << field.name;
+    expect_equal(read(config_to_json(config)), config);
+    if (HasFailure()) FAIL() << config_to_json(config);
+  }
+}
+
+TEST(ConfigFile, WhatItDoesNotNameIsThePresetsOwn) {
+  const Config given = read(R"({"preset": "scene", "steps": 2500, "seed": 18446744073709551615})");
+  Config expected = preset(Preset::scene);
+  expected.steps = 2500;
+  expected.seed = 18446744073709551615u;
+  expect_equal(given, expected);
+  expect_equal(read("{}"), preset(Preset::object));
+  expect_equal(read("{}", {.preset = Preset::scene}), preset(Preset::scene));
+  expect_equal(read(R"({"preset": "object"})", {.preset = Preset::scene}), preset(Preset::object));
+  expect_equal(read("{}", {.preset = Preset::object, .published = true}),
+               published(Preset::object));
+}
+
+TEST(ConfigFile, WritesFloatsAsPeopleDo) {
+  const std::string text = config_to_json(Config{});
+  EXPECT_THAT(text, StartsWith("{\n  \"preset\": \"object\",\n  \"steps\": 10000,\n"));
+  EXPECT_THAT(text, HasSubstr("\"l1_weight\": 0.8,\n"));
+  EXPECT_THAT(text, HasSubstr("\"lift_keeps_opacity\": true,\n"));
+  EXPECT_THAT(text, HasSubstr("\"background\": [1, 1, 1]\n}\n"));
+}
+
+TEST(ConfigFile, SaysWhatIsWrong) {
+  const auto expect = [](const std::string& text, const std::string& words) {
+    EXPECT_THAT(refusal(text), StartsWith("run.json: ")) << text;
+    EXPECT_THAT(refusal(text), HasSubstr(words)) << text;
+  };
+  expect("{", "not valid JSON");
+  expect("[]", "expected an object");
+  expect(R"({"step": 5})", "\"step\" is no constant of training; did you mean steps?");
+  expect(R"({"mlp_rat": 5})", "did you mean mlp_rate?");
+  expect(R"({"steps": "many"})", "steps: expected a number");
+  expect(R"({"steps": 2.5})", "steps: expected a whole number, not 2.5");
+  expect(R"({"steps": 0})", "steps: 0 is not from 1 to 10000000 (a run takes at least one step)");
+  expect(R"({"steps": 1e300})", "steps: 2147483647 is not from 1");
+  expect(R"({"steps": -1e300})", "steps: -2147483647 is not from 1");
+  expect(R"({"triangles": 4000001})", "triangles: 4000001 is not from 1 to 4000000 (");
+  expect(R"({"seed": -1})", "seed: expected a whole number");
+  expect(R"({"baseline": 1})", "baseline: expected true or false");
+  expect(R"({"beta1": 1})", "beta1: 1 is not from 0 to less than 1 (");
+  expect(R"({"lift_at": 1.5})", "lift_at: 1.5 is not from 0 to 1 (it is a fraction)");
+  expect(R"({"far": 1e300})", "far: a number beyond what a float can hold");
+  expect(R"({"background": [1, 1]})", "background: expected three numbers");
+  expect(R"({"background": [1, 1, 2]})", "background: [1, 1, 2] is not from 0 to 1");
+  expect(R"({"background": [1, 1, "x"]})", "background[2]: expected a number");
+  expect(R"({"preset": "objekt"})", "preset: \"objekt\" is none of object, scene");
+  expect(R"({"max_level": 8})", "max_level: 8 is not from 0 to 7");
+  expect(R"({"min_level": 4})", "min_level: 4 is above max_level, 3");
+  expect(R"({"coarse_level": 3})", "coarse_level: 3 is above min_level, 2");
+  expect(R"({"near": 10})", "near: 10 is not below far, 10");
+  expect(R"({"l1_weight": 0, "ssim_weight": 0})", "there would be no loss");
+}
+
+TEST(ConfigFile, AMissingOneIsNamed) {
+  try {
+    read_config(std::filesystem::path("nowhere/run.json"));
+    FAIL() << "it was read";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("nowhere/run.json: there is no folder nowhere"));
+  }
+}
+
+TEST(ConfigReference, IsThePageInTheDocumentation) {
+  std::ifstream file(TUREEN_SOURCE_DIR "/docs/training-constants.md");
+  std::stringstream page;
+  page << file.rdbuf();
+  const std::string table = config_reference();
+  const bool found = page.str().find(table) != std::string::npos;
+  EXPECT_TRUE(found);
+  if (!found) {
+    std::ofstream(TUREEN_BINARY_DIR "/training-constants.md") << table;
+    ADD_FAILURE() << "docs/training-constants.md is not up to date; its table now is "
+                  << TUREEN_BINARY_DIR "/training-constants.md";
+  }
+}
+
+}  // namespace
+}  // namespace tureen::trainer

@@ -1,0 +1,246 @@
+#include "trainer/config_fields.hpp"
+
+#include <cmath>
+#include <iterator>
+#include <vector>
+
+#include "formats/decimal.hpp"
+#include "soup/lattice.hpp"
+
+namespace tureen::trainer {
+
+namespace {
+
+template <class... Visitors>
+struct Overloaded : Visitors... {
+  using Visitors::operator()...;
+};
+template <class... Visitors>
+Overloaded(Visitors...) -> Overloaded<Visitors...>;
+
+constexpr const char* presets[] = {"object", "scene"};
+constexpr const char* initialisations[] = {"automatic", "points", "random", "mesh"};
+constexpr const char* precisions[] = {"float32", "float16"};
+
+// Whole numbers beyond these are typing errors rather than wishes.
+constexpr Range steps{1, 1e7, {}, "a run takes at least one step"};
+constexpr Range views{1, 1024, {}, "a step looks at one view or more"};
+// The texels of so many faces at level 3, a byte a channel, come to 1.4 GB.
+constexpr Range faces{1, 4e6, {}, "more triangles than that are no longer a small soup"};
+constexpr Range levels{0, lattice::max_level, {}, "a lattice has these levels"};
+constexpr Range fraction{0, 1, {}, "it is a fraction"};
+constexpr Range part{0, 1, Range::Ends::low_open, "it is a fraction, and nothing moves at 0"};
+constexpr Range weight{0, 1000, {}, "a weight below 0 would reward the error"};
+constexpr Range rate{0, 1e6, {}, "a rate below 0 would climb the loss; 0 keeps things as they are"};
+constexpr Range memory{0, 1, Range::Ends::high_open,
+                       "at 1 a mean would remember its first value alone"};
+constexpr Range length{0, 1e9, Range::Ends::low_open, "it is a distance in front of the camera"};
+// 2^64 is not exact as a double's neighbour below; every value of the type is in the range.
+constexpr Range any_seed{0, 18446744073709551616.0, {}, "it is an unsigned number of 64 bits"};
+constexpr Range none{};
+
+const ConfigField fields[] = {
+    {"preset", &Config::preset, none, presets,
+     "The kind of dataset; gives the defaults of all that follows"},
+    {"steps", &Config::steps, steps, {}, "Steps of the optimiser"},
+    {"batch", &Config::batch, views, {}, "Views a step"},
+    {"seed", &Config::seed, any_seed, {}, "Of every random number; equal seeds give equal soups"},
+    {"triangles", &Config::triangles, faces, {}, "The budget, met exactly at the end"},
+    {"initialisation", &Config::initialisation, none, initialisations,
+     "Where triangles begin: at points of the dataset, at random, or as a mesh; automatic takes "
+     "points where there are some"},
+    {"initial_triangles", &Config::initial_triangles, faces, {}, "Triangles at the first step"},
+    {"initial_radius",
+     &Config::initial_radius,
+     {0, 100, Range::Ends::low_open, "a triangle needs an extent"},
+     {},
+     "Their circumradius, in mean distances to the nearest neighbour"},
+    {"box",
+     &Config::box,
+     {0, 1e9, {}, "it is a length"},
+     {},
+     "Half side of the box for random points, in world units; 0 takes it from the cameras"},
+    {"coarse_level", &Config::coarse_level, levels, {}, "The one lattice level until lift_at"},
+    {"min_level", &Config::min_level, levels, {}, "The coarsest level afterwards"},
+    {"max_level", &Config::max_level, levels, {}, "The finest level, which is what is written"},
+    {"lift_at", &Config::lift_at, fraction, {}, "Fraction of the steps before the levels change"},
+    {"lift_keeps_opacity",
+     &Config::lift_keeps_opacity,
+     none,
+     {},
+     "Opacity goes on where it was; otherwise it starts again at one half"},
+    {"l1_weight", &Config::l1_weight, weight, {}, "Of the mean absolute difference in the loss"},
+    {"ssim_weight", &Config::ssim_weight, weight, {}, "Of (1 - SSIM) / 2 in the loss"},
+    {"opacity_l1_weight",
+     &Config::opacity_l1_weight,
+     weight,
+     {},
+     "Of the absolute difference in the opacity's score"},
+    {"baseline",
+     &Config::baseline,
+     none,
+     {},
+     "A running mean is taken off the score's loss: less variance, the same expectation"},
+    {"baseline_rate", &Config::baseline_rate, part, {}, "How fast that mean follows"},
+    {"texture_rate", &Config::texture_rate, rate, {}, "Learning rate of features and opacity"},
+    {"mlp_rate", &Config::mlp_rate, rate, {}, "Learning rate of the color MLP"},
+    {"vertex_rate",
+     &Config::vertex_rate,
+     rate,
+     {},
+     "Learning rate of positions, for a scene of half side 1.5"},
+    {"decay", &Config::decay, part, {}, "Rates fall to this fraction, exponentially"},
+    {"beta1", &Config::beta1, memory, {}, "Adam's memory of the gradient"},
+    {"beta2", &Config::beta2, memory, {}, "Adam's memory of its square"},
+    {"epsilon",
+     &Config::epsilon,
+     {0, 1, Range::Ends::low_open, "it keeps Adam from dividing by zero"},
+     {},
+     "Added to Adam's denominator"},
+    {"dense_updates",
+     &Config::dense_updates,
+     none,
+     {},
+     "Adam also steps what no picture of the batch touched"},
+    {"reset_moments", &Config::reset_moments, none, {}, "Moments start again at every resampling"},
+    {"gradient_precision", &Config::gradient_precision, none, precisions,
+     "How gradients of texels are kept within a step"},
+    {"resample_every", &Config::resample_every, steps, {}, "Steps between prunings and splittings"},
+    {"resample_until",
+     &Config::resample_until,
+     fraction,
+     {},
+     "Fraction of the steps; then it ends"},
+    {"resample_textures",
+     &Config::resample_textures,
+     none,
+     {},
+     "Children of a split resample their parent's texture instead of copying it"},
+    {"split_fraction",
+     &Config::split_fraction,
+     {0, 100, Range::Ends::low_open, "at 0 every edge would be split for ever"},
+     {},
+     "Projected edges longer than this part of the picture's height are split"},
+    {"split_views", &Config::split_views, steps, {}, "At most so many views choose the edges"},
+    {"near", &Config::near, length, {}, "Near plane, for a scene of half side 1.5"},
+    {"far", &Config::far, length, {}, "Far plane, likewise"},
+    {"background",
+     &Config::background,
+     {0, 1, {}, "it is a display-referred colour"},
+     {},
+     "What is where no triangle is: red, green, blue"},
+};
+
+/// The numbers of a field that its range speaks of.
+std::vector<double> numbers(const Config& config, const ConfigField& field) {
+  const auto visitor = Overloaded{
+      [&](int Config::*m) { return std::vector{double(config.*m)}; },
+      [&](std::uint64_t Config::*m) { return std::vector{double(config.*m)}; },
+      [&](float Config::*m) { return std::vector{double(config.*m)}; },
+      [&](Color Config::*m) {
+        return std::vector<double>(std::begin(config.*m), std::end(config.*m));
+      },
+      [](auto) { return std::vector<double>{}; },
+  };
+  return std::visit(visitor, field.member);
+}
+
+std::optional<std::string> range_defect(const Config& config, const ConfigField& field) {
+  for (const double value : numbers(config, field))
+    if (!field.range.contains(value))
+      return std::string(field.name) + ": " + value_text(config, field) + " is not " +
+             field.range.text() + " (" + field.range.reason + ")";
+  return std::nullopt;
+}
+
+std::string number_text(double value) {
+  return value == std::floor(value) && value < 1e15 ? std::to_string((long long)value)
+                                                    : float_text(float(value));
+}
+
+std::string cell(const Config& config, const ConfigField& field) {
+  return "`" + value_text(config, field) + "`";
+}
+
+}  // namespace
+
+bool Range::contains(double value) const {
+  const bool above = ends == Ends::low_open ? value > low : value >= low;
+  const bool below = ends == Ends::high_open ? value < high : value <= high;
+  return above && below;  // neither holds for NaN
+}
+
+std::string Range::text() const {
+  switch (ends) {
+    case Ends::low_open:
+      return "more than " + number_text(low) + ", at most " + number_text(high);
+    case Ends::high_open:
+      return "from " + number_text(low) + " to less than " + number_text(high);
+    case Ends::closed:
+      break;
+  }
+  return "from " + number_text(low) + " to " + number_text(high);
+}
+
+std::span<const ConfigField> config_fields() { return fields; }
+
+std::span<const char* const> preset_words() { return presets; }
+
+std::optional<std::string> defect(const Config& config) {
+  for (const ConfigField& field : fields)
+    if (std::optional<std::string> found = range_defect(config, field)) return found;
+  const auto level = [](int value) { return std::to_string(value); };
+  if (config.min_level > config.max_level)
+    return "min_level: " + level(config.min_level) + " is above max_level, " +
+           level(config.max_level);
+  if (config.coarse_level > config.min_level)
+    return "coarse_level: " + level(config.coarse_level) + " is above min_level, " +
+           level(config.min_level) + " (the lift would lose what was learned)";
+  if (!(config.near < config.far))
+    return "near: " + float_text(config.near) + " is not below far, " + float_text(config.far);
+  if (config.l1_weight == 0 && config.ssim_weight == 0)
+    return "l1_weight: 0, as ssim_weight is (there would be no loss)";
+  return std::nullopt;
+}
+
+std::string value_text(const Config& config, const ConfigField& field) {
+  const auto word = [&](auto value) {
+    return "\"" + std::string(field.words[std::size_t(value)]) + "\"";
+  };
+  const auto visitor = Overloaded{
+      [&](int Config::*m) { return std::to_string(config.*m); },
+      [&](std::uint64_t Config::*m) { return std::to_string(config.*m); },
+      [&](float Config::*m) { return float_text(config.*m); },
+      [&](bool Config::*m) { return std::string(config.*m ? "true" : "false"); },
+      [&](Color Config::*m) {
+        const Color& c = config.*m;
+        return "[" + float_text(c[0]) + ", " + float_text(c[1]) + ", " + float_text(c[2]) + "]";
+      },
+      [&](auto m) { return word(config.*m); },
+  };
+  return std::visit(visitor, field.member);
+}
+
+std::string config_reference() {
+  const Config object = preset(Preset::object), scene = preset(Preset::scene);
+  const Config published_object = published(Preset::object);
+  const Config published_scene = published(Preset::scene);
+  std::string text =
+      "| field | object | scene | published | range | what it is |\n|---|---|---|---|---|---|\n";
+  for (const ConfigField& field : fields) {
+    const std::string a = cell(object, field), b = cell(scene, field);
+    const std::string pa = cell(published_object, field), pb = cell(published_scene, field);
+    const std::string differing = pa == a && pb == b ? ""
+                                  : pa == pb         ? pa
+                                                     : "object " + pa + ", scene " + pb;
+    std::string range;
+    if (!numbers(object, field).empty()) range = field.range.text();
+    for (const char* word : field.words)
+      range += (range.empty() ? "`" : ", `") + std::string(word) + "`";
+    text += "| `" + std::string(field.name) + "` | " + a + " | " + (b == a ? "" : b) + " | " +
+            differing + " | " + range + " | " + field.meaning + " |\n";
+  }
+  return text;
+}
+
+}  // namespace tureen::trainer
