@@ -1,13 +1,11 @@
-// Triangles come and go: pruning, splitting, and where the first ones are.
+// Triangles come and go: pruning and splitting. Which edges are split: trainer/split_choice.hpp;
+// where the first triangles are: trainer/initialise.hpp.
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
-#include "formats/dataset.hpp"
-#include "trainer/config.hpp"
 #include "trainer/model.hpp"
 
 namespace tureen::trainer {
@@ -24,17 +22,32 @@ struct Resampled {
 /// first. With more than there are, all.
 Resampled prune(const Model& model, std::span<const std::uint64_t> pixels, std::size_t count);
 
+/// The faces that have any pixels, in their old order.
+Resampled prune_unseen(const Model& model, std::span<const std::uint64_t> pixels);
+
 /// A split: the edge from corner `edge` to the next one, cut at `t` (0..1, from the first corner).
 struct Split {
   std::uint32_t face;
-  int edge;
+  int edge;  // 0..2
   float t;
 };
 
-/// Replaces each named face by its two halves, which stand where the parent stood and at the end.
-/// With `resample`, every texel of a child takes the field of the parent at its place (level by
-/// level for the sum of all levels: least-squares free, exact where t = 1/2 and the level allows);
-/// without, both children copy the parent's texels, as published. A face is named at most once.
-Resampled split(const Model& model, std::span<const Split> splits, bool resample);
+enum class ChildTexture {
+  resampled,  // the picture stays: a child shows what its parent showed there
+  copied,     // both children copy the parent's texels: as published, the picture pops
+};
+
+/// Cuts faces in two, one after the other. The half with the edge's first corner stands where the
+/// parent stood, the other at the end, so a later split may name either: face F + i is the second
+/// half of split i, where F is the old number of faces. Orientation is kept.
+///
+/// Resampled, every texel of max_level takes the value (after the sigmoid, as it is drawn) that the
+/// face of the old model shows at its place, however often that was cut; between texels both are
+/// piecewise linear, on other cells. At t = 1/2 every second texel lies on one of the old.
+Resampled split(const Model& model, std::span<const Split> splits, ChildTexture texture);
+
+/// What a split does to the corners, three a face: the first half in its place, the second at the
+/// end. Both take the very same point.
+void cut_face(std::vector<glm::vec3>& positions, const Split& split);
 
 }  // namespace tureen::trainer

@@ -1,0 +1,171 @@
+#include "trainer/split_choice.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <queue>
+#include <utility>
+
+namespace tureen::trainer {
+
+namespace {
+
+/// No cut is nearer to a corner, as a fraction of its edge: each makes progress, also in floats, so
+/// that no extreme perspective spends the budget on one edge.
+constexpr double least_cut = 0x1p-10;
+
+struct Candidate {
+  double length;
+  Split split;
+
+  bool operator<(const Candidate& other) const {  // a queue's top is its greatest
+    return length != other.length ? length < other.length : split.face > other.split.face;
+  }
+};
+
+/// Faces as the splits so far have left them, and those splits.
+struct Faces {
+  std::vector<glm::vec3> positions;
+  std::vector<std::uint32_t> origin;
+  std::vector<Split> splits;
+
+  explicit Faces(const Model& model) : positions(model.positions) {
+    for (std::size_t face = 0; face < model.faces(); ++face) origin.push_back(std::uint32_t(face));
+  }
+
+  std::size_t count() const { return origin.size(); }
+
+  void cut(const Split& split) {
+    cut_face(positions, split);
+    origin.push_back(origin[split.face]);
+    splits.push_back(split);
+  }
+};
+
+/// Splits by priority until there are `budget` faces or no candidate is left. `candidate` names the
+/// longest edge of a face, if one is to be split; it is asked for every face that `starts` accepts,
+/// and for children.
+template <class Starts, class MakeCandidate>
+void split_longest(Faces& faces, std::size_t budget, const Starts& starts,
+                   const MakeCandidate& candidate) {
+  std::priority_queue<Candidate> queue;
+  const auto consider = [&](std::size_t face) {
+    if (const std::optional<Candidate> longest = candidate(std::uint32_t(face)))
+      queue.push(*longest);
+  };
+  for (std::size_t face = 0; face < faces.count(); ++face)
+    if (starts(face)) consider(face);
+  while (faces.count() < budget && !queue.empty()) {
+    const Split next = queue.top().split;
+    queue.pop();
+    faces.cut(next);
+    consider(next.face);
+    consider(faces.count() - 1);
+  }
+}
+
+/// A camera as planes and a projection that are linear in homogeneous pixels (X, Y, W): the pixel
+/// is (X / W, Y / W), W the distance from the camera's plane.
+class Projection {
+ public:
+  Projection(const Camera& camera, glm::dvec3 origin, double near)
+      : camera_(camera), origin_(origin), near_(near) {}
+
+  glm::dvec3 operator()(glm::vec3 position) const {
+    const glm::dvec4 v = camera_.view_from_world * glm::dvec4(origin_ + glm::dvec3(position), 1.0);
+    const double w = -v.z;
+    return {camera_.fx * v.x + camera_.cx * w, -camera_.fy * v.y + camera_.cy * w, w};
+  }
+
+  struct Visible {
+    double length;  // in pixels
+    double t;       // where the projected part is halved
+  };
+
+  /// The part of an edge that is in the picture; nothing where there is none.
+  std::optional<Visible> visible(glm::dvec3 a, glm::dvec3 b) const {
+    double low = 0, high = 1;
+    for (int plane = 0; plane < 5; ++plane) {
+      const double at_a = distance(plane, a), at_b = distance(plane, b);
+      if (!(at_a >= 0 || at_b >= 0)) return std::nullopt;  // NaN too
+      if (at_a < 0) low = std::max(low, at_a / (at_a - at_b));
+      if (at_b < 0) high = std::min(high, at_a / (at_a - at_b));
+    }
+    if (low >= high) return std::nullopt;
+    const glm::dvec3 from = a + low * (b - a), to = a + high * (b - a);
+    // Halved in the picture: (1 - s) W_from = s W_to.
+    const double s = from.z / (from.z + to.z);
+    return Visible{glm::length(glm::dvec2(to) / to.z - glm::dvec2(from) / from.z),
+                   std::clamp(low + s * (high - low), least_cut, 1 - least_cut)};
+  }
+
+ private:
+  /// Not negative on the inner side.
+  double distance(int plane, glm::dvec3 point) const {
+    switch (plane) {
+      case 0:
+        return point.z - near_;
+      case 1:
+        return point.x;
+      case 2:
+        return camera_.width * point.z - point.x;
+      case 3:
+        return point.y;
+      default:
+        return camera_.height * point.z - point.y;
+    }
+  }
+
+  const Camera& camera_;
+  glm::dvec3 origin_;
+  double near_;
+};
+
+}  // namespace
+
+std::vector<Split> longest_edges(const Model& model, std::size_t budget) {
+  Faces faces(model);
+  const auto longest = [&](std::uint32_t face) -> std::optional<Candidate> {
+    const glm::vec3* corner = &faces.positions[3 * std::size_t(face)];
+    Candidate best{-1, {face, 0, 0.5f}};
+    for (int edge = 0; edge < 3; ++edge) {
+      const double length =
+          glm::distance(glm::dvec3(corner[edge]), glm::dvec3(corner[(edge + 1) % 3]));
+      if (length > best.length) best = {length, {face, edge, 0.5f}};
+    }
+    return best;
+  };
+  split_longest(
+      faces, budget, [](std::size_t) { return true; }, longest);
+  return std::move(faces.splits);
+}
+
+std::vector<Split> longest_projected_edges(const Model& model, std::span<const SplitView> views,
+                                           const ProjectedSplits& rule) {
+  assert(rule.near > 0 && rule.fraction > 0);
+  Faces faces(model);
+  for (const SplitView& view : views) {
+    assert(view.visible.size() == model.faces());
+    const Projection project(view.camera, model.origin, rule.near);
+    const auto longest = [&](std::uint32_t face) -> std::optional<Candidate> {
+      const glm::vec3* corner = &faces.positions[3 * std::size_t(face)];
+      const glm::dvec3 p[3] = {project(corner[0]), project(corner[1]), project(corner[2])};
+      std::optional<Candidate> best;
+      for (int edge = 0; edge < 3; ++edge) {
+        const auto part = project.visible(p[edge], p[(edge + 1) % 3]);
+        if (part && part->length > rule.fraction * view.camera.height &&
+            (!best || part->length > best->length))
+          best = Candidate{part->length, {face, edge, float(part->t)}};
+      }
+      return best;
+    };
+    split_longest(
+        faces, rule.budget, [&](std::size_t face) { return view.visible[faces.origin[face]] != 0; },
+        longest);
+  }
+  return std::move(faces.splits);
+}
+
+}  // namespace tureen::trainer
