@@ -7,11 +7,6 @@
 
 namespace tureen::cli {
 
-/// The picture at width x height, each pixel the mean over the area that it covers (a box filter;
-/// colours weighted by alpha, so that transparent pixels do not darken an edge). Sizes of at least
-/// one pixel; enlarging gives blocks.
-Image8 box_scaled(const Image8& image, int width, int height);
-
 /// Thumbnails no wider and no higher than `cell` pixels, left to right and top to bottom, in as
 /// many columns as make the sheet about square, on transparent ground with a margin.
 Image8 contact_sheet(std::span<const Image8> pictures, int cell = 320);

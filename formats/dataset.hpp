@@ -19,8 +19,13 @@
 
 namespace tureen {
 
-/// One photograph. Its camera is a pinhole in the OpenGL convention at the picture's own size:
-/// lens distortion has been undone by resampling, and `camera.name` is the name in the dataset.
+/// One photograph. Its camera is a pinhole in the OpenGL convention at the picture's own size, and
+/// `camera.name` is the name in the dataset. World coordinates are the dataset's own.
+///
+/// Lens distortion has been undone by resampling (formats/lens.hpp). Focal lengths stay; rows and
+/// columns at the border that the photograph does not fill are cut off, and the principal point
+/// follows. So every pixel is evidence: nobody needs a mask, and alpha below 255 always means what
+/// the dataset meant by it.
 struct Photograph {
   Camera camera;
   Image8 image;  // straight alpha; camera.width x camera.height
@@ -35,9 +40,11 @@ struct Dataset {
   std::vector<Photograph> train;
   std::vector<Photograph> test;
   std::vector<DatasetPoint> points;  // of structure from motion; empty where there are none
-  glm::vec3 up{0.0f, 1.0f, 0.0f};    // what is most likely up
-  bool has_alpha = false;            // some photograph is transparent somewhere
-  std::vector<std::string> notes;    // what was assumed or undone, a sentence each
+  /// What is most likely up: z for transforms.json, as in the scenes of NeRF and instant-ngp; the
+  /// mean of the cameras' up axes for COLMAP.
+  glm::vec3 up{0.0f, 1.0f, 0.0f};
+  bool has_alpha = false;          // some photograph is transparent somewhere
+  std::vector<std::string> notes;  // what was assumed or undone, a sentence each
 };
 
 /// Which photographs to read; the others cost nothing.
@@ -57,10 +64,14 @@ struct DatasetOptions {
   std::function<void(double)> progress;
 };
 
-/// Reads a folder, or a transforms.json. Photographs come in name order. Throws InputError with
-/// the file and the reason: images that are missing (all of them are named, up to a dozen) or whose
-/// size is not the camera's, a camera model that cannot be undone, a pose that is no rotation to
-/// three digits, a split that would leave nothing to train on or to test.
+/// Reads a folder, or a transforms.json. Photographs come in name order, which is that of the
+/// bytes: r_10 stands before r_2. No file outside of the dataset's folder is opened. JPEG's EXIF
+/// orientation is not applied: cameras speak of pixels as they are stored.
+///
+/// Throws InputError with the file and the reason: images that are missing (all of them are named,
+/// up to a dozen) or whose size is not the camera's, a camera model that cannot be undone, a pose
+/// that is no rotation to three digits, a split that would leave nothing to train on or to test,
+/// photographs that take more than 4 GiB together.
 Dataset read_dataset(const std::filesystem::path& path, const DatasetOptions& options = {});
 
 }  // namespace tureen

@@ -69,8 +69,12 @@ std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri) {
 }
 
 std::filesystem::path resolve_in_folder(const std::filesystem::path& folder, std::string_view uri) {
+  return resolve_name_in_folder(folder, percent_decoded(uri));
+}
+
+std::filesystem::path resolve_name_in_folder(const std::filesystem::path& folder,
+                                             const std::string& name) {
   namespace fs = std::filesystem;
-  const std::string name = percent_decoded(uri);
   const auto refuse = [&](const std::string& reason) {
     throw UriError{"\"" + name + "\" " + reason};
   };

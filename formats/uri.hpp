@@ -1,5 +1,6 @@
 // What a scene file may name by URI: data within the URI itself, or a file in the scene's own
-// folder and nowhere else. The file is untrusted; so are the names in it.
+// folder and nowhere else; and the same for files that name others plainly. The file is untrusted;
+// so are the names in it.
 #pragma once
 
 #include <cstddef>
@@ -19,6 +20,10 @@ struct UriError {
 /// The bytes of a data: URI in base64 of any media type, or nothing where `uri` is no data: URI.
 /// Throws UriError where it is one but cannot be decoded.
 std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri);
+
+/// The file of the relative path `name`, as it is, in `folder` or below it. Refused as below.
+std::filesystem::path resolve_name_in_folder(const std::filesystem::path& folder,
+                                             const std::string& name);
 
 /// The file that the relative reference `uri` names, percent-decoded, in `folder` or below it. An
 /// absolute path, a scheme, a "..", and a link that leads out of the folder are refused with a

@@ -109,21 +109,6 @@ TEST(Progress, WritesPlainLinesElsewhere) {
             "working: 25 %\nworking: 75 %\n");
 }
 
-TEST(ContactSheet, BoxScalingAveragesByArea) {
-  Image8 image(3, 2, glm::u8vec4(0, 0, 0, 255));
-  image.at(0, 0) = image.at(0, 1) = glm::u8vec4(255, 255, 255, 255);
-  // Three columns on two: the first covers one white and half a black.
-  const Image8 half = box_scaled(image, 2, 1);
-  EXPECT_EQ(half.at(0, 0), glm::u8vec4(170, 170, 170, 255));
-  EXPECT_EQ(half.at(1, 0), glm::u8vec4(0, 0, 0, 255));
-}
-
-TEST(ContactSheet, TransparentPixelsDoNotDarken) {
-  Image8 image(2, 1, glm::u8vec4(0));
-  image.at(0, 0) = glm::u8vec4(200, 100, 50, 255);
-  EXPECT_EQ(box_scaled(image, 1, 1).at(0, 0), glm::u8vec4(200, 100, 50, 128));
-}
-
 TEST(ContactSheet, HoldsEveryPictureInAGrid) {
   std::vector<Image8> pictures;
   for (int i = 0; i < 5; ++i) pictures.emplace_back(640, 320, glm::u8vec4(10 * i, 0, 0, 255));
