@@ -7,6 +7,8 @@ Config preset(Preset kind) {
   config.preset = kind;
   if (kind == Preset::scene) {
     config.vertex_rate = 1e-2f;
+    // Photographs show walls and trees behind what they look at.
+    config.far_points = 0.5f;
     // Nothing was behind the photographs: what no triangle covers is an error, not a white wall.
     for (float& channel : config.background) channel = 0.0f;
   } else {
@@ -19,6 +21,7 @@ Config preset(Preset kind) {
 Config published(Preset kind) {
   Config config = preset(kind);
   config.max_level = 5;
+  config.far_points = 0.0f;
   config.lift_keeps_opacity = false;
   config.baseline = false;
   config.dense_updates = true;

@@ -43,7 +43,10 @@ struct Config {
   Initialisation initialisation = Initialisation::automatic;
   int initial_triangles = 15'000;  // published, random: 100,000
   float initial_radius = 0.25f;    // circumradius in mean distances to the nearest neighbour
+  bool local_radius = false;  // of points: each by its own neighbour instead of the mean distance
   float box = 0.0f;  // half side of the box for random points in world units; 0: from the cameras
+  float far_points = 0.0f;  // the fraction of random points that lies around the box, out to
+  float far_extent = 8.0f;  // so many of its half sides
 
   // --- The texture
   int coarse_level = 0;            // the one level until lift_step

@@ -3,11 +3,15 @@
 // that IEEE 754 defines exactly. The standard distributions differ between libraries.
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 namespace tureen::trainer {
 
@@ -60,6 +64,17 @@ inline glm::dmat3 Random::rotation() {
   return {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
           {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
           {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
+}
+
+/// `count` different numbers of 0 .. of - 1 in random order (at most all): the first steps of
+/// Fisher and Yates' shuffle.
+inline std::vector<std::uint32_t> draw(Random& random, std::size_t count, std::size_t of) {
+  std::vector<std::uint32_t> all(of);
+  std::iota(all.begin(), all.end(), 0u);
+  count = std::min(count, of);
+  for (std::size_t i = 0; i < count; ++i) std::swap(all[i], all[i + random.below(of - i)]);
+  all.resize(count);
+  return all;
 }
 
 }  // namespace tureen::trainer

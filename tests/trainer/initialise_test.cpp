@@ -1,0 +1,410 @@
+#include "trainer/initialise.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/matrix.hpp>
+
+#include "soup/error.hpp"
+#include "support/random_soups.hpp"
+#include "trainer/neighbours.hpp"
+#include "trainer/random_model.hpp"
+
+namespace tureen::trainer {
+namespace {
+
+using testing::Each;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+Photograph view_from(glm::dvec3 eye, glm::dvec3 target, int width = 100, int height = 80) {
+  return {.camera = look_at(eye, target, {0, 0, 1}, glm::radians(40.0), width, height),
+          .image = {}};
+}
+
+/// Cameras at a distance from a centre, all looking at it, nearly: by a tenth of a degree.
+Dataset ring(std::uint64_t seed, glm::dvec3 centre, double distance, int count = 40) {
+  test::Random random(seed);
+  Dataset dataset;
+  for (int i = 0; i < count; ++i)
+    dataset.train.push_back(view_from(centre + distance * random.direction(),
+                                      centre + 1.7e-3 * distance * random.direction()));
+  return dataset;
+}
+
+std::vector<DatasetPoint> ball(std::uint64_t seed, std::size_t count, glm::dvec3 centre,
+                               double radius) {
+  Random random(seed);
+  std::vector<DatasetPoint> points;
+  for (std::size_t i = 0; i < count; ++i)
+    points.push_back({.position = centre + radius * random.in_ball(), .color = {}});
+  return points;
+}
+
+std::string message_of(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+// --- Random numbers
+
+TEST(Random, RepeatsForASeedAndDiffersBetweenStreams) {
+  Random a(5), b(5), other_seed(6), other_stream(5, 1);
+  const std::uint64_t first = a.bits();
+  EXPECT_EQ(first, b.bits());
+  EXPECT_NE(first, other_seed.bits());
+  EXPECT_NE(first, other_stream.bits());
+}
+
+// The numbers themselves are part of what a seed means: checked with SplitMix64 written in Python.
+TEST(Random, IsSplitMix64) {
+  Random random(0);
+  EXPECT_EQ(random.bits(), 0xa577782bc52a9f5au);
+  EXPECT_EQ(random.bits(), 0xb485244380e590beu);
+}
+
+TEST(Random, RotationsAreRotationsAndUniform) {
+  Random random(71);
+  glm::dmat3 sum(0.0);
+  const int count = 20000;
+  for (int i = 0; i < count; ++i) {
+    const glm::dmat3 rotation = random.rotation();
+    const glm::dmat3 square = rotation * glm::transpose(rotation);
+    for (int c = 0; c < 3; ++c)
+      for (int r = 0; r < 3; ++r) ASSERT_NEAR(square[c][r], c == r, 1e-12);
+    ASSERT_NEAR(glm::determinant(rotation), 1, 1e-12);
+    sum += rotation;
+  }
+  // Entries have mean 0 and variance 1/3: five standard errors.
+  for (int c = 0; c < 3; ++c)
+    for (int r = 0; r < 3; ++r) EXPECT_NEAR(sum[c][r] / count, 0, 5 * std::sqrt(1 / 3.0 / count));
+}
+
+TEST(Random, DrawsDifferentNumbersUniformly) {
+  Random random(72);
+  int counts[10] = {};
+  for (int i = 0; i < 10000; ++i) {
+    std::vector<std::uint32_t> three = draw(random, 3, 10);
+    ASSERT_THAT(three, SizeIs(3));
+    for (const std::uint32_t number : three) ++counts[number];
+    std::ranges::sort(three);
+    ASSERT_TRUE(std::ranges::adjacent_find(three) == three.end());
+  }
+  for (const int count : counts)  // binomial: 3000 +- 46, five of them
+    EXPECT_NEAR(count, 3000, 5 * std::sqrt(10000 * 0.3 * 0.7));
+  EXPECT_THAT(draw(random, 9, 4), testing::UnorderedElementsAre(0, 1, 2, 3));
+}
+
+// --- Neighbours
+
+TEST(Neighbours, DistancesAreThoseOfTheSlowWay) {
+  test::Random random(73);
+  std::vector<glm::dvec3> points;
+  for (int i = 0; i < 300; ++i) points.push_back(random.direction() * random.uniform(0, 3));
+  points.push_back(points[7]);  // a twin
+  const std::vector<double> distances = nearest_distances(points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    double nearest = INFINITY;
+    for (std::size_t j = 0; j < points.size(); ++j)
+      if (j != i) nearest = std::min(nearest, glm::distance(points[i], points[j]));
+    ASSERT_DOUBLE_EQ(distances[i], nearest);
+  }
+  EXPECT_EQ(distances[7], 0);
+  EXPECT_THAT(nearest_distances(std::span(points).first(1)), Each(0.0));
+  EXPECT_THAT(nearest_distances({}), testing::IsEmpty());
+}
+
+TEST(Neighbours, FarthestPointsAreFarFromAllBefore) {
+  test::Random random(74);
+  std::vector<glm::dvec3> points;
+  for (int i = 0; i < 400; ++i) points.push_back(random.direction() * random.uniform(0, 3));
+  const std::vector<std::uint32_t> chosen = farthest_points(points, 60, 9);
+  ASSERT_THAT(chosen, SizeIs(60));
+  EXPECT_EQ(chosen[0], 9u);
+  const auto gap = [&](std::size_t point, std::size_t before) {
+    double nearest = INFINITY;
+    for (std::size_t i = 0; i < before; ++i)
+      nearest = std::min(nearest, glm::distance(points[point], points[chosen[i]]));
+    return nearest;
+  };
+  for (std::size_t i = 1; i < chosen.size(); ++i) {
+    double farthest = 0;
+    for (std::size_t point = 0; point < points.size(); ++point)
+      farthest = std::max(farthest, gap(point, i));
+    ASSERT_NEAR(gap(chosen[i], i), farthest, 1e-6) << i;  // distances are compared as floats
+  }
+}
+
+TEST(Neighbours, FarthestPointsOfTwinsAreAllDifferent) {
+  const std::vector<glm::dvec3> points(5, glm::dvec3(1.0));
+  EXPECT_THAT(farthest_points(points, 9, 2), testing::UnorderedElementsAre(0, 1, 2, 3, 4));
+}
+
+// --- The region
+
+TEST(Region, IsWhatTheCamerasLookAt) {
+  const Region region = region_of_interest(ring(75, {5, -3, 2}, 4.0));
+  EXPECT_LT(glm::distance(region.centre, {5, -3, 2}), 0.01);  // axes are off by 0.0017 x 4
+  // Up and down 40 degrees in all, to the sides more.
+  EXPECT_NEAR(region.half_side, 4 * std::tan(glm::radians(20.0)), 0.02);
+}
+
+TEST(Region, OfLegoIsWhereItStands) {
+  const std::filesystem::path lego = TUREEN_SOURCE_DIR "/../shared/data/rendered/lego";
+  if (!std::filesystem::exists(lego)) GTEST_SKIP() << "no dataset at " << lego;
+  DatasetOptions options;
+  options.scale = 1.0 / 16;  // only the cameras matter
+  options.part = DatasetPart::train;
+  const Region region = region_of_interest(read_dataset(lego, options));
+  EXPECT_LT(glm::length(region.centre), 1e-3);
+  // Cameras of 39.6 degrees at a distance of 4.03.
+  EXPECT_NEAR(region.half_side, 4.03 * std::tan(glm::radians(19.8)), 0.01);
+}
+
+TEST(Region, OfCamerasThatLookOutwardsHoldsThem) {
+  test::Random random(76);
+  Dataset dataset;
+  for (int i = 0; i < 30; ++i) {
+    const glm::dvec3 direction = random.direction();
+    dataset.train.push_back(view_from(0.5 * direction, 3.0 * direction));
+  }
+  const Region region = region_of_interest(dataset);
+  EXPECT_LT(glm::length(region.centre), 0.3);
+  EXPECT_NEAR(region.half_side, 1.0, 0.6);
+  dataset.points = ball(77, 200, {1, 1, 1}, 10);
+  // Points know better: half of a ball lies within 10 / cbrt(2) = 7.9 of its centre.
+  EXPECT_NEAR(region_of_interest(dataset).half_side, 7.9, 1.0);
+}
+
+TEST(Region, OfParallelCamerasLiesBeforeThem) {
+  Dataset dataset;
+  for (int i = 0; i < 10; ++i) dataset.train.push_back(view_from({0.1 * i, 0, 0}, {0.1 * i, 5, 0}));
+  const Region region = region_of_interest(dataset);
+  EXPECT_NEAR(region.centre.x, 0.45, 1e-9);
+  EXPECT_NEAR(region.centre.y, 8 * 0.45, 1e-9);
+  EXPECT_GT(region.half_side, 0.5);
+}
+
+TEST(Region, NeedsAScale) {
+  Dataset dataset;
+  EXPECT_THAT(message_of([&] { region_of_interest(dataset); }), HasSubstr("no view to train on"));
+  dataset.train = {view_from({1, 0, 0}, {0, 0, 0}), view_from({1, 0, 0}, {0, 0, 1})};
+  EXPECT_THAT(message_of([&] { region_of_interest(dataset); }),
+              HasSubstr("nothing tells how large the scene is"));
+}
+
+// --- Triangles
+
+TEST(EquilateralTriangles, HaveTheirCentresAndRadii) {
+  Random random(78);
+  Seeds seeds;
+  for (int i = 0; i < 100; ++i) {
+    seeds.centres.push_back(glm::dvec3(1000, 2000, 3000) + random.in_ball());
+    seeds.radii.push_back(random.uniform(0.01, 1));
+  }
+  const std::vector<glm::vec3> corners = equilateral_triangles(seeds, {1000, 2000, 3000}, random);
+  ASSERT_THAT(corners, SizeIs(300));
+  for (std::size_t i = 0; i < 100; ++i) {
+    const glm::dvec3 a(corners[3 * i]), b(corners[3 * i + 1]), c(corners[3 * i + 2]);
+    const double side = std::sqrt(3.0) * seeds.radii[i];
+    const double rounding = 1e-6;  // of floats below 2
+    EXPECT_NEAR(glm::distance(a, b), side, rounding);
+    EXPECT_NEAR(glm::distance(b, c), side, rounding);
+    EXPECT_NEAR(glm::distance(c, a), side, rounding);
+    const glm::dvec3 centre = glm::dvec3(1000, 2000, 3000) + (a + b + c) / 3.0;
+    EXPECT_LT(glm::distance(centre, seeds.centres[i]), rounding);
+  }
+}
+
+TEST(SeedsAtPoints, AreTwoThirdsSpreadAndOneThirdUniform) {
+  // A dense ball and a thin one beside it, of equal size: spread samples see both alike.
+  std::vector<DatasetPoint> points = ball(79, 3000, {0, 0, 0}, 1);
+  for (const DatasetPoint& point : ball(80, 300, {4, 0, 0}, 1)) points.push_back(point);
+  Random random(81);
+  const Seeds seeds = seeds_at_points(points, {.count = 300, .radius = 0.25}, random);
+  ASSERT_THAT(seeds.centres, SizeIs(300));
+  const auto in_thin = [](std::span<const glm::dvec3> centres) {
+    return double(std::ranges::count_if(centres, [](glm::dvec3 p) { return p.x > 2; })) /
+           double(centres.size());
+  };
+  EXPECT_GT(in_thin(std::span(seeds.centres).first(200)), 0.3);
+  EXPECT_LT(in_thin(std::span(seeds.centres).last(100)), 0.2);  // 1 in 11 of all
+  const std::vector<double> distances = nearest_distances(seeds.centres);
+  double mean = 0;
+  for (const double distance : distances) mean += distance / 300;
+  const double rounding = 1e-13;  // of the mean, which is summed in another way here
+  EXPECT_GT(*std::ranges::min_element(distances), 0);  // no point twice
+  for (const double radius : seeds.radii) EXPECT_NEAR(radius, 0.25 * mean, rounding);
+
+  const Seeds local =
+      seeds_at_points(points, {.count = 300, .radius = 0.25, .local = true}, random);
+  const std::vector<double> local_distances = nearest_distances(local.centres);
+  double local_mean = 0;
+  for (const double distance : local_distances) local_mean += distance / 300;
+  for (std::size_t i = 0; i < 300; ++i)
+    EXPECT_NEAR(local.radii[i], 0.25 * std::max(local_distances[i], 0.1 * local_mean), rounding);
+}
+
+TEST(SeedsAtPoints, OfTooFewPointsLieBesideThem) {
+  const std::vector<DatasetPoint> points = ball(82, 50, {7, 0, 0}, 1);
+  Random random(83);
+  const Seeds seeds = seeds_at_points(points, {.count = 400, .radius = 0.25}, random);
+  ASSERT_THAT(seeds.centres, SizeIs(400));
+  std::vector<glm::dvec3> positions;
+  for (std::size_t i = 0; i < 50; ++i) {
+    positions.push_back(points[i].position);
+    EXPECT_EQ(seeds.centres[i], points[i].position);
+  }
+  const std::vector<double> reach = nearest_distances(positions);
+  for (const glm::dvec3 centre : seeds.centres) {
+    bool beside = false;
+    for (std::size_t i = 0; i < 50; ++i)
+      beside |= glm::distance(centre, positions[i]) <= reach[i] * (1 + 1e-12);
+    EXPECT_TRUE(beside);
+  }
+}
+
+TEST(SeedsAtPoints, LeaveOutMistakesButNotWhatIsFar) {
+  std::vector<DatasetPoint> points = ball(84, 960, {0, 0, 0}, 1);
+  for (const DatasetPoint& point : ball(85, 40, {50, 0, 0}, 5)) points.push_back(point);
+  points.push_back({.position = {0, 1e6, 0}, .color = {}});
+  Random random(86);
+  const Seeds seeds = seeds_at_points(points, {.count = 100, .radius = 0.25}, random);
+  EXPECT_TRUE(std::ranges::none_of(seeds.centres, [](glm::dvec3 p) { return p.y > 100; }));
+  EXPECT_TRUE(std::ranges::any_of(seeds.centres, [](glm::dvec3 p) { return p.x > 45; }));
+}
+
+TEST(RandomSeeds, FillTheCube) {
+  const Dataset dataset = ring(87, {1, 2, 3}, 20.0);
+  const Region region{{1, 2, 3}, 1.5};
+  Random random(88);
+  const Seeds seeds = random_seeds(region, dataset.train, {.count = 4000, .radius = 0.25}, random);
+  glm::dvec3 mean(0.0), squares(0.0);
+  for (const glm::dvec3 centre : seeds.centres) {
+    const glm::dvec3 p = (centre - region.centre) / 1.5;
+    for (int axis = 0; axis < 3; ++axis) ASSERT_LE(std::abs(p[axis]), 1);
+    mean += p / 4000.0;
+    squares += p * p / 4000.0;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(mean[axis], 0, 5 * std::sqrt(1 / 3.0 / 4000));  // five standard errors
+    EXPECT_NEAR(squares[axis], 1 / 3.0, 5 * std::sqrt(4 / 45.0 / 4000));
+  }
+  // Chandrasekhar: 0.554 / cbrt(density), and a few percent more for the borders of the cube.
+  const double spacing = 0.554 * 3.0 / std::cbrt(4000.0);
+  for (const double radius : seeds.radii) EXPECT_NEAR(radius, 0.25 * spacing, 0.1 * 0.25 * spacing);
+}
+
+TEST(RandomSeeds, LieAroundTheCubeWhereAsked) {
+  const Dataset dataset = ring(89, {0, 0, 0}, 2.0);
+  const Region region{{0, 0, 0}, 0.5};
+  Random random(90);
+  const Seeds seeds = random_seeds(
+      region, dataset.train, {.count = 3000, .radius = 0.25, .far = 0.4, .far_extent = 8}, random);
+  ASSERT_THAT(seeds.centres, SizeIs(3000));
+  int beyond_two = 0;
+  for (std::size_t i = 0; i < 3000; ++i) {
+    const glm::dvec3 size = glm::abs(seeds.centres[i]) / 0.5;
+    const double largest = std::max({size.x, size.y, size.z});
+    const bool is_near = i < 1800;
+    ASSERT_EQ(largest < 1, is_near) << i;
+    ASSERT_LE(glm::length(size), 8 * (1 + 1e-12));
+    beyond_two += glm::length(size) > 2;
+    const double growth = is_near ? 1 : glm::length(size);
+    ASSERT_NEAR(seeds.radii[i], seeds.radii[0] * growth, 1e-12);
+  }
+  // The logarithm of the distance is uniform from about 1.3 to 8, of which 2 .. 8 are 3/4.
+  EXPECT_NEAR(beyond_two, 0.75 * 1200, 0.1 * 1200);
+}
+
+TEST(RandomSeeds, AreInSomePicture) {
+  Dataset dataset;  // two cameras side by side see a part of the cube only
+  dataset.train = {view_from({0, -1, 0}, {0, 5, 0}), view_from({0.1, -1, 0}, {0, 5, 0})};
+  Random random(91);
+  const Seeds seeds =
+      random_seeds({{0, 0, 0}, 1.0}, dataset.train, {.count = 500, .radius = 0.25}, random);
+  for (const glm::dvec3 centre : seeds.centres) {
+    bool seen = false;
+    for (const Photograph& view : dataset.train) {
+      const Camera& camera = view.camera;
+      const glm::dvec4 clip =
+          clip_from_view(camera, 0.01, 100) * camera.view_from_world * glm::dvec4(centre, 1);
+      seen |= clip.w > 0 && std::abs(clip.x) <= clip.w * (1 + 1e-9) &&
+              std::abs(clip.y) <= clip.w * (1 + 1e-9);
+    }
+    EXPECT_TRUE(seen);
+  }
+}
+
+// --- The model
+
+TEST(InitialModel, IsTheSameForASeed) {
+  Dataset dataset = ring(92, {1, 2, 3}, 4.0);
+  dataset.points = ball(93, 500, {1, 2, 3}, 1);
+  for (const Initialisation kind : {Initialisation::random, Initialisation::points}) {
+    Config config = preset(Preset::object);
+    config.initialisation = kind;
+    config.initial_triangles = 200;
+    config.seed = 1;
+    const Model a = initial_model(dataset, config), b = initial_model(dataset, config);
+    EXPECT_EQ(a.positions, b.positions);
+    EXPECT_EQ(a.mlp, b.mlp);
+    EXPECT_EQ(a.faces(), 200u);
+    EXPECT_EQ(a.min_level, config.coarse_level);
+    EXPECT_EQ(a.max_level, config.coarse_level);
+    EXPECT_THAT(a.logits, Each(0.0f));
+    EXPECT_THAT(a.logits, SizeIs(200 * 3 * channels));
+    EXPECT_LT(glm::distance(a.origin, {1, 2, 3}), 0.02);
+    config.seed = 2;
+    const Model other = initial_model(dataset, config);
+    EXPECT_NE(a.positions, other.positions);
+    EXPECT_NE(a.mlp, other.mlp);
+  }
+}
+
+TEST(InitialModel, BeginsAtPointsWhereThereAreSome) {
+  Config config = preset(Preset::scene);
+  config.initial_triangles = 100;
+  Dataset dataset = ring(94, {0, 0, 0}, 4.0);
+  const auto farthest = [](const Model& model) {
+    float largest = 0;
+    for (const glm::vec3 position : model.positions)
+      largest = std::max(largest, glm::length(position));
+    return largest;
+  };
+  EXPECT_GT(farthest(initial_model(dataset, config)), 2);  // half of them around the box
+  dataset.points = ball(95, 500, {0, 0, 0}, 0.5);
+  EXPECT_LT(farthest(initial_model(dataset, config)), 1);
+  config.initialisation = Initialisation::random;
+  EXPECT_GT(farthest(initial_model(dataset, config)), 2);
+  config.initialisation = Initialisation::points;
+  dataset.points.clear();
+  EXPECT_THAT(message_of([&] { initial_model(dataset, config); }),
+              HasSubstr("the dataset has no points to begin at"));
+}
+
+TEST(InitialModel, OfAMeshBisectsToTheNumberOfTriangles) {
+  Scene mesh;
+  mesh.primitives = tureen::test::random_soup(
+      96, {.kind = tureen::test::Kind::vertex_colors, .faces = 60, .shared_vertices = true});
+  Config config = preset(Preset::object);
+  config.initialisation = Initialisation::mesh;
+  config.initial_triangles = 100;
+  const Dataset dataset = ring(97, {0, 0, 0}, 4.0);
+  const Model model = initial_model(dataset, config, &mesh);
+  EXPECT_EQ(model.faces(), 100u);
+  EXPECT_EQ(model.logits.size(), 100 * 3u * channels);
+  config.initial_triangles = 10;
+  EXPECT_EQ(initial_model(dataset, config, &mesh).faces(), 60u);
+}
+
+}  // namespace
+}  // namespace tureen::trainer
