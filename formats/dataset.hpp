@@ -61,7 +61,7 @@ struct DatasetOptions {
   int test_every = 8;
   DatasetPart part = DatasetPart::all;
   /// Called now and then with the fraction done, 0..1; may throw to abandon the read.
-  std::function<void(double)> progress;
+  std::function<void(double)> progress = nullptr;
 };
 
 /// Reads a folder, or a transforms.json. Photographs come in name order, which is that of the

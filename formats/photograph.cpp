@@ -64,9 +64,10 @@ Image8 cropped(const Image8& image, const PixelRectangle& area) {
 }  // namespace
 
 std::optional<std::filesystem::path> find_picture(const DatasetFrame& frame, int images_folder) {
+  std::error_code ignored;
+  if (!frame.folder.empty() && !std::filesystem::is_directory(frame.folder, ignored)) return {};
   const auto exists = [&](const std::string& name) -> std::optional<std::filesystem::path> {
     const std::filesystem::path path = resolve_name_in_folder(frame.folder, name);
-    std::error_code ignored;
     if (std::filesystem::is_regular_file(path, ignored)) return path;
     return {};
   };

@@ -10,7 +10,7 @@ namespace tureen {
 /// any alpha is (0, 0, 0, 0). Sizes of at least one pixel; the same size gives the same picture,
 /// enlarging gives blocks.
 ///
-/// About 8 ms for 1080 x 1920 on one core of 2020.
+/// About 7 ms for 1080 x 1920 at a quarter, 16 ms at nine tenths, on one core.
 Image8 box_scaled(const Image8& image, int width, int height);
 
 }  // namespace tureen

@@ -8,12 +8,14 @@
 #include <glm/matrix.hpp>
 #include <random>
 
+#include "formats/truncation.hpp"
+
 namespace tureen {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 CameraFile read(const std::string& text) {
   Input input = Input::memory("cameras.json", std::as_bytes(std::span(text)));
@@ -31,7 +33,7 @@ std::string failure(const std::string& text) {
 
 TEST(CameraFile, OurOwnKeepsEveryBit) {
   const unsigned seed = 5;
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  SCOPED_TRACE(::testing::Message() << "seed " << seed);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-5, 5);
   std::vector<Camera> cameras;
@@ -134,6 +136,20 @@ TEST(CameraFile, RefusesWithTheFileTheCameraAndTheReason) {
   EXPECT_THAT(failure("{\"tureen_cameras\": 2, \"cameras\": []}"), HasSubstr("version 1"));
   EXPECT_THAT(failure("{\"cameras\": [{}]}"), HasSubstr("camera 0: width is missing"));
   EXPECT_THAT(failure("{\"cameras\": [7]}"), HasSubstr("camera 0: it is no object"));
+}
+
+TEST(CameraFile, TransformsSurviveDamage) {
+  const std::string whole =
+      std::string("{\"fl_x\": 9, \"fl_y\": 8, \"cx\": 4, \"cy\": 3, \"w\": 8, ") +
+      "\"h\": 6, \"k1\": 0.1, \"k4\": 0, \"camera_model\": \"OPENCV\", " +
+      "\"frames\": [{\"file_path\": \"a\", " + identity + "}]}";
+  const auto survival = testing::survive_damage(
+      std::as_bytes(std::span(whole)), [](std::span<const std::byte> bytes) {
+        Input input = Input::memory("cameras.json", bytes);
+        read_cameras(input);
+      });
+  EXPECT_GT(survival.read, 0u);
+  EXPECT_GT(survival.refused, 0u);
 }
 
 TEST(CameraFile, SurvivesEveryTruncation) {

@@ -1,0 +1,494 @@
+#include "formats/dataset.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "formats/dataset_fixture.hpp"
+#include "formats/format_testing.hpp"
+#include "formats/truncation.hpp"
+#include "soup/box_scale.hpp"
+
+namespace tureen {
+namespace {
+
+using namespace tureen::testing;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::vector<std::string> names(const std::vector<Photograph>& photographs) {
+  std::vector<std::string> result;
+  for (const Photograph& photograph : photographs) result.push_back(photograph.camera.name);
+  return result;
+}
+
+/// A frame of transforms.json at (x, 2, 3) that looks along +y with z up, and what is `extra`.
+std::string frame(const std::string& file_path, int x = 1, const std::string& extra = "") {
+  return "{\"file_path\": \"" + file_path + "\", " + extra + "\"transform_matrix\": [[1,0,0," +
+         std::to_string(x) + "],[0,0,-1,2],[0,1,0,3],[0,0,0,1]]}";
+}
+
+std::string transforms(const std::string& head, const std::vector<std::string>& frames) {
+  std::string list;
+  for (const std::string& one : frames) list += (list.empty() ? "" : ", ") + one;
+  return "{" + head + "\"frames\": [" + list + "]}";
+}
+
+const char* const intrinsics = "\"fl_x\": 10, \"fl_y\": 9, \"cx\": 4.5, \"cy\": 2.5, ";
+
+/// images/0.png .. of 8 x 6 pixels and their transforms.json.
+void write_transforms(const TemporaryFolder& folder, int count, const std::string& head = "") {
+  std::vector<std::string> frames;
+  for (int i = 0; i < count; ++i) {
+    frames.push_back(frame("images/" + std::to_string(i) + ".png", i));
+    write_picture(folder / ("images/" + std::to_string(i) + ".png"), a_picture(8, 6, i));
+  }
+  // Not in name order.
+  std::reverse(frames.begin(), frames.end());
+  write_text(folder / "transforms.json",
+             transforms(intrinsics + std::string("\"w\": 8, \"h\": 6.0, ") + head, frames));
+}
+
+void write_colmap(const TemporaryFolder& folder, int count) {
+  const ColmapFixture model = upright_colmap(count);
+  write_binary(folder / "sparse/0", model);
+  for (int i = 0; i < count; ++i)
+    write_picture(folder / ("images/" + model.images[std::size_t(i)].name), a_picture(8, 6, i));
+}
+
+std::string refusal(const std::filesystem::path& path, const DatasetOptions& options = {}) {
+  return input_error([&] { read_dataset(path, options); });
+}
+
+// ---- What is read ---------------------------------------------------------------------------
+
+TEST(Dataset, ReadsTransformsInNameOrderWithEveryEighthForTesting) {
+  const TemporaryFolder folder;
+  write_transforms(folder, 10);
+  const Dataset dataset = read_dataset(folder / "");
+  EXPECT_THAT(names(dataset.test), ElementsAre("images/0.png", "images/8.png"));
+  EXPECT_THAT(names(dataset.train),
+              ElementsAre("images/1.png", "images/2.png", "images/3.png", "images/4.png",
+                          "images/5.png", "images/6.png", "images/7.png", "images/9.png"));
+  const Photograph& third = dataset.train[2];
+  EXPECT_EQ(third.image.pixels, a_picture(8, 6, 3).pixels);
+  EXPECT_EQ(third.camera.width, 8);
+  EXPECT_EQ(third.camera.height, 6);
+  EXPECT_EQ(third.camera.fx, 10);
+  EXPECT_EQ(third.camera.fy, 9);
+  EXPECT_EQ(third.camera.cx, 4.5);
+  EXPECT_EQ(third.camera.cy, 2.5);
+  EXPECT_LT(glm::length(third.camera.eye() - glm::dvec3(3, 2, 3)), 1e-12);
+  EXPECT_LT(glm::length(third.camera.world_from_view_rotation()[1] - glm::dvec3(0, 0, 1)), 1e-12);
+  EXPECT_EQ(dataset.up, glm::vec3(0, 0, 1));
+  EXPECT_FALSE(dataset.has_alpha);
+  EXPECT_TRUE(dataset.points.empty());
+  // The file itself is as good as its folder; and another split.
+  const Dataset thirds = read_dataset(folder / "transforms.json", {.test_every = 3});
+  EXPECT_THAT(names(thirds.test),
+              ElementsAre("images/0.png", "images/3.png", "images/6.png", "images/9.png"));
+}
+
+TEST(Dataset, ReadsAFileASplitWithoutExtensionsOrSizes) {
+  const TemporaryFolder folder;
+  const std::string angle = "\"camera_angle_x\": 1.5707963267948966, ";  // fx = w / 2
+  write_text(
+      folder / "transforms_train.json",
+      transforms(angle, {frame("./train/r_2"), frame("./train/r_10"), frame("./train/r_0")}));
+  write_text(folder / "transforms_test.json", transforms(angle, {frame("./test/r_0")}));
+  for (const char* name : {"train/r_0", "train/r_2", "train/r_10"})
+    write_picture(folder / (std::string(name) + ".png"), a_picture(8, 6));
+  Image8 transparent = a_picture(10, 4);
+  transparent.at(3, 2).a = 100;
+  transparent.at(4, 2) = glm::u8vec4(9, 8, 7, 0);
+  write_picture(folder / "test/r_0.PNG", transparent);
+  const Dataset dataset = read_dataset(folder / "");
+  EXPECT_THAT(names(dataset.train), ElementsAre("./train/r_0", "./train/r_10", "./train/r_2"));
+  EXPECT_THAT(names(dataset.test), ElementsAre("./test/r_0"));
+  EXPECT_TRUE(dataset.has_alpha);
+  EXPECT_EQ(dataset.test[0].image.pixels, transparent.pixels);  // straight alpha, as stored
+  const Camera &train = dataset.train[0].camera, &test = dataset.test[0].camera;
+  EXPECT_NEAR(train.fx, 4, 1e-12);
+  EXPECT_NEAR(test.fx, 5, 1e-12);
+  EXPECT_EQ(test.fx, test.fy);
+  EXPECT_EQ(test.cx, 5);
+  EXPECT_EQ(test.cy, 2);
+
+  const Dataset half = read_dataset(folder / "", {.part = DatasetPart::train});
+  EXPECT_TRUE(half.test.empty());
+  EXPECT_EQ(half.train.size(), 3u);
+  EXPECT_FALSE(half.has_alpha);
+}
+
+TEST(Dataset, AFrameHasItsOwnIntrinsicsAndSize) {
+  const TemporaryFolder folder;
+  write_picture(folder / "a.png", a_picture(8, 6));
+  write_picture(folder / "b.png", a_picture(5, 7));
+  write_text(folder / "transforms.json",
+             transforms(intrinsics + std::string("\"w\": 8, \"h\": 6, "),
+                        {frame("a.png"), frame("b.png", 1, "\"w\":5, \"h\":7, \"fl_x\":20, ")}));
+  const Dataset dataset = read_dataset(folder / "");
+  EXPECT_EQ(dataset.test[0].camera.fx, 10);
+  EXPECT_EQ(dataset.train[0].camera.fx, 20);
+  EXPECT_EQ(dataset.train[0].camera.fy, 9);
+  EXPECT_EQ(dataset.train[0].image.height, 7);
+}
+
+TEST(Dataset, ReadsColmap) {
+  const TemporaryFolder folder;
+  write_colmap(folder, 9);
+  const Dataset dataset = read_dataset(folder / "");
+  EXPECT_THAT(names(dataset.test), ElementsAre("a.png", "i.png"));
+  EXPECT_EQ(dataset.train.size(), 7u);
+  const Photograph& b = dataset.train[0];
+  EXPECT_EQ(b.camera.name, "b.png");
+  EXPECT_EQ(b.image.pixels, a_picture(8, 6, 1).pixels);
+  EXPECT_EQ(b.camera.cx, 4.5);
+  EXPECT_EQ(b.camera.cy, 2.5);
+  EXPECT_LT(glm::length(b.camera.eye() - glm::dvec3(-0.25, -0.5, -3)), 1e-12);
+  ASSERT_EQ(dataset.points.size(), 1u);
+  EXPECT_EQ(dataset.points[0].position, glm::dvec3(1, 2, 3));
+  // All cameras stand upright, with COLMAP's y down.
+  EXPECT_EQ(dataset.up, glm::vec3(0, -1, 0));
+  EXPECT_THAT(dataset.notes, ElementsAre(HasSubstr("mean of the cameras' up axes")));
+}
+
+TEST(Dataset, ReadsNoPictureOfTheOtherPart) {
+  const TemporaryFolder folder;
+  write_colmap(folder, 9);
+  std::filesystem::remove(folder / "images/a.png");
+  std::vector<double> fractions;
+  const Dataset dataset = read_dataset(
+      folder / "",
+      {.part = DatasetPart::train, .progress = [&](double f) { fractions.push_back(f); }});
+  EXPECT_EQ(dataset.train.size(), 7u);
+  EXPECT_TRUE(dataset.test.empty());
+  ASSERT_GE(fractions.size(), 2u);
+  EXPECT_EQ(fractions.front(), 0.0);
+  EXPECT_EQ(fractions.back(), 1.0);
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+}
+
+TEST(Dataset, ProgressMayAbandonTheRead) {
+  const TemporaryFolder folder;
+  write_colmap(folder, 3);
+  struct Abandoned {};
+  EXPECT_THROW(read_dataset(folder / "", {.progress =
+                                              [](double f) {
+                                                if (f > 0.5) throw Abandoned();
+                                              }}),
+               Abandoned);
+}
+
+// ---- Scale, other folders of images, distortion ---------------------------------------------
+
+TEST(Dataset, IntrinsicsFollowTheScaleExactly) {
+  const TemporaryFolder folder;
+  write_colmap(folder, 2);
+  const Dataset dataset = read_dataset(folder / "", {.scale = 0.5});
+  const Photograph& half = dataset.train[0];
+  EXPECT_EQ(half.camera.width, 4);
+  EXPECT_EQ(half.camera.height, 3);
+  EXPECT_EQ(half.camera.fx, 5);
+  EXPECT_EQ(half.camera.fy, 4.5);
+  EXPECT_EQ(half.camera.cx, 2.25);  // measured from the corner, which stays where it is
+  EXPECT_EQ(half.camera.cy, 1.25);
+  EXPECT_EQ(half.image.pixels, box_scaled(a_picture(8, 6, 1), 4, 3).pixels);
+  // 8 x 0.3 = 2.4 and 6 x 0.3 = 1.8 are rounded; the camera follows the pixels that there are.
+  const Camera odd = read_dataset(folder / "", {.scale = 0.3}).train[0].camera;
+  EXPECT_EQ(odd.width, 2);
+  EXPECT_EQ(odd.height, 2);
+  EXPECT_NEAR(odd.fx, 10 * 2.0 / 8, 1e-15);
+  EXPECT_NEAR(odd.cy, 2.5 * 2.0 / 6, 1e-15);
+}
+
+TEST(Dataset, ReadsSmallerImagesFromTheirFolder) {
+  const TemporaryFolder folder;
+  write_colmap(folder, 2);
+  // 8 x 6 by 4 is 2 x 1.5: rounded up here, down there; and with another extension.
+  write_picture(folder / "images_4/a.png", a_picture(2, 1));
+  write_picture(folder / "images_4/b.JPG", a_picture(2, 2, 5));
+  const Dataset dataset = read_dataset(folder / "", {.images_folder = 4});
+  EXPECT_EQ(dataset.test[0].camera.fx, 2.5);
+  EXPECT_NEAR(dataset.test[0].camera.fy, 9.0 / 6, 1e-15);
+  EXPECT_NEAR(dataset.train[0].camera.fy, 18.0 / 6, 1e-15);
+  EXPECT_EQ(dataset.train[0].image.pixels, a_picture(2, 2, 5).pixels);
+
+  write_transforms(folder, 2);
+  write_picture(folder / "images_2/0.png", a_picture(4, 3));
+  write_picture(folder / "images_2/1.png", a_picture(4, 3, 9));
+  const Photograph photograph = read_dataset(folder / "", {.images_folder = 2}).train[0];
+  EXPECT_EQ(photograph.image.pixels, a_picture(4, 3, 9).pixels);
+  EXPECT_EQ(photograph.camera.fx, 5);
+  EXPECT_EQ(photograph.camera.cx, 2.25);
+  write_picture(folder / "images_2/1.png", a_picture(5, 3));
+  EXPECT_THAT(refusal(folder / "", {.images_folder = 2}),
+              HasSubstr("the picture is 5 x 3, but its camera's is 8 x 6 / 2"));
+}
+
+TEST(Dataset, WithoutDistortedBordersEveryPixelIsEvidence) {
+  const TemporaryFolder folder;
+  for (const char* name : {"images/0.png", "images/1.png"})
+    write_picture(folder / name, Image8(80, 60, glm::u8vec4(200, 100, 50, 255)));
+  write_text(folder / "transforms.json",
+             transforms("\"fl_x\": 70, \"cx\": 38, \"k1\": 0.1, \"w\": 80, \"h\": 60, ",
+                        {frame("images/0.png"), frame("images/1.png")}));
+  const Dataset whole = read_dataset(folder / "");
+  const Photograph& photograph = whole.train[0];
+  EXPECT_FALSE(whole.has_alpha);
+  EXPECT_THAT(whole.notes, ::testing::Contains(HasSubstr("Lens distortion was undone")));
+  for (const glm::u8vec4& pixel : photograph.image.pixels)
+    ASSERT_EQ(pixel, glm::u8vec4(200, 100, 50, 255));
+  // At the left edge, 38 pixels from the axis, r^2 = 0.295: 3 % or 1.1 pixels are missing; at the
+  // right with r^2 = 0.36 it is 1.5; at the corners somewhat more.
+  EXPECT_EQ(photograph.camera.fx, 70);
+  EXPECT_EQ(photograph.camera.fy, 70);
+  const double left = 38 - photograph.camera.cx;
+  EXPECT_GE(left, 2);
+  EXPECT_LE(left, 4);
+  EXPECT_LE(photograph.camera.width, 76);
+  EXPECT_GE(photograph.camera.width, 71);
+  EXPECT_EQ(photograph.camera.width, photograph.image.width);
+  EXPECT_EQ(photograph.camera.height, photograph.image.height);
+
+  const Photograph half = read_dataset(folder / "", {.scale = 0.5}).train[0];
+  EXPECT_EQ(half.camera.fx, 35);
+  EXPECT_EQ(19 - half.camera.cx, std::ceil(left / 2));
+  for (const glm::u8vec4& pixel : half.image.pixels)
+    ASSERT_EQ(pixel, glm::u8vec4(200, 100, 50, 255));
+}
+
+// ---- What is refused ------------------------------------------------------------------------
+
+TEST(Dataset, NamesTheImagesThatAreMissing) {
+  const TemporaryFolder folder;
+  write_transforms(folder, 26);
+  for (const int i : {3, 8})
+    std::filesystem::remove(folder / ("images/" + std::to_string(i) + ".png"));
+  EXPECT_THAT(refusal(folder / ""),
+              AllOf(HasSubstr("transforms.json: 2 of 26 photographs are missing in "),
+                    EndsWith(": images/3.png, images/8.png")));
+  EXPECT_THAT(refusal(folder / "", {.part = DatasetPart::test}),
+              HasSubstr("1 of 4 photographs are missing"));
+  std::filesystem::remove_all(folder / "images");
+  const std::string error = refusal(folder / "");
+  EXPECT_THAT(error,
+              AllOf(HasSubstr("26 of 26 photographs are missing"), EndsWith(" and 14 more")));
+  EXPECT_EQ(std::count(error.begin(), error.end(), ','), 11);  // between a dozen names
+
+  const TemporaryFolder colmap;
+  write_colmap(colmap, 3);
+  EXPECT_THAT(refusal(colmap / "", {.images_folder = 8}),
+              AllOf(HasSubstr("3 of 3 photographs are missing in "), HasSubstr("images_8"),
+                    HasSubstr("b.png, c.png, a.png")));
+}
+
+TEST(Dataset, RefusesPicturesOfAnotherSize) {
+  const TemporaryFolder folder;
+  write_colmap(folder, 2);
+  write_picture(folder / "images/b.png", a_picture(6, 8));
+  EXPECT_THAT(refusal(folder / ""),
+              HasSubstr("images/b.png: the picture is 6 x 8, but its camera's is 8 x 6"));
+  write_text(folder / "images/b.png", "no picture");
+  EXPECT_THAT(refusal(folder / ""), HasSubstr("images/b.png: not a PNG or JPEG image"));
+}
+
+TEST(Dataset, RefusesLensesThatItCannotUndo) {
+  const TemporaryFolder folder;
+  const auto with = [&](const char* head) {
+    write_transforms(folder, 2, head);
+    return refusal(folder / "");
+  };
+  EXPECT_THAT(with("\"is_fisheye\": true, "), HasSubstr("frame 0: the lens (is_fisheye)"));
+  EXPECT_THAT(with("\"camera_model\": \"OPENCV_FISHEYE\", "), HasSubstr("lens (OPENCV_FISHEYE)"));
+  EXPECT_THAT(with("\"ftheta_p0\": 0.5, "), HasSubstr("the lens (ftheta_p0)"));
+  EXPECT_THAT(with("\"k4\": 0.5, "), HasSubstr("the lens (k4)"));
+  EXPECT_THAT(with("\"k1\": \"much\", "), HasSubstr("frame 0: k1 is no number"));
+  EXPECT_THAT(with("\"k1\": 90, "), HasSubstr("less than half of the picture would be left"));
+  EXPECT_EQ(with("\"is_fisheye\": false, \"k4\": 0, \"camera_model\": \"OPENCV\", "), "");
+
+  ColmapFixture model = upright_colmap(2);
+  model.cameras[0] = {1, 5, "OPENCV_FISHEYE", 8, 6, {10, 9, 4, 3, 0, 0, 0, 0}};
+  std::filesystem::remove(folder / "transforms.json");
+  write_text(folder / "sparse/0", model);
+  EXPECT_THAT(refusal(folder / ""), HasSubstr("cameras.txt:3: the camera model OPENCV_FISHEYE"));
+}
+
+TEST(Dataset, RefusesPosesThatAreNoRotations) {
+  const TemporaryFolder folder;
+  write_picture(folder / "a.png", a_picture(8, 6));
+  const auto with = [&](const std::string& matrix) {
+    write_text(folder / "transforms.json",
+               transforms(intrinsics,
+                          {"{\"file_path\": \"a.png\", \"transform_matrix\": " + matrix + "}"}));
+    return refusal(folder / "");
+  };
+  EXPECT_THAT(with("[[2,0,0,0],[0,2,0,0],[0,0,2,0]]"),
+              HasSubstr("transforms.json: frame 0: transform_matrix is no rotation"));
+  EXPECT_THAT(with("[[-1,0,0,0],[0,1,0,0],[0,0,1,0]]"), HasSubstr("transform_matrix mirrors"));
+}
+
+TEST(Dataset, RefusesAnEmptySplit) {
+  const TemporaryFolder folder;
+  write_transforms(folder, 1);
+  EXPECT_THAT(refusal(folder / ""),
+              HasSubstr("no photographs to train on: it has 0 to train on and 1 to test"));
+  EXPECT_EQ(refusal(folder / "", {.part = DatasetPart::test}), "");
+  write_transforms(folder, 3);
+  EXPECT_THAT(refusal(folder / "", {.test_every = 1}), HasSubstr("no photographs to train on"));
+  write_text(folder / "transforms.json", transforms(intrinsics, {}));
+  EXPECT_THAT(refusal(folder / "", {.part = DatasetPart::test}),
+              HasSubstr("transforms.json: there are no photographs to test"));
+
+  write_text(folder / "transforms_train.json", transforms(intrinsics, {frame("images/0.png")}));
+  EXPECT_THAT(refusal(folder / ""), HasSubstr("transforms_test.json: no such file"));
+  EXPECT_EQ(refusal(folder / "", {.part = DatasetPart::train}), "");
+  write_text(folder / "transforms_test.json", transforms(intrinsics, {}));
+  EXPECT_THAT(refusal(folder / ""), HasSubstr("no photographs to test: it has 1 to train on"));
+}
+
+TEST(Dataset, RefusesWhatIsNoDataset) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(refusal(folder / "nowhere"), HasSubstr("nowhere: no such file or folder"));
+  EXPECT_THAT(refusal(folder / ""), HasSubstr("no dataset that we know"));
+  write_text(folder / "transforms.json", "{\"cameras\": []}");
+  EXPECT_THAT(refusal(folder / ""), HasSubstr("there is no \"frames\""));
+  write_text(folder / "transforms.json", "{\"frames\": [");
+  EXPECT_THAT(refusal(folder / ""), HasSubstr("not valid JSON"));
+  write_text(folder / "transforms.json",
+             transforms(intrinsics, {"{\"transform_matrix\": [[1,0,0,0],[0,1,0,0],[0,0,1,0]]}"}));
+  EXPECT_THAT(refusal(folder / ""), HasSubstr("frame 0: file_path is missing"));
+  write_text(folder / "transforms.json", transforms(intrinsics, {frame("train/0.png")}));
+  EXPECT_THAT(
+      refusal(folder / "", {.images_folder = 2}),
+      HasSubstr("frame 0: \"train/0.png\" is not in images/, so there is none in images_2/"));
+}
+
+TEST(Dataset, OpensNothingOutsideOfItsFolder) {
+  const TemporaryFolder folder;
+  write_picture(folder / "secret.png", a_picture(8, 6));
+  write_picture(folder / "set/images/a.png", a_picture(8, 6));
+  std::filesystem::create_symlink(folder / "secret.png", folder / "set/images/link.png");
+  const auto with = [&](const std::string& name) {
+    write_text(folder / "set/transforms.json",
+               transforms(intrinsics, {frame(name), frame("images/a.png")}));
+    return refusal(folder / "set");
+  };
+  EXPECT_EQ(with("./images/a.png"), "");
+  EXPECT_THAT(with("../secret.png"), HasSubstr("leads out of"));
+  EXPECT_THAT(with("images/../../secret.png"), HasSubstr("leads out of"));
+  EXPECT_THAT(with((folder / "secret.png").string()), HasSubstr("absolute path"));
+  EXPECT_THAT(with("images/link.png"), HasSubstr("a link that leads out of"));
+  // A name is no URI: what looks like an escape is a part of it.
+  write_picture(folder / "set/images/a%20b.png", a_picture(8, 6));
+  EXPECT_EQ(with("images/a%20b.png"), "");
+
+  ColmapFixture model = upright_colmap(2);
+  model.images[1].name = "../transforms.json";
+  std::filesystem::remove(folder / "set/transforms.json");
+  write_binary(folder / "set/sparse/0", model);
+  EXPECT_THAT(refusal(folder / "set"), HasSubstr("leads out of"));
+}
+
+TEST(Dataset, RefusesMorePhotographsThanMemoryBeforeItDecodesThem) {
+  const TemporaryFolder folder;
+  ColmapFixture model = upright_colmap(3);
+  model.cameras[0].width = model.cameras[0].height = 60000;
+  write_binary(folder / "sparse/0", model);
+  for (const char* name : {"images/a.png", "images/b.png", "images/c.png"})
+    write_text(folder / name, "never looked at");
+  EXPECT_THAT(refusal(folder / ""), HasSubstr("over 4 GiB: read them at a smaller scale"));
+  EXPECT_THAT(refusal(folder / "", {.scale = 0.1}), HasSubstr("not a PNG or JPEG"));
+}
+
+TEST(Dataset, TruncatedTransformsEndInAnErrorWithItsPlace) {
+  const TemporaryFolder folder;
+  write_transforms(folder, 2);
+  Input input = Input::open(folder / "transforms.json");
+  const std::vector<std::byte> whole = input.read_rest();
+  const auto read = [&](std::span<const std::byte> bytes) {
+    write_bytes(folder / "transforms.json", bytes);
+    read_dataset(folder / "", {.part = DatasetPart::test});
+  };
+  EXPECT_NO_THROW(read(whole));
+  EXPECT_EQ(survive_truncation(whole, read).read, 0u);
+}
+
+// ---- Real photographs -----------------------------------------------------------------------
+
+std::filesystem::path data(const char* name) {
+  return std::filesystem::path(TUREEN_SOURCE_DIR) / "../shared/data" / name;
+}
+
+TEST(DatasetData, FoxIsUndistorted) {
+  if (!std::filesystem::exists(data("photos/fox"))) GTEST_SKIP() << "no ../shared/data";
+  // Only the test views, for the time that it takes.
+  const Dataset dataset =
+      read_dataset(data("photos/fox"), {.scale = 0.25, .part = DatasetPart::test});
+  ASSERT_EQ(dataset.test.size(), 9u);
+  EXPECT_EQ(dataset.test[0].camera.name, "images/0001.jpg");
+  EXPECT_FALSE(dataset.has_alpha);
+  const Camera& camera = dataset.test[0].camera;
+  EXPECT_NEAR(camera.fx, 1375.52 / 4, 1e-9);
+  EXPECT_NEAR(camera.fy, 1374.49 / 4, 1e-9);
+  // 270 x 480 less a few pixels that the photographs do not fill; whole ones, so that the
+  // principal point keeps its fraction.
+  EXPECT_GE(camera.width, 264);
+  EXPECT_LT(camera.width, 270);
+  EXPECT_GE(camera.height, 472);
+  EXPECT_LT(camera.height, 480);
+  const double left = 554.558 / 4 - camera.cx;
+  EXPECT_NEAR(left, std::round(left), 1e-9);
+}
+
+TEST(DatasetData, BottleHasPointsInFrontOfItsCameras) {
+  if (!std::filesystem::exists(data("photos/bottle"))) GTEST_SKIP() << "no ../shared/data";
+  const Dataset dataset = read_dataset(data("photos/bottle"), {.scale = 0.25});
+  EXPECT_EQ(dataset.train.size(), 88u);
+  EXPECT_EQ(dataset.test.size(), 13u);
+  ASSERT_EQ(dataset.points.size(), 6885u);
+  EXPECT_THAT(dataset.notes, Not(::testing::Contains(HasSubstr("istortion"))));
+  // Structure from motion took the colours of the points from these pictures. Some are hidden in
+  // some views, so what they project to is only nearer to their colour than to that of others.
+  double own = 0, others = 0;
+  std::size_t inside = 0;
+  for (const Photograph& photograph : dataset.test)
+    for (std::size_t i = 0; i < dataset.points.size(); ++i) {
+      const Camera& camera = photograph.camera;
+      const glm::dvec4 p = camera.view_from_world * glm::dvec4(dataset.points[i].position, 1);
+      const double x = camera.cx + camera.fx * p.x / -p.z, y = camera.cy - camera.fy * p.y / -p.z;
+      if (!(p.z < 0 && x >= 0 && y >= 0 && x < camera.width && y < camera.height)) continue;
+      const glm::dvec3 color(photograph.image.at(int(x), int(y)));
+      const DatasetPoint& other = dataset.points[(i + 3000) % dataset.points.size()];
+      own += glm::length(color - glm::dvec3(dataset.points[i].color));
+      others += glm::length(color - glm::dvec3(other.color));
+      ++inside;
+    }
+  EXPECT_GT(double(inside), 0.5 * 13 * 6885);
+  // 0.55 here; 0.97 where x or y has the wrong sign.
+  EXPECT_LT(own, 0.7 * others);
+}
+
+TEST(DatasetData, LegoHasItsOwnSplitAndAlpha) {
+  if (!std::filesystem::exists(data("rendered/lego"))) GTEST_SKIP() << "no ../shared/data";
+  const Dataset dataset = read_dataset(data("rendered/lego"), {.scale = 0.25});
+  EXPECT_EQ(dataset.train.size(), 100u);
+  EXPECT_EQ(dataset.test.size(), 25u);
+  EXPECT_TRUE(dataset.has_alpha);
+  const Camera& camera = dataset.test[3].camera;
+  EXPECT_EQ(camera.width, 200);
+  EXPECT_NEAR(camera.fx, 1111.111 / 4, 1e-3);
+  EXPECT_EQ(camera.cx, 100);
+  // The cameras stand on a sphere around the origin and look at it.
+  for (const Photograph& photograph : dataset.train) {
+    EXPECT_NEAR(glm::length(photograph.camera.eye()), 4.0311, 1e-3);
+    const glm::dvec3 backward = photograph.camera.world_from_view_rotation()[2];
+    EXPECT_NEAR(glm::dot(backward, glm::normalize(photograph.camera.eye())), 1.0, 1e-5);
+  }
+}
+
+}  // namespace
+}  // namespace tureen
