@@ -18,15 +18,16 @@
 ///
 /// Nothing for other compilers and processors (Clang knows no x86-64-v names here), without glibc's
 /// indirect functions, and under sanitizers, whose run time is not ready when they are resolved.
-#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__CUDACC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#if __GNUC__ >= 12
+/// -DTUREEN_VECTOR_CLONES= does without, to measure one generation by -march.
+#ifndef TUREEN_VECTOR_CLONES
+#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) &&   \
+    !defined(__CUDACC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
+    __GNUC__ >= 12
 #define TUREEN_VECTOR_CLONES \
   __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#endif
-#endif
-#ifndef TUREEN_VECTOR_CLONES
+#else
 #define TUREEN_VECTOR_CLONES
+#endif
 #endif
 
 /// Instead of `inline`.
@@ -34,4 +35,14 @@
 #define TUREEN_ALWAYS_INLINE inline __attribute__((always_inline))
 #else
 #define TUREEN_ALWAYS_INLINE inline
+#endif
+
+/// Before a loop: what it writes in one turn it does not read in another, so that it is vectorised
+/// without looking for pointers that overlap.
+#if defined(__clang__)
+#define TUREEN_INDEPENDENT_TURNS _Pragma("clang loop vectorize(assume_safety)")
+#elif defined(__GNUC__)
+#define TUREEN_INDEPENDENT_TURNS _Pragma("GCC ivdep")
+#else
+#define TUREEN_INDEPENDENT_TURNS
 #endif
