@@ -4,6 +4,8 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <glm/common.hpp>
+#include <limits>
 #include <numeric>
 
 #include "trainer/levels.hpp"
@@ -22,7 +24,7 @@ Model without_faces(const Model& model) {
           .origin = model.origin};
 }
 
-/// These faces of the model; `kept` ascends.
+/// These faces of the model, in this order.
 Resampled gathered(const Model& model, std::vector<std::uint32_t> kept) {
   Resampled result{without_faces(model), {}, std::vector<std::uint8_t>(kept.size(), 0)};
   result.model.positions.reserve(3 * kept.size());
@@ -35,6 +37,16 @@ Resampled gathered(const Model& model, std::vector<std::uint32_t> kept) {
   }
   result.origin = std::move(kept);
   return result;
+}
+
+/// The low 21 bits of a number, each followed by two zeros.
+std::uint64_t spread(std::uint64_t x) {
+  x &= 0x1fffff;
+  x = (x | x << 32) & 0x1f00000000ffffu;
+  x = (x | x << 16) & 0x1f0000ff0000ffu;
+  x = (x | x << 8) & 0x100f00f00f00f00fu;
+  x = (x | x << 4) & 0x10c30c30c30c30c3u;
+  return (x | x << 2) & 0x1249249249249249u;
 }
 
 /// A face of the new model: where its corners lie on the face it came from, in barycentrics.
@@ -151,6 +163,32 @@ void cut_face(std::vector<glm::vec3>& positions, const Split& split) {
   for (int corner = 0; corner < 3; ++corner)
     positions.push_back(corner == from ? point : glm::vec3(positions[at + corner]));
   positions[at + to] = point;
+}
+
+Resampled in_space_order(const Model& model) {
+  glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
+  for (const glm::vec3& p : model.positions) {
+    low = glm::min(low, glm::dvec3(p));
+    high = glm::max(high, glm::dvec3(p));
+  }
+  // 2^21 steps along the longest side; positions that are not finite land anywhere.
+  const glm::dvec3 size = high - low;
+  const double steps = 2097151 / std::max({size.x, size.y, size.z, 1e-30});
+  std::vector<std::uint64_t> places;
+  for (std::size_t face = 0; face < model.faces(); ++face) {
+    const glm::vec3* p = &model.positions[3 * face];
+    const glm::dvec3 at =
+        ((glm::dvec3(p[0]) + glm::dvec3(p[1]) + glm::dvec3(p[2])) / 3.0 - low) * steps;
+    std::uint64_t place = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      place |= spread(at[axis] >= 0 && at[axis] <= 2097151 ? std::uint64_t(at[axis]) : 0) << axis;
+    places.push_back(place);
+  }
+  std::vector<std::uint32_t> order(model.faces());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return places[a] < places[b]; });
+  return gathered(model, std::move(order));
 }
 
 Resampled split(const Model& model, std::span<const Split> splits, ChildTexture texture) {

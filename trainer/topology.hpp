@@ -25,6 +25,10 @@ Resampled prune(const Model& model, std::span<const std::uint64_t> pixels, std::
 /// The faces that have any pixels, in their old order.
 Resampled prune_unseen(const Model& model, std::span<const std::uint64_t> pixels);
 
+/// All faces along a curve that fills space (Morton 1966): faces that are neighbours there are
+/// mostly neighbours in every picture, and what one has read the next finds in the cache.
+Resampled in_space_order(const Model& model);
+
 /// A split: the edge from corner `edge` to the next one, cut at `t` (0..1, from the first corner).
 struct Split {
   std::uint32_t face;

@@ -30,6 +30,14 @@
 #endif
 #endif
 
+/// Beside TUREEN_VECTOR_CLONES: everything that the function calls is inlined into each clone, where
+/// the callees are not ours to mark.
+#if defined(__GNUC__) && defined(__OPTIMIZE__)
+#define TUREEN_FLATTEN __attribute__((flatten))
+#else
+#define TUREEN_FLATTEN
+#endif
+
 /// Instead of `inline`.
 #if defined(__GNUC__)
 #define TUREEN_ALWAYS_INLINE inline __attribute__((always_inline))

@@ -1,0 +1,177 @@
+#include "trainer/trainer.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include "trainer/random.hpp"
+#include "trainer/split_choice.hpp"
+#include "trainer/topology.hpp"
+
+namespace tureen::trainer {
+
+namespace {
+
+// Streams of random numbers, one a purpose.
+constexpr std::uint64_t epoch_stream = std::uint64_t(1) << 32;
+constexpr std::uint64_t split_stream = std::uint64_t(2) << 32;
+
+std::vector<std::uint32_t> shuffled(std::size_t count, Random random) {
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0u);
+  for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
+  return order;
+}
+
+/// Moments follow their faces; those of new faces begin at zero.
+Moments carried(const Moments& from, const Resampled& resampled) {
+  Moments to;
+  to.reset_faces(resampled.model);
+  to.mlp_first = from.mlp_first;
+  to.mlp_second = from.mlp_second;
+  to.mlp_steps = from.mlp_steps;
+  const std::size_t face_logits = resampled.model.texels() * channels;
+  for (std::size_t face = 0; face < resampled.origin.size(); ++face) {
+    if (resampled.is_new[face]) continue;
+    const std::size_t old = resampled.origin[face];
+    const auto copy = [&](const auto& source, auto& target, std::size_t each) {
+      std::copy_n(source.begin() + std::ptrdiff_t(old * each), each,
+                  target.begin() + std::ptrdiff_t(face * each));
+    };
+    copy(from.first, to.first, face_logits);
+    copy(from.second, to.second, face_logits);
+    copy(from.vertex_first, to.vertex_first, 3);
+    copy(from.vertex_second, to.vertex_second, 3);
+    copy(from.steps, to.steps, 1);
+  }
+  return to;
+}
+
+Camera half_size(const Camera& camera) {
+  Camera half = camera;
+  half.width = std::max(1, camera.width / 2);
+  half.height = std::max(1, camera.height / 2);
+  const double x = double(half.width) / camera.width, y = double(half.height) / camera.height;
+  half.fx *= x;
+  half.cx *= x;
+  half.fy *= y;
+  half.cy *= y;
+  return half;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> batch_of(int step, int batch, std::size_t count, std::uint64_t seed) {
+  assert(step >= 1 && batch >= 1 && count >= 1);
+  std::vector<std::uint32_t> views;
+  std::uint64_t epoch = ~std::uint64_t(0);
+  std::vector<std::uint32_t> order;
+  for (std::uint64_t n = std::uint64_t(step - 1) * batch; views.size() < std::size_t(batch); ++n) {
+    if (n / count != epoch) {
+      epoch = n / count;
+      order = shuffled(count, Random(seed, epoch_stream + epoch));
+    }
+    views.push_back(order[n % count]);
+    if (views.size() == count) break;  // no view twice in a batch
+  }
+  return views;
+}
+
+Trainer::Trainer(const Config& config, std::span<const TrainingView> views,
+                 std::unique_ptr<Backend> backend, const TrainingState& state)
+    : config_(config), views_(views), backend_(std::move(backend)) {
+  step_ = state.step;
+  faces_ = state.model.faces();
+  backend_->upload(state);
+}
+
+StepReport Trainer::step() {
+  assert(!done());
+  ++step_;
+  const double decay = std::pow(double(config_.decay), double(step_) / config_.steps);
+  const StepReport report =
+      backend_->step(batch_of(step_, config_.batch, views_.size(), config_.seed),
+                     {.texture = float(config_.texture_rate * decay),
+                      .mlp = float(config_.mlp_rate * decay),
+                      .vertex = float(config_.vertex_rate * decay)});
+  const int lift_step = std::max(1, int(std::lround(double(config_.lift_at) * config_.steps)));
+  if (step_ == lift_step) lift();
+  const int last = int(double(config_.resample_until) * config_.steps) / config_.resample_every *
+                   config_.resample_every;
+  // Short runs must meet the budget, too.
+  if (step_ == std::max(last, 1) || (step_ < last && step_ % config_.resample_every == 0))
+    resample();
+  return report;
+}
+
+TrainingState Trainer::state() const {
+  TrainingState state;
+  backend_->download(state);
+  return state;
+}
+
+void Trainer::lift() {
+  TrainingState state = this->state();
+  state.model = lifted(state.model, config_.min_level, config_.max_level,
+                       config_.lift_keeps_opacity ? LiftedOpacity::kept : LiftedOpacity::reset);
+  state.moments.reset_faces(state.model);
+  backend_->upload(state);
+}
+
+void Trainer::resample() {
+  TrainingState state = this->state();
+  const auto apply = [&](Resampled&& resampled) {
+    state.moments = carried(state.moments, resampled);
+    state.model = std::move(resampled.model);
+  };
+  const std::size_t before = state.model.faces(), budget = std::size_t(config_.triangles);
+  std::vector<Camera> cameras;
+  for (const TrainingView& view : views_) cameras.push_back(half_size(view.camera));
+  std::vector<std::uint64_t> pixels = backend_->visible_pixels(cameras);
+  apply(prune_unseen(state.model, pixels));
+  last_resample_ = {.unseen = before - state.model.faces()};
+  if (state.model.faces() > budget) {
+    std::erase(pixels, 0u);  // in the order of the faces that are left
+    last_resample_.pruned = state.model.faces() - budget;
+    apply(prune(state.model, pixels, budget));
+  }
+  const std::vector<Split> splits = choose_splits(state, cameras);
+  last_resample_.split = splits.size();
+  if (!splits.empty())
+    apply(split(state.model, splits,
+                config_.resample_textures ? ChildTexture::resampled : ChildTexture::copied));
+  apply(in_space_order(state.model));
+  if (config_.reset_moments) state.moments.reset_faces(state.model);
+  faces_ = state.model.faces();
+  backend_->upload(state);
+}
+
+std::vector<Split> Trainer::choose_splits(const TrainingState& state,
+                                          std::span<const Camera> cameras) {
+  const std::size_t budget = std::size_t(config_.triangles);
+  if (state.model.faces() == 0) return {};
+  std::vector<Split> splits;
+  if (config_.preset == Preset::scene) {
+    // What is large in a picture is large there, whatever it is in the world.
+    backend_->upload(state);
+    const std::vector<std::uint32_t> chosen =
+        shuffled(cameras.size(), Random(config_.seed, split_stream + std::uint64_t(step_)));
+    const std::size_t count = std::min(cameras.size(), std::size_t(config_.split_views));
+    std::vector<std::vector<std::uint8_t>> visible(count);
+    std::vector<SplitView> views;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Camera& camera = cameras[chosen[i]];
+      for (const std::uint64_t pixels : backend_->visible_pixels({&camera, 1}))
+        visible[i].push_back(pixels > 0);
+      views.push_back({camera, visible[i]});
+    }
+    splits = longest_projected_edges(
+        state.model, views,
+        {.fraction = config_.split_fraction, .budget = budget, .near = config_.near});
+  }
+  if (splits.empty()) splits = longest_edges(state.model, budget);
+  return splits;
+}
+
+}  // namespace tureen::trainer
