@@ -118,12 +118,14 @@ TUREEN_VECTOR_CLONES TUREEN_FLATTEN void shade_rows_backward(Picture& picture,
       picture, y0, y1, [&](const Batch& batch) __attribute__((always_inline)) {
         State state;
         gather(picture, input, batch, state);
-        Pack color[3];
-        Pack dcolor[3] = {Pack{}, Pack{}, Pack{}};
+        Pack color[3], dcolor[3];
         kernels::shade(input.mlp->data(), state, color);
-        for (int c = 0; c < 3; ++c)
+        for (int c = 0; c < 3; ++c) {
+          alignas(64) float by_color[lanes] = {};
           for (int l = 0; l < batch.count; ++l)
-            dcolor[c][l] = picture.by_color[c * pixels + batch.pixel[l]];
+            by_color[l] = picture.by_color[c * pixels + batch.pixel[l]];
+          std::memcpy(&dcolor[c], by_color, sizeof(Pack));
+        }
         Pack dfeatures[kernels::features];
         kernels::shade_backward(input.mlp->data(), state, dcolor, sums, dfeatures);
         for (int l = 0; l < batch.count; ++l) {
