@@ -15,7 +15,9 @@ using Action = std::function<ExitCode()>;
 
 void add_compare(CLI::App& program, Action& action);
 void add_convert(CLI::App& program, Action& action);
+void add_eval(CLI::App& program, Action& action);
 void add_info(CLI::App& program, Action& action);
+void add_plot(CLI::App& program, Action& action);
 void add_render(CLI::App& program, Action& action);
 
 }  // namespace tureen::cli

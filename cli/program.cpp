@@ -112,6 +112,8 @@ bad, 4 no OpenGL context, 5 anything else.)");
   add_info(program, action);
   add_convert(program, action);
   add_compare(program, action);
+  add_eval(program, action);
+  add_plot(program, action);
 
   if (argc < 2) {
     say(program.help());

@@ -5,9 +5,9 @@
 #include <chrono>
 #include <memory>
 
-#include "cli/choice.hpp"
 #include "cli/commands.hpp"
 #include "cli/contact_sheet.hpp"
+#include "cli/drawing_options.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/picture_file.hpp"
 #include "cli/progress.hpp"
@@ -26,9 +26,7 @@ struct Options {
   ViewOptions views;
   std::string output = "out.png";
   std::string background;  // empty: the scene's own
-  gl::Backend backend = gl::Backend::automatic;
-  PipelineKind pipeline = PipelineKind::tureen;
-  bool no_specialise = false;
+  DrawingOptions drawing;
   int frames = 0;
   bool json = false;
 };
@@ -110,8 +108,7 @@ ExitCode render(const Options& options) {
   if (!options.views.size.empty()) parse_size(options.views.size);
   RenderOptions render_options;
   if (!options.background.empty()) render_options.background = parse_background(options.background);
-  render_options.plan.pipeline = options.pipeline;
-  render_options.plan.specialise = !options.no_specialise;
+  render_options.plan = options.drawing.plan;
 
   Scene scene = read(options.scene);
   const TriangleSoup& soup = opaque_soup(scene);
@@ -119,7 +116,7 @@ ExitCode render(const Options& options) {
   if (options.background.empty())
     render_options.background = glm::vec4(scene.info.background, 1.0f);
 
-  const gl::Context context = gl::Context::create({.backend = options.backend});
+  const gl::Context context = gl::Context::create({.backend = options.drawing.backend});
   throw_if_interrupted();
   Renderer renderer(context, soup, scene.origin, render_options);
 
@@ -182,19 +179,7 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
                    "what pixels without a triangle show: white, black, transparent, or r,g,b from "
                    "0 to 1; the scene's own by default")
       ->option_text("COLOR");
-  add_choice<gl::Backend>(*command, "--context", options->backend,
-                          {{"auto", gl::Backend::automatic},
-                           {"egl", gl::Backend::egl},
-                           {"osmesa", gl::Backend::osmesa}},
-                          "where OpenGL comes from: auto (EGL, else OSMesa), egl or osmesa")
-      ->option_text("NAME");
-  add_choice<PipelineKind>(
-      *command, "--pipeline", options->pipeline,
-      {{"auto", PipelineKind::tureen}, {"published", PipelineKind::published}},
-      "auto (our own), or published: drawn as DiffSoup's viewer draws, the baseline")
-      ->option_text("NAME");
-  command->add_flag("--no-specialise", options->no_specialise,
-                    "leave nothing out that the scene does not need (for comparisons)");
+  add_drawing_options(*command, options->drawing);
   command
       ->add_option("--frames", options->frames,
                    "draw so many frames more, after a warm-up, and tell the time of each")

@@ -49,8 +49,8 @@ LitTexels light_texels(const Model& model, const BakeOptions& options) {
       const Paint paint = model.paint(at, face.surface);
       const std::tuple key(face.surface, std::llround(at.uv.x * 1e7), std::llround(at.uv.y * 1e7));
       const auto [entry, is_new] = known.try_emplace(key);
-      if (is_new) entry->second = light.leaving(face.surface, at, paint);
-      const glm::dvec3 diffuse = entry->second, color = displayed(diffuse);
+      if (is_new) entry->second = light.falling(face.surface, at);
+      const glm::dvec3 diffuse = paint.albedo * entry->second, color = displayed(diffuse);
       if (paint.gloss > 0) lit.glossy.push_back({first + i, diffuse, at.normal});
       for (int c = 0; c < 3; ++c) texels.push_back(byte(color[c]));
       texels.push_back(byte(paint.gloss));
@@ -75,7 +75,10 @@ Example draw_example(const LitTexels& lit, Random& random) {
     const double angle = random.uniform(0, 2 * std::numbers::pi);
     example.to_eye = {r * std::cos(angle), y, r * std::sin(angle)};
   } while (glm::dot(example.to_eye, glossy.normal) < 0 && glossy.normal.y > -0.9);
-  example.color = glazed(glossy.diffuse, example.features[3], glossy.normal, example.to_eye);
+  const glm::dvec3 mirrored =
+      2 * std::max(0.0, glm::dot(glossy.normal, example.to_eye)) * glossy.normal - example.to_eye;
+  example.color = glazed(glossy.diffuse, example.features[3],
+                         glm::dot(glossy.normal, example.to_eye), room_radiance(mirrored));
   return example;
 }
 

@@ -1,18 +1,16 @@
 #include "glaze.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 
 #include "light.hpp"
 
 namespace tureen::example {
 
-glm::dvec3 glazed(glm::dvec3 diffuse, double gloss, glm::dvec3 normal, glm::dvec3 to_eye) {
-  const double cosine = std::max(0.0, glm::dot(normal, to_eye));
-  const double fresnel = 0.05 + 0.55 * std::pow(1 - cosine, 5.0);
-  const glm::dvec3 mirrored = 2 * cosine * normal - to_eye;
+glm::dvec3 glazed(glm::dvec3 diffuse, double gloss, double cosine, glm::dvec3 mirrored) {
+  const double fresnel = 0.05 + 0.55 * std::pow(1 - std::max(0.0, cosine), 5.0);
   const double weight = fresnel * std::min(1.0, gloss / 0.6);
-  return displayed((1 - weight) * diffuse + weight * room_radiance(mirrored));
+  return displayed((1 - weight) * diffuse + weight * mirrored);
 }
 
 }  // namespace tureen::example

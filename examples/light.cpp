@@ -11,8 +11,6 @@ namespace tureen::example {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr int sky_rays = 160;  // on the whole sphere
-constexpr int window_rays = 36;
 
 const glm::dvec3 window_direction = glm::normalize(glm::dvec3(-0.62, 0.74, 0.36));
 constexpr double window_angle = 0.17;  // of the cone, radians
@@ -22,38 +20,27 @@ const glm::dvec3 window_irradiance(2.15, 1.93, 1.62);
 // to 0.012 (a chord of 0.12 on the bend of the shoulder, radius 0.15).
 constexpr double offset = 0.022, nearest = 0.002;
 
-struct Sample {
-  glm::dvec3 direction;
-  double solid_angle;
-};
-
 /// A Fibonacci lattice on the sphere, turned so that no sample lies in the table's plane.
-const std::vector<Sample>& sky_samples() {
-  static const std::vector<Sample> samples = [] {
-    std::vector<Sample> made;
-    for (int i = 0; i < sky_rays; ++i) {
-      const double y = 1 - (2.0 * i + 1) / sky_rays, r = std::sqrt(1 - y * y);
-      const double angle = 2 * pi * i / std::numbers::phi;
-      made.push_back({{r * std::cos(angle), y, r * std::sin(angle)}, 4 * pi / sky_rays});
-    }
-    return made;
-  }();
-  return samples;
+std::vector<glm::dvec3> over_the_sphere(int count) {
+  std::vector<glm::dvec3> directions;
+  for (int i = 0; i < count; ++i) {
+    const double y = 1 - (2.0 * i + 1) / count, r = std::sqrt(1 - y * y);
+    const double angle = 2 * pi * i / std::numbers::phi;
+    directions.emplace_back(r * std::cos(angle), y, r * std::sin(angle));
+  }
+  return directions;
 }
 
-const std::vector<glm::dvec3>& window_samples() {
-  static const std::vector<glm::dvec3> samples = [] {
-    std::vector<glm::dvec3> made;
-    const glm::dmat3 frame = frame_along(window_direction);
-    for (int i = 0; i < window_rays; ++i) {
-      const double r = std::tan(window_angle) * std::sqrt((i + 0.5) / window_rays);
-      const double angle = 2 * pi * i / std::numbers::phi;
-      made.push_back(
-          glm::normalize(frame * glm::dvec3(r * std::cos(angle), 1, r * std::sin(angle))));
-    }
-    return made;
-  }();
-  return samples;
+std::vector<glm::dvec3> over_the_window(int count) {
+  std::vector<glm::dvec3> directions;
+  const glm::dmat3 frame = frame_along(window_direction);
+  for (int i = 0; i < count; ++i) {
+    const double r = std::tan(window_angle) * std::sqrt((i + 0.5) / count);
+    const double angle = 2 * pi * i / std::numbers::phi;
+    directions.push_back(
+        glm::normalize(frame * glm::dvec3(r * std::cos(angle), 1, r * std::sin(angle))));
+  }
+  return directions;
 }
 
 glm::dvec3 sky(glm::dvec3 d) {
@@ -67,22 +54,25 @@ glm::dvec3 sky(glm::dvec3 d) {
 }  // namespace
 
 glm::dvec3 room_radiance(glm::dvec3 d) {
-  // Seen in a glaze, the window is a soft spot, wider than the cone that casts the shadows: a
-  // network of this size draws nothing sharper.
+  // Seen in a glaze, the window is a soft spot, as wide as the cone that casts the shadows.
   const double angle = std::acos(std::clamp(glm::dot(d, window_direction), -1.0, 1.0));
-  const double spot = std::exp(-0.5 * std::pow(angle / 0.23, 2.0));
-  return sky(d) + spot * glm::dvec3(17.0, 16.0, 14.5);
+  const double spot = std::exp(-0.5 * std::pow(angle / 0.15, 2.0));
+  return sky(d) + spot * glm::dvec3(22.0, 20.7, 18.8);
 }
 
-Light::Light(const Model& model, const RayCaster& caster)
-    : model_(model), caster_(caster), face_radiance_(model.faces.size(), glm::dvec3(0)) {
+Light::Light(const Model& model, const RayCaster& caster, const LightQuality& quality)
+    : model_(model),
+      caster_(caster),
+      sky_directions_(over_the_sphere(quality.sky_rays)),
+      window_directions_(over_the_window(quality.window_rays)),
+      face_radiance_(model.faces.size(), glm::dvec3(0)) {
   for (int bounce = 0; bounce < 2; ++bounce) {
     std::vector<glm::dvec3> next(model.faces.size());
     for (std::size_t i = 0; i < model.faces.size(); ++i) {
       const Face& face = model.faces[i];
       const SurfacePoint at =
           model.point(face.surface, (face.uv[0] + face.uv[1] + face.uv[2]) / 3.0);
-      next[i] = leaving(face.surface, at, model.paint(at, face.surface));
+      next[i] = model.paint(at, face.surface).albedo * falling(face.surface, at);
     }
     face_radiance_ = std::move(next);
   }
@@ -90,27 +80,32 @@ Light::Light(const Model& model, const RayCaster& caster)
 
 glm::dvec3 Light::gather(glm::dvec3 position, glm::dvec3 normal) const {
   const glm::dvec3 origin = position + offset * normal;
-  glm::dvec3 sum(0);
-  for (const Sample& sample : sky_samples()) {
-    const double cosine = glm::dot(sample.direction, normal);
+  glm::dvec3 from_sky(0), from_window(0);
+  for (const glm::dvec3& direction : sky_directions_) {
+    const double cosine = glm::dot(direction, normal);
     if (cosine <= 0) continue;
-    const auto hit = caster_.first_hit(origin, sample.direction, nearest);
-    sum += cosine * sample.solid_angle * (hit ? face_radiance_[*hit] : sky(sample.direction));
+    const auto hit = caster_.first_hit(origin, direction, nearest);
+    from_sky += cosine * (hit ? face_radiance_[hit->face] : sky(direction));
   }
-  for (const glm::dvec3& direction : window_samples()) {
+  for (const glm::dvec3& direction : window_directions_) {
     const double cosine = glm::dot(direction, normal);
     if (cosine > 0 && !caster_.first_hit(origin, direction, nearest))
-      sum += cosine * window_irradiance / double(window_rays);
+      from_window += cosine * window_irradiance;
   }
-  return sum / pi;
+  return from_sky * (4.0 / double(sky_directions_.size())) +
+         from_window / (pi * double(window_directions_.size()));
 }
 
-glm::dvec3 Light::leaving(std::uint32_t surface, const SurfacePoint& at, const Paint& paint) const {
+glm::dvec3 Light::falling(std::uint32_t surface, const SurfacePoint& at) const {
   const double through = model_.surfaces[surface].translucency;
-  glm::dvec3 light = gather(at.position, at.normal);
-  if (through > 0)
-    light = glm::mix(light, gather(at.position, -at.normal) * glm::dvec3(1.15, 1.1, 0.6), through);
-  return paint.albedo * light;
+  const glm::dvec3 front = gather(at.position, at.normal);
+  if (through == 0) return front;
+  return glm::mix(front, gather(at.position, -at.normal) * glm::dvec3(1.15, 1.1, 0.6), through);
+}
+
+glm::dvec3 Light::mirrored(const SurfacePoint& at, glm::dvec3 direction) const {
+  const auto hit = caster_.first_hit(at.position + offset * at.normal, direction, nearest);
+  return hit ? face_radiance_[hit->face] : room_radiance(direction);
 }
 
 glm::dvec3 displayed(glm::dvec3 radiance) {

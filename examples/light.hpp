@@ -13,22 +13,33 @@ namespace tureen::example {
 /// What comes from a direction where nothing stands, window included.
 glm::dvec3 room_radiance(glm::dvec3 direction);
 
+struct LightQuality {
+  int sky_rays = 160;  // over the whole sphere
+  int window_rays = 36;
+};
+
 /// Diffuse light by ray casting. Every point uses the same directions: shadows are then smooth sums
 /// of many sharp ones, where random directions would leave grain in the texels.
 class Light {
  public:
   /// Estimates what each face throws back (two bounces). `caster` and `model` must outlive it.
-  Light(const Model& model, const RayCaster& caster);
+  Light(const Model& model, const RayCaster& caster, const LightQuality& quality = {});
 
-  /// Irradiance / pi on the side of the normal: times the albedo it is the radiance that leaves.
-  glm::dvec3 gather(glm::dvec3 position, glm::dvec3 normal) const;
+  /// Irradiance / pi on a point of a surface, front light and what shines through: times the
+  /// albedo it is the radiance that leaves.
+  glm::dvec3 falling(std::uint32_t surface, const SurfacePoint& at) const;
 
-  /// Radiance that leaves a point of a surface, front light and what shines through.
-  glm::dvec3 leaving(std::uint32_t surface, const SurfacePoint& at, const Paint& paint) const;
+  /// The radiance that a glaze at this point of a surface mirrors from a direction: the room's,
+  /// or what the thing that stands in the way throws back, faces each of one colour.
+  glm::dvec3 mirrored(const SurfacePoint& at, glm::dvec3 direction) const;
 
  private:
+  /// Irradiance / pi on the side of the normal.
+  glm::dvec3 gather(glm::dvec3 position, glm::dvec3 normal) const;
+
   const Model& model_;
   const RayCaster& caster_;
+  std::vector<glm::dvec3> sky_directions_, window_directions_;
   std::vector<glm::dvec3> face_radiance_;
 };
 

@@ -80,11 +80,11 @@ void RayCaster::build(std::uint32_t node, std::uint32_t begin, std::uint32_t end
   build(children + 1, middle, end);
 }
 
-std::optional<std::uint32_t> RayCaster::first_hit(glm::dvec3 origin, glm::dvec3 direction,
-                                                  double nearest) const {
+std::optional<Hit> RayCaster::first_hit(glm::dvec3 origin, glm::dvec3 direction,
+                                        double nearest) const {
   const glm::dvec3 inverse = 1.0 / direction;
   double best = std::numeric_limits<double>::infinity();
-  std::optional<std::uint32_t> hit;
+  std::optional<Hit> hit;
   const auto enters = [&](const Node& node) {
     const glm::dvec3 a = (node.low - origin) * inverse, b = (node.high - origin) * inverse;
     const glm::dvec3 in = glm::min(a, b), out = glm::max(a, b);
@@ -109,14 +109,13 @@ std::optional<std::uint32_t> RayCaster::first_hit(glm::dvec3 origin, glm::dvec3 
       const Face& face = model_.faces[faces_[i]];
       const auto met = meet(face, origin, direction);
       if (!met || met->distance < nearest || met->distance >= best) continue;
-      if (has_holes_[faces_[i]]) {
-        const glm::dvec2 uv =
-            face.uv[0] * (1 - met->b1 - met->b2) + face.uv[1] * met->b1 + face.uv[2] * met->b2;
-        if (model_.paint(model_.point(face.surface, uv), face.surface).alpha < alpha_threshold)
-          continue;
-      }
+      const glm::dvec2 uv =
+          face.uv[0] * (1 - met->b1 - met->b2) + face.uv[1] * met->b1 + face.uv[2] * met->b2;
+      if (has_holes_[faces_[i]] &&
+          model_.paint(model_.point(face.surface, uv), face.surface).alpha < alpha_threshold)
+        continue;
       best = met->distance;
-      hit = faces_[i];
+      hit = Hit{faces_[i], uv};
     }
   }
   return hit;

@@ -1,6 +1,7 @@
 // The nearest face that a ray meets, through a hierarchy of boxes; holes let it pass.
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <vector>
@@ -9,14 +10,18 @@
 
 namespace tureen::example {
 
+struct Hit {
+  std::uint32_t face;
+  glm::dvec2 uv;  // of the face's surface
+};
+
 class RayCaster {
  public:
   /// The model must outlive it.
   explicit RayCaster(const Model& model);
 
-  /// The index of the face, or nothing. Hits nearer than `nearest` do not count.
-  std::optional<std::uint32_t> first_hit(glm::dvec3 origin, glm::dvec3 direction,
-                                         double nearest) const;
+  /// Hits nearer than `nearest` do not count. Safe to call from several threads.
+  std::optional<Hit> first_hit(glm::dvec3 origin, glm::dvec3 direction, double nearest) const;
 
  private:
   struct Node {

@@ -12,7 +12,6 @@ namespace tureen::example {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr int segments = 48;  // around everything that is turned, but small things
 
 /// Oval porcelain: wider from handle to handle.
 const glm::dmat3 oval(1.14, 0, 0, 0, 1, 0, 0, 0, 1);
@@ -26,7 +25,7 @@ Curve profile(std::initializer_list<glm::dvec2> points) {
 struct Vessel {
   double widest;  // radius where the pattern is
   int rows;
-  int columns = segments;
+  int columns;
   double texel_size = 0.030;  // level 3 on the belly: a finer one would double the file
   std::function<bool(const SurfacePoint&)> plain = {};
 };
@@ -43,7 +42,7 @@ void add_porcelain(Model& model, const Curve& curve, Vessel vessel,
              .plain = vessel.plain});
 }
 
-void add_table(Model& model) {
+void add_table(Model& model, int segments) {
   const double r = table_radius;
   model.add({.position = disc(r - 0.05, {}),
              .paint = [](const SurfacePoint& at) { return wood(at.position); },
@@ -93,7 +92,7 @@ void add_doily(Model& model) {
              .texel_size = 0.020});
 }
 
-void add_tureen(Model& model) {
+void add_tureen(Model& model, int segments) {
   add_porcelain(model,
                 profile({{0.55, 0.022},
                          {0.86, 0.05},
@@ -106,6 +105,7 @@ void add_tureen(Model& model) {
                          {0.40, 0.075}}),
                 {.widest = 1.36,
                  .rows = 9,
+                 .columns = segments,
                  .texel_size = 0.034,
                  // Its underside, and what the foot stands on.
                  .plain = [](const SurfacePoint& at) { return at.uv.y < 0.42 || at.uv.y > 0.80; }},
@@ -114,7 +114,7 @@ void add_tureen(Model& model) {
       model,
       profile(
           {{0.66, 0.075}, {0.675, 0.10}, {0.62, 0.15}, {0.49, 0.22}, {0.445, 0.29}, {0.50, 0.35}}),
-      {.widest = 0.6, .rows = 5, .texel_size = 0.036}, tureen_foot);
+      {.widest = 0.6, .rows = 5, .columns = segments, .texel_size = 0.036}, tureen_foot);
   add_porcelain(model,
                 profile({{0.42, 0.315},
                          {0.62, 0.375},
@@ -125,7 +125,7 @@ void add_tureen(Model& model) {
                          {0.935, 1.21},
                          {0.965, 1.285},
                          {0.985, 1.315}}),
-                {.widest = 1.0, .rows = 12}, tureen_body);
+                {.widest = 1.0, .rows = 12, .columns = segments}, tureen_body);
   add_porcelain(model,
                 profile({{0.965, 1.290},
                          {1.005, 1.325},
@@ -135,7 +135,7 @@ void add_tureen(Model& model) {
                          {0.47, 1.665},
                          {0.24, 1.725},
                          {0.10, 1.75}}),
-                {.widest = 0.97, .rows = 8}, tureen_lid);
+                {.widest = 0.97, .rows = 8, .columns = segments}, tureen_lid);
   add_porcelain(model,
                 profile({{0.17, 1.735},
                          {0.105, 1.765},
@@ -284,11 +284,11 @@ void add_branch(Model& model, std::vector<glm::dvec3> points, int leaves, std::u
 
 }  // namespace
 
-Model still_life() {
+Model still_life(int segments) {
   Model model;
-  add_table(model);
+  add_table(model, segments);
   add_doily(model);
-  add_tureen(model);
+  add_tureen(model, segments);
   add_lemon(model, {1.32, 0.250, 1.36}, {0.9, 0.10, 0.35});
   add_lemon(model, {-1.55, 0.250, -1.05}, {0.3, 0.05, 0.9});
   add_half_lemon(model, {0.80, 0.245, 1.72}, {-0.25, 0.42, 0.87});

@@ -6,7 +6,8 @@
 namespace tureen::example {
 
 /// y is up, the table's top is y = 0, its radius table_radius; the tureen stands in the middle.
-Model still_life();
+/// What is turned has `segments` columns, small things fewer.
+Model still_life(int segments = 48);
 
 inline constexpr double table_radius = 2.35;
 

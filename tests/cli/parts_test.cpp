@@ -10,9 +10,9 @@
 #include "cli/picture_file.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
-#include "formats/suggestion.hpp"
 #include "cli/values.hpp"
 #include "cli/view_options.hpp"
+#include "formats/suggestion.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {

@@ -2,13 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "cli/child.hpp"
+#include "cli/program_fixture.hpp"
 #include "formats/camera_file.hpp"
-#include "formats/output.hpp"
-#include "formats/png.hpp"
 #include "soup/camera.hpp"
 
 namespace tureen {
@@ -16,60 +13,16 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::ChildResult;
+using test::Program;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// A folder of its own for each test.
-class Program : public testing::Test {
- protected:
-  void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder = fs::path(testing::TempDir()) /
-             (std::string("tureen_") + info->test_suite_name() + "_" + info->name());
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-  }
-  void TearDown() override {
-    if (!HasFailure()) fs::remove_all(folder);
-  }
-
-  ChildResult run(const std::vector<std::string>& arguments) const {
-    return test::run_tureen(arguments, folder);
-  }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder / name, std::ios::binary) << text;
-  }
-  void write_png(const std::string& name, const Image8& image) const {
-    Output output(folder / name);
-    output.write(encode_png(image));
-    output.commit();
-  }
-  Image8 read_png(const std::string& name) const {
-    Input input = Input::open(folder / name);
-    return read_image(input);
-  }
-  /// Two coloured triangles, z up, and one that repeats the first.
-  void write_scene() const {
-    write("scene.off",
-          "COFF\n4 3 0\n-1 0 -1\n1 0 -1\n0 0 1\n0 1 0\n"
-          "3 0 1 2 255 0 0\n3 0 1 3 0 255 0\n3 0 1 2 0 0 255\n");
-  }
-  bool exists(const std::string& name) const { return fs::exists(folder / name); }
-  std::vector<std::string> keys(const nlohmann::ordered_json& json) const {
-    std::vector<std::string> result;
-    for (const auto& [key, value] : json.items()) result.push_back(key);
-    return result;
-  }
-
-  fs::path folder;
-};
-
 // --- Usage ----------------------------------------------------------------------------------
 
 TEST_F(Program, HelpTeachesAndGoesToStandardOutput) {
-  for (const char* command : {"render", "info", "convert", "compare"}) {
+  for (const char* command : {"render", "info", "convert", "compare", "eval", "plot"}) {
     const ChildResult result = run({command, "--help"});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.out, HasSubstr(std::string("Examples:\n  tureen ") + command));

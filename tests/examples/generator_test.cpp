@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "glaze.hpp"
+#include "light.hpp"
 #include "noise.hpp"
 #include "ray_caster.hpp"
 #include "soup/triangle_soup.hpp"
@@ -22,15 +23,22 @@ const Model& model() {
   return made;
 }
 
+struct SlowHit {
+  double distance;
+  glm::dvec2 uv;
+};
+
 /// Signed volumes: nothing shared with the ray caster but the geometry.
-std::optional<double> slow_distance(const Face& face, glm::dvec3 o, glm::dvec3 d) {
+std::optional<SlowHit> slow_hit(const Face& face, glm::dvec3 o, glm::dvec3 d) {
   const auto &a = face.corners[0], &b = face.corners[1], &c = face.corners[2];
   const double va = glm::dot(d, glm::cross(b - o, c - o));
   const double vb = glm::dot(d, glm::cross(c - o, a - o));
   const double vc = glm::dot(d, glm::cross(a - o, b - o));
   if (!((va > 0 && vb > 0 && vc > 0) || (va < 0 && vb < 0 && vc < 0))) return std::nullopt;
-  const glm::dvec3 hit = (va * a + vb * b + vc * c) / (va + vb + vc);
-  return glm::dot(hit - o, d);
+  const glm::dvec3 weight = glm::dvec3(va, vb, vc) / (va + vb + vc);
+  const glm::dvec3 hit = weight.x * a + weight.y * b + weight.z * c;
+  return SlowHit{glm::dot(hit - o, d),
+                 weight.x * face.uv[0] + weight.y * face.uv[1] + weight.z * face.uv[2]};
 }
 
 TEST(RayCaster, FindsWhatTryingEveryFaceFinds) {
@@ -56,15 +64,16 @@ TEST(RayCaster, FindsWhatTryingEveryFaceFinds) {
     const glm::dvec3 direction = glm::normalize(target - origin);
     double nearest = std::numeric_limits<double>::infinity();
     for (const Face& face : solid.faces)
-      if (const auto distance = slow_distance(face, origin, direction))
-        if (*distance > 0.01) nearest = std::min(nearest, *distance);
+      if (const auto hit = slow_hit(face, origin, direction))
+        if (hit->distance > 0.01) nearest = std::min(nearest, hit->distance);
     const auto found = caster.first_hit(origin, direction, 0.01);
     ASSERT_EQ(found.has_value(), std::isfinite(nearest)) << "ray " << i;
     if (!found) continue;
     ++hits;
-    const auto distance = slow_distance(solid.faces[*found], origin, direction);
-    ASSERT_TRUE(distance) << "ray " << i;
-    EXPECT_NEAR(*distance, nearest, 1e-9) << "ray " << i;  // rounding of two ways to compute it
+    const auto hit = slow_hit(solid.faces[found->face], origin, direction);
+    ASSERT_TRUE(hit) << "ray " << i;
+    EXPECT_NEAR(hit->distance, nearest, 1e-9) << "ray " << i;  // rounding of two ways to compute it
+    EXPECT_LT(glm::distance(hit->uv, found->uv), 1e-9) << "ray " << i;
   }
   EXPECT_GT(hits, 100);
 }
@@ -146,13 +155,14 @@ TEST(Training, LearnsAHighlight) {
               0.3 * trained.root_mean_square);  // another sample of the same error
 }
 
-TEST(Glaze, IsBrightestWhereItMirrorsTheWindow) {
-  const glm::dvec3 diffuse(0.3), normal(0, 1, 0);
-  const glm::dvec3 window = glm::normalize(glm::dvec3(-0.62, 0.74, 0.36));
-  const glm::dvec3 mirrored = 2 * glm::dot(window, normal) * normal - window;
-  const glm::dvec3 other(window.x, window.y, window.z);
-  EXPECT_GT(glazed(diffuse, 0.6, normal, mirrored).g, glazed(diffuse, 0.6, normal, other).g + 0.1);
-  EXPECT_EQ(glazed(diffuse, 0.0, normal, mirrored), glazed(diffuse, 0.0, normal, other));
+TEST(Glaze, MirrorsMoreAtGrazingAnglesAndNotWithoutGloss) {
+  const glm::dvec3 diffuse(0.3), bright(1.0), none(0.0);
+  const double facing = glazed(diffuse, 0.6, 1.0, bright).g,
+               grazing = glazed(diffuse, 0.6, 0.1, bright).g;
+  EXPECT_GT(facing, displayed(diffuse).g);
+  EXPECT_GT(grazing, facing + 0.1);
+  EXPECT_EQ(glazed(diffuse, 0.0, 0.1, bright), displayed(diffuse));
+  EXPECT_LT(glazed(diffuse, 0.6, 1.0, none).g, displayed(diffuse).g);
 }
 
 }  // namespace

@@ -1,0 +1,60 @@
+#include "cli/dataset_argument.hpp"
+
+#include "cli/progress.hpp"
+#include "formats/suggestion.hpp"
+#include "soup/error.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+/// A number in (0, 1], which CLI::Range, closed at both ends, cannot say.
+std::string refuse_scale(const std::string& text) {
+  double scale = 0;
+  if (CLI::detail::lexical_cast(text, scale) && scale > 0 && scale <= 1) return {};
+  return "a scale is more than 0 and at most 1, not " + text;
+}
+
+}  // namespace
+
+void add_dataset_argument(CLI::App& command, DatasetArgument& argument) {
+  command
+      .add_option("DATASET", argument.path,
+                  "posed photographs: a folder with transforms.json, transforms_train.json and "
+                  "transforms_test.json, or a COLMAP model and images")
+      ->required()
+      ->type_name("");
+  command
+      .add_option("--scale", argument.options.scale,
+                  "the size at which photographs are used, as a fraction of their own: 0.5 halves "
+                  "both sides, each pixel the mean of those that it covers")
+      ->check(refuse_scale)
+      ->option_text("FRACTION");
+  command
+      .add_option("--images", argument.options.images_folder,
+                  "take the photographs of the folder images_N, which some datasets have beside "
+                  "images, N times smaller")
+      ->check(CLI::Range(1, 64))
+      ->option_text("N");
+  command
+      .add_option("--test-every", argument.options.test_every,
+                  "where the dataset has no split of its own, every N-th photograph in name order "
+                  "is a test view, from the first on; 8 by default")
+      ->check(CLI::Range(2, 1000000))
+      ->option_text("N");
+}
+
+Dataset read(const DatasetArgument& argument, DatasetPart part) {
+  const std::filesystem::path path = argument.path;
+  std::error_code error;
+  if (!std::filesystem::exists(path, error))
+    throw InputError({argument.path, {}, {}}, why_missing(path));
+  const std::filesystem::path name = path.has_filename() ? path : path.parent_path();
+  Progress progress("reading photographs of " + name.filename().string());
+  DatasetOptions options = argument.options;
+  options.part = part;
+  options.progress = [&](double fraction) { progress.update(fraction); };
+  return read_dataset(path, options);
+}
+
+}  // namespace tureen::cli

@@ -1,0 +1,147 @@
+// `tureen eval`: how near a scene comes to the photographs of a dataset.
+#include <fmt/format.h>
+
+#include <iterator>
+#include <memory>
+
+#include "cli/choice.hpp"
+#include "cli/commands.hpp"
+#include "cli/dataset_argument.hpp"
+#include "cli/evaluation.hpp"
+#include "cli/progress.hpp"
+#include "cli/report.hpp"
+#include "cli/scene_argument.hpp"
+#include "cli/values.hpp"
+#include "soup/error.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+struct Options {
+  SceneArgument scene;
+  DatasetArgument dataset;
+  EvaluationOptions evaluation;
+  DatasetPart split = DatasetPart::test;
+  std::string background;  // empty: the scene's own
+  std::string folder;
+  bool json = false;
+};
+
+const char* split_name(DatasetPart split) {
+  constexpr const char* names[] = {"train", "test", "all"};
+  return names[std::size_t(split)];
+}
+
+/// The photographs of the split; the dataset gives them away.
+std::vector<Photograph> photographs_of(Dataset& dataset) {
+  std::vector<Photograph> photographs = std::move(dataset.train);
+  photographs.insert(photographs.end(), std::make_move_iterator(dataset.test.begin()),
+                     std::make_move_iterator(dataset.test.end()));
+  return photographs;
+}
+
+Json report(const Options& options, const Evaluation& result) {
+  const bool with_flip = options.evaluation.metrics.with_flip;
+  Json views = Json::array();
+  for (const ViewMetrics& view : result.views) views.push_back(to_json(view, with_flip));
+  return {{"views", views},
+          {"mean", to_json(result.mean, with_flip)},
+          {"split", split_name(options.split)},
+          {"ssim_border", name(options.evaluation.metrics.ssim_border)},
+          {"context", result.context},
+          {"renderer", result.renderer},
+          {"plan", result.plan},
+          {"output", result.output}};
+}
+
+ExitCode evaluate_scene(Options options) {
+  // Everything that can be wrong with the arguments is said before anything is read.
+  EvaluationOptions& evaluation = options.evaluation;
+  if (!options.background.empty())
+    evaluation.background = glm::vec3(parse_background(options.background));
+  evaluation.folder = options.folder;
+
+  Scene scene = read(options.scene);
+  const TriangleSoup& soup = opaque_soup(scene);
+  if (options.background.empty()) evaluation.background = scene.info.background;
+  Dataset dataset = read(options.dataset, options.split);
+  const std::vector<Photograph> photographs = photographs_of(dataset);
+  if (photographs.empty())
+    throw InputError({options.dataset.path, {}, {}},
+                     std::string("it holds no photographs to evaluate with --split ") +
+                         split_name(options.split));
+
+  Evaluation result;
+  {
+    Progress progress("evaluating");
+    evaluation.progress = [&](double fraction) { progress.update(fraction); };
+    result = evaluate(soup, scene.origin, photographs, evaluation);
+  }
+  say_list("Reading " + options.scene.path + ":", scene.info.notes);
+  say_list("Reading " + options.dataset.path + ":", dataset.notes);
+  say_list("Plan:", result.plan);
+  say(fmt::format("{} triangles against {} photographs ({}), on {} ({}); SSIM with border {}",
+                  counted(soup.triangles.size()), photographs.size(), split_name(options.split),
+                  result.renderer, result.context, name(evaluation.metrics.ssim_border)));
+  say_table(result, evaluation.metrics.with_flip);
+  if (!result.output.empty())
+    say(fmt::format("wrote {} pictures to {}", result.output.size(), options.folder));
+  if (options.json) print_json(report(options, result));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_eval(CLI::App& program, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("eval", "How near a scene comes to photographs");
+  command->footer(
+      R"(Draws the scene from where the photographs were taken and prints PSNR, SSIM and FLIP of
+each view and their means. Photographs with alpha are looked at over the background.
+
+Examples:
+  tureen eval soup.glb lego
+  tureen eval soup.glb fox --scale 0.25 --split all
+  tureen eval soup.glb lego -o views            photograph, rendering and heat map of each
+  tureen eval soup.glb lego --json              the numbers for programs
+  tureen eval soup.glb lego --ssim-border uniform7    SSIM as DiffSoup reports it on
+                                                      synthetic scenes
+
+Exit codes: 0 done, 2 wrong usage, 3 the scene or the dataset cannot be read, 4 no OpenGL
+context, 5 it does not fit on the device or cannot be written.)");
+  add_scene_argument(*command, options->scene);
+  add_dataset_argument(*command, options->dataset);
+  add_choice<DatasetPart>(
+      *command, "--split", options->split,
+      {{"test", DatasetPart::test}, {"train", DatasetPart::train}, {"all", DatasetPart::all}},
+      "which photographs: test (default), train or all")
+      ->option_text("NAME");
+  command
+      ->add_option("-o,--output", options->folder,
+                   "a folder for pictures: photograph, rendering and heat map side by side for "
+                   "each view, and a contact_sheet.png")
+      ->option_text("FOLDER");
+  command
+      ->add_option("--background", options->background,
+                   "what is behind the scene and behind photographs with alpha: white, black, or "
+                   "r,g,b from 0 to 1; the scene's own by default")
+      ->option_text("COLOR");
+  std::vector<std::pair<std::string, SsimBorder>> borders;
+  for (const SsimBorder border : {SsimBorder::valid, SsimBorder::zero_pad, SsimBorder::uniform7})
+    borders.emplace_back(name(border), border);
+  add_choice<SsimBorder>(*command, "--ssim-border", options->evaluation.metrics.ssim_border,
+                         borders,
+                         "valid (default; as DiffSoup reports on photographs), zero_pad (3DGS), "
+                         "or uniform7 (scikit-image)")
+      ->option_text("MODE");
+  command->add_flag_callback(
+      "--no-flip", [options] { options->evaluation.metrics.with_flip = false; },
+      "leave FLIP out, which takes more than half of the time of measuring");
+  add_drawing_options(*command, options->evaluation.drawing);
+  command->add_flag("--json", options->json, "the numbers as JSON on standard output");
+  command->callback(
+      [options, &action] { action = [options] { return evaluate_scene(*options); }; });
+}
+
+}  // namespace tureen::cli

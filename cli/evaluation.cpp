@@ -1,0 +1,160 @@
+#include "cli/evaluation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cctype>
+#include <deque>
+#include <future>
+#include <set>
+#include <thread>
+
+#include "cli/contact_sheet.hpp"
+#include "cli/heat_map.hpp"
+#include "cli/picture_file.hpp"
+#include "runtime/renderer.hpp"
+#include "soup/error.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* sheet_name = "contact_sheet.png";
+
+struct Measured {
+  ViewMetrics metrics;
+  Image8 thumbnail;  // empty without a folder
+};
+
+/// What is left to do for a view once it is drawn. Runs on any thread.
+Measured measure(const Photograph& photograph, const Image8& rendering,
+                 const EvaluationOptions& options, const std::string& file) {
+  const ImageF truth = composited(to_float(photograph.image), options.background);
+  const ImageF drawn = to_float(rendering);
+  const Metrics metrics = compare(truth, drawn, options.metrics);
+  Measured result{{photograph.camera.name, metrics.psnr_db, metrics.ssim, metrics.flip}, {}};
+  if (!options.folder.empty()) {
+    Image8 picture = side_by_side(truth, drawn);
+    // The photograph is shown over its background already.
+    for (glm::u8vec4& pixel : picture.pixels) pixel.a = 255;
+    write_picture(picture, options.folder / file);
+    result.thumbnail = thumbnail(picture, 640);
+  }
+  return result;
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder, error))
+    throw OutputError({folder.string(), {}, {}},
+                      "cannot be made a folder" + (error ? ": " + error.message() : std::string()));
+}
+
+ViewMetrics mean_of(const std::vector<ViewMetrics>& views) {
+  ViewMetrics sum;
+  for (const ViewMetrics& view : views) {
+    sum.psnr_db += view.psnr_db;
+    sum.ssim += view.ssim;
+    sum.flip += view.flip;
+  }
+  const double n = double(views.size());
+  return {"", sum.psnr_db / n, sum.ssim / n, sum.flip / n};
+}
+
+std::string table_line(const std::string& name, const ViewMetrics& view, std::size_t width,
+                       bool with_flip) {
+  std::string line =
+      fmt::format("{:<{}}  {:>8.2f}  {:>7.4f}", name, width, view.psnr_db, view.ssim);
+  if (with_flip) line += fmt::format("  {:>7.4f}", view.flip);
+  return line;
+}
+
+}  // namespace
+
+std::vector<std::string> picture_names(std::span<const Photograph> photographs) {
+  std::set<std::string> taken{sheet_name};
+  std::vector<std::string> names;
+  for (const Photograph& photograph : photographs) {
+    fs::path path = fs::path(photograph.camera.name).lexically_normal();
+    std::string stem = path.replace_extension().string();
+    for (char& c : stem)
+      if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.') c = '_';
+    // A leading point would hide the file.
+    stem.erase(0, stem.find_first_not_of("._"));
+    if (stem.empty()) stem = "view";
+    std::string name = stem + ".png";
+    for (int n = 2; !taken.insert(name).second; ++n) name = stem + "_" + std::to_string(n) + ".png";
+    names.push_back(name);
+  }
+  return names;
+}
+
+Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
+                    std::span<const Photograph> photographs, const EvaluationOptions& options) {
+  assert(!photographs.empty());
+  const std::vector<std::string> files = picture_names(photographs);
+  if (!options.folder.empty()) make_folder(options.folder);
+
+  const gl::Context context = gl::Context::create({.backend = options.drawing.backend});
+  Renderer renderer(context, soup, origin,
+                    {.plan = options.drawing.plan, .background = {options.background, 1.0f}});
+  Evaluation result;
+  result.context = context.description();
+  result.renderer = context.capabilities().renderer;
+  result.plan = renderer.plan().sentences;
+
+  std::vector<Image8> thumbnails;
+  // One view more than cores is in memory at a time. Destroying what is left waits for it.
+  const std::size_t most = std::max(1u, std::thread::hardware_concurrency());
+  std::deque<std::future<Measured>> running;
+  const auto take_first = [&] {
+    Measured measured = running.front().get();
+    running.pop_front();
+    result.views.push_back(std::move(measured.metrics));
+    if (options.folder.empty()) return;
+    thumbnails.push_back(std::move(measured.thumbnail));
+    result.output.push_back((options.folder / files[result.views.size() - 1]).string());
+  };
+  for (std::size_t i = 0; i < photographs.size(); ++i) {
+    if (options.progress) options.progress(double(i) / double(photographs.size()));
+    renderer.draw(photographs[i].camera);
+    running.push_back(std::async(std::launch::async, measure, std::cref(photographs[i]),
+                                 renderer.read_color(), std::cref(options), files[i]));
+    if (running.size() == most) take_first();
+  }
+  while (!running.empty()) take_first();
+  if (!options.folder.empty() && photographs.size() > 1) {
+    const fs::path sheet = options.folder / sheet_name;
+    write_picture(contact_sheet(thumbnails, 640), sheet);
+    result.output.push_back(sheet.string());
+  }
+  result.mean = mean_of(result.views);
+  return result;
+}
+
+void say_table(const Evaluation& evaluation, bool with_flip) {
+  std::size_t width = 4;  // of "view" and "mean"
+  for (const ViewMetrics& view : evaluation.views) width = std::max(width, view.name.size());
+  std::string head = fmt::format("{:<{}}  {:>8}  {:>7}", "view", width, "PSNR dB", "SSIM");
+  if (with_flip) head += fmt::format("  {:>7}", "FLIP");
+  say(head);
+  for (const ViewMetrics& view : evaluation.views)
+    say(table_line(view.name, view, width, with_flip));
+  say(std::string(head.size(), '-'));
+  say(table_line("mean", evaluation.mean, width, with_flip));
+}
+
+Json to_json(const ViewMetrics& metrics, bool with_flip) {
+  Json json = Json::object();
+  if (!metrics.name.empty()) json["name"] = metrics.name;
+  json["psnr_db"] = metrics.psnr_db;
+  json["ssim"] = metrics.ssim;
+  if (with_flip) json["flip"] = metrics.flip;
+  return json;
+}
+
+}  // namespace tureen::cli

@@ -1,0 +1,69 @@
+// How near a scene comes to photographs: what `tureen eval` measures, and `tureen train` at its
+// end. The scene is drawn by the runtime, as everybody sees it, never by the trainer.
+//
+// Protocol: the rendering as the device writes it, 8 bits a channel, against the photograph over
+// the background, which is not rounded again. PSNR from the mean squared difference of a view, SSIM
+// of the border that is asked for, FLIP at 67 pixels per degree; each is taken view by view, and
+// the mean is that of the views, as papers report it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cli/drawing_options.hpp"
+#include "cli/report.hpp"
+#include "formats/dataset.hpp"
+#include "soup/metrics.hpp"
+#include "soup/scene.hpp"
+
+namespace tureen::cli {
+
+struct EvaluationOptions {
+  DrawingOptions drawing;
+  /// Behind the scene and behind photographs with alpha; display-referred.
+  glm::vec3 background{0.0f};
+  MetricOptions metrics = {.ssim_border = SsimBorder::valid};
+  /// Where to put the photograph, the rendering and a heat map of their differences side by side, a
+  /// PNG a view, and a contact sheet of them. Empty: no pictures. Made where it does not exist.
+  std::filesystem::path folder = {};
+  /// Called now and then with the fraction done, 0..1; may throw to end the evaluation.
+  std::function<void(double)> progress = {};
+};
+
+struct ViewMetrics {
+  std::string name;  // of the photograph
+  double psnr_db = 0;
+  double ssim = 0;
+  double flip = 0;  // 0 where MetricOptions leave it out
+};
+
+struct Evaluation {
+  std::vector<ViewMetrics> views;  // in the order of the photographs
+  ViewMetrics mean;                // without a name
+  std::string context;             // how the device was reached, and its name
+  std::string renderer;
+  std::vector<std::string> plan;    // the plan's sentences
+  std::vector<std::string> output;  // the pictures written
+};
+
+/// Views are measured on all cores while others are drawn. There is one photograph at least, and
+/// the soup has no defect(). Throws ContextError, DeviceLimitError, UsageError where the window of
+/// the SSIM does not fit into a view, OutputError; pictures that are there by then stay.
+Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
+                    std::span<const Photograph> photographs, const EvaluationOptions& options);
+
+/// The names of the pictures in the folder: "train/r_0.png" gives "train_r_0.png". Letters other
+/// than those that every file system takes become '_', and equal names are told apart by a number.
+std::vector<std::string> picture_names(std::span<const Photograph> photographs);
+
+/// A line a view, and the mean below a rule.
+void say_table(const Evaluation& evaluation, bool with_flip);
+
+/// {"name": .., "psnr_db": .., "ssim": .., "flip": ..}; no name where it has none.
+Json to_json(const ViewMetrics& metrics, bool with_flip);
+
+}  // namespace tureen::cli

@@ -1,0 +1,123 @@
+#include "cli/training_log.hpp"
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "formats/input.hpp"
+#include "formats/json_view.hpp"
+#include "formats/suggestion.hpp"
+#include "soup/error.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A log and where its lines end.
+struct ParsedLog {
+  std::vector<TrainingRecord> records;
+  std::vector<std::uint64_t> ends;  // byte after each record's line
+};
+
+double number_or_nan(const JsonView& value) {
+  return value.value().is_null() ? std::numeric_limits<double>::quiet_NaN() : value.number();
+}
+
+TrainingRecord record_of(const JsonView& line) {
+  TrainingRecord record;
+  record.step = int(line["step"].natural(std::numeric_limits<int>::max()));
+  record.seconds = line["seconds"].number();
+  record.loss = number_or_nan(line["loss"]);
+  record.l1 = number_or_nan(line["l1"]);
+  record.ssim = number_or_nan(line["ssim"]);
+  record.train_psnr_db = number_or_nan(line["train_psnr_db"]);
+  if (const auto value = line.find("test_psnr_db")) record.test_psnr_db = number_or_nan(*value);
+  record.triangles = line["triangles"].natural();
+  record.it_per_second = number_or_nan(line["it_per_second"]);
+  record.non_finite = line["non_finite"].natural();
+  return record;
+}
+
+ParsedLog parse_log(const std::filesystem::path& path) {
+  Input input = Input::open(path);
+  const std::vector<std::byte> bytes = input.read_rest();
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  ParsedLog log;
+  for (std::size_t begin = 0, number = 1; begin < text.size(); ++number) {
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string_view::npos) break;
+    try {
+      const auto line = parse_json(text.substr(begin, end - begin), input.name(), begin);
+      log.records.push_back(record_of(JsonView(line, input.name())));
+    } catch (const InputError& error) {
+      throw InputError({input.name(), {}, number}, "no record of training: " + error.reason());
+    }
+    const std::size_t count = log.records.size();
+    if (count > 1 && log.records[count - 1].step <= log.records[count - 2].step)
+      throw InputError({input.name(), {}, number}, "step " +
+                                                       std::to_string(log.records[count - 1].step) +
+                                                       " does not come after the one before");
+    begin = end + 1;
+    log.ends.push_back(begin);
+  }
+  return log;
+}
+
+/// JSON has no NaN and no infinities: nlohmann writes null for them.
+Json to_json(const TrainingRecord& record) {
+  Json json{{"step", record.step}, {"seconds", record.seconds},
+            {"loss", record.loss}, {"l1", record.l1},
+            {"ssim", record.ssim}, {"train_psnr_db", record.train_psnr_db}};
+  if (record.test_psnr_db) json["test_psnr_db"] = *record.test_psnr_db;
+  json["triangles"] = record.triangles;
+  json["it_per_second"] = record.it_per_second;
+  json["non_finite"] = record.non_finite;
+  return json;
+}
+
+}  // namespace
+
+TrainingLog::TrainingLog(const std::filesystem::path& path, const char* mode)
+    : name_(path.string()), file_(std::fopen(path.c_str(), mode)) {
+  if (!file_)
+    throw OutputError({name_, {}, {}}, std::string("cannot be opened: ") + std::strerror(errno));
+}
+
+TrainingLog TrainingLog::create(const std::filesystem::path& path) {
+  return TrainingLog(path, "wb");
+}
+
+TrainingLog TrainingLog::resume(const std::filesystem::path& path, int step) {
+  std::error_code error;
+  if (std::filesystem::exists(path, error)) {
+    const ParsedLog log = parse_log(path);
+    std::uint64_t keep = 0;
+    for (std::size_t i = 0; i < log.records.size() && log.records[i].step <= step; ++i)
+      keep = log.ends[i];
+    std::filesystem::resize_file(path, keep, error);
+    if (error)
+      throw OutputError({path.string(), {}, {}}, "cannot be cut short: " + error.message());
+  }
+  return TrainingLog(path, "ab");
+}
+
+void TrainingLog::append(const TrainingRecord& record) {
+  const std::string line = to_json(record).dump() + "\n";
+  if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size() ||
+      std::fflush(file_.get()) != 0)
+    throw OutputError({name_, {}, {}}, std::string("cannot be written: ") + std::strerror(errno));
+}
+
+std::vector<TrainingRecord> read_training_log(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error))
+    throw InputError({path.string(), {}, {}}, why_missing(path));
+  return parse_log(path).records;
+}
+
+}  // namespace tureen::cli

@@ -1,0 +1,19 @@
+// Cameras as the datasets of NeRF (Mildenhall et al., arXiv 2003.08934) hold them.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "soup/camera.hpp"
+
+namespace tureen::example {
+
+/// Writes FOLDER/transforms_SPLIT.json, whose frames are FOLDER/SPLIT/NAME.png by the cameras'
+/// names. All cameras have square pixels, the principal point in the middle and the same angle of
+/// view: the format holds no more. There z is up, so the world is turned: (x, y, z) becomes
+/// (x, -z, y). Throws OutputError.
+void write_transforms(const std::filesystem::path& folder, const std::string& split,
+                      std::span<const Camera> cameras);
+
+}  // namespace tureen::example

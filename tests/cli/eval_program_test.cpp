@@ -1,0 +1,174 @@
+// `tureen eval` from outside, against photographs that the program took of the scene itself.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <glm/matrix.hpp>
+
+#include "cli/program_fixture.hpp"
+#include "soup/camera.hpp"
+
+namespace tureen {
+namespace {
+
+using test::ChildResult;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::string example = TUREEN_SOURCE_DIR "/examples/soup.glb";
+
+class Eval : public test::Program {
+ protected:
+  static constexpr int width = 64, height = 48;
+
+  static nlohmann::json frame(const std::string& file, glm::dvec3 eye) {
+    const Camera camera = look_at(eye, {0, 0, 0}, {0, 0, 1}, 0.8, width, height);
+    const glm::dmat4 world_from_view = glm::inverse(camera.view_from_world);
+    nlohmann::json rows = nlohmann::json::array();
+    for (int row = 0; row < 4; ++row)
+      rows.push_back({world_from_view[0][row], world_from_view[1][row], world_from_view[2][row],
+                      world_from_view[3][row]});
+    return {{"file_path", file}, {"transform_matrix", rows}};
+  }
+
+  /// NeRF-synthetic: two views to test, one to train. Their pictures are drawn by the program.
+  void make_dataset() const {
+    std::filesystem::create_directories(folder / "data/test");
+    std::filesystem::create_directories(folder / "data/train");
+    const Camera camera = look_at({3, 0, 1}, {0, 0, 0}, {0, 0, 1}, 0.8, width, height);
+    nlohmann::json test{{"fl_x", camera.fx}, {"fl_y", camera.fy}, {"cx", camera.cx},
+                        {"cy", camera.cy},   {"w", width},        {"h", height}};
+    nlohmann::json train = test;
+    test["frames"] = {frame("test/r_0.png", {3, 0, 1}), frame("test/r_1.png", {0, -3, 0.5})};
+    train["frames"] = {frame("train/r_0.png", {-2, 2, 1})};
+    write("data/transforms_test.json", test.dump());
+    write("data/transforms_train.json", train.dump());
+    for (const char* split : {"test", "train"}) {
+      const std::string which = std::string("data/transforms_") + split + ".json:all";
+      const ChildResult drawn =
+          run({"render", example, "--camera", which, "-o",
+               std::string("data/") + split + "/r_%d.png", "--context", "osmesa"});
+      ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    }
+    ASSERT_TRUE(exists("data/test/r_1.png"));
+  }
+  ChildResult eval(std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments{"eval", example, "data", "--context", "osmesa", "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  }
+};
+
+TEST_F(Eval, TheScenesOwnPicturesAreMetExactly) {
+  make_dataset();
+  const ChildResult result = eval({"-o", "views"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::ordered_json::parse(result.out);
+  EXPECT_THAT(keys(json), ElementsAre("views", "mean", "split", "ssim_border", "context",
+                                      "renderer", "plan", "output"));
+  ASSERT_EQ(json["views"].size(), 2u);
+  EXPECT_THAT(keys(json["views"][0]), ElementsAre("name", "psnr_db", "ssim", "flip"));
+  EXPECT_EQ(json["views"][1]["name"], "test/r_1.png");
+  for (const auto& view : json["views"]) {
+    EXPECT_EQ(view["psnr_db"], 100);
+    EXPECT_NEAR(view["ssim"].get<double>(), 1, 1e-12);
+    EXPECT_EQ(view["flip"], 0);
+  }
+  EXPECT_EQ(json["mean"]["psnr_db"], 100);
+  EXPECT_EQ(json["split"], "test");
+  EXPECT_EQ(json["ssim_border"], "valid");
+  EXPECT_EQ(json["output"], nlohmann::json({"views/test_r_0.png", "views/test_r_1.png",
+                                            "views/contact_sheet.png"}));
+  const Image8 sheet = read_png("views/test_r_1.png"), photograph = read_png("data/test/r_1.png");
+  EXPECT_EQ(sheet.width, 3 * width);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      ASSERT_EQ(sheet.at(x, y), photograph.at(x, y));
+      ASSERT_EQ(sheet.at(width + x, y), photograph.at(x, y));
+      ASSERT_EQ(sheet.at(2 * width + x, y), glm::u8vec4(0, 0, 0, 255));
+    }
+  EXPECT_THAT(result.err, HasSubstr("test/r_1.png    100.00   1.0000   0.0000"));
+}
+
+TEST_F(Eval, AKnownErrorHasItsDecibels) {
+  make_dataset();
+  Image8 photograph = read_png("data/test/r_0.png");
+  for (glm::u8vec4& pixel : photograph.pixels) pixel.r ^= 8;  // 8 more or less, never clamped
+  write_png("data/test/r_0.png", photograph);
+  const auto json = nlohmann::json::parse(eval().out);
+  const double expected = -10 * std::log10(std::pow(8.0 / 255, 2) / 3);  // one channel of three
+  EXPECT_NEAR(json["views"][0]["psnr_db"].get<double>(), expected, 1e-4);
+  EXPECT_GT(json["views"][0]["flip"].get<double>(), 0);
+  EXPECT_LT(json["views"][0]["ssim"].get<double>(), 1);
+  // The mean of decibels, not the decibels of a mean.
+  EXPECT_NEAR(json["mean"]["psnr_db"].get<double>(), (expected + 100) / 2, 1e-4);
+}
+
+TEST_F(Eval, TakesTheSplitTheScaleAndTheBackground) {
+  make_dataset();
+  const auto train = nlohmann::json::parse(eval({"--split", "train", "--no-flip"}).out);
+  ASSERT_EQ(train["views"].size(), 1u);
+  EXPECT_EQ(train["views"][0]["name"], "train/r_0.png");
+  EXPECT_FALSE(train["views"][0].contains("flip"));
+  EXPECT_FALSE(train["mean"].contains("flip"));
+  const ChildResult all = eval({"--split", "all", "--scale", "0.5", "-o", "views"});
+  ASSERT_EQ(all.exit_code, 0) << all.err;
+  EXPECT_EQ(nlohmann::json::parse(all.out)["views"].size(), 3u);
+  EXPECT_EQ(read_png("views/train_r_0.png").width, 3 * width / 2);
+
+  // Nothing on both sides but the background: equal on any.
+  write("far.off", "COFF\n3 1 0\n900 900 0\n901 900 0\n900 901 0\n3 0 1 2 255 0 0\n");
+  for (const char* name : {"data/test/r_0.png", "data/test/r_1.png"})
+    write_png(name, Image8(width, height, glm::u8vec4(255, 0, 0, 0)));
+  const ChildResult clear =
+      run({"eval", "far.off", "data", "--context", "osmesa", "--json", "--background", "0,1,0.2"});
+  ASSERT_EQ(clear.exit_code, 0) << clear.err;
+  EXPECT_EQ(nlohmann::json::parse(clear.out)["mean"]["psnr_db"], 100);
+  for (const char* name : {"data/test/r_0.png", "data/test/r_1.png"})
+    write_png(name, Image8(width, height, glm::u8vec4(255)));
+  const auto opaque = nlohmann::json::parse(
+      run({"eval", "far.off", "data", "--context", "osmesa", "--json", "--background", "black"})
+          .out);
+  EXPECT_NEAR(opaque["mean"]["psnr_db"].get<double>(), 0, 1e-9);
+}
+
+TEST_F(Eval, ExitCodesSayWhoIsToBlame) {
+  make_dataset();
+  const auto expect = [&](const std::vector<std::string>& arguments, int code,
+                          const std::string& words) {
+    const ChildResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, code);
+    EXPECT_THAT(result.err, HasSubstr(words));
+    EXPECT_THAT(result.out, IsEmpty());
+  };
+  expect({"eval", example}, 2, "DATASET is required");
+  expect({"eval", example, "data", "--scale", "0"}, 2, "more than 0 and at most 1, not 0");
+  expect({"eval", example, "data", "--scale", "1.5"}, 2, "more than 0 and at most 1, not 1.5");
+  expect({"eval", example, "data", "--split", "tets"}, 2, "did you mean test?");
+  expect({"eval", example, "data", "--background", "pink"}, 2, "'pink' is no background");
+  expect({"eval", example, "data", "--context", "osmesa", "--scale", "0.1"}, 2, "SSIM");
+  expect({"eval", example, "dat"}, 3, "dat: there is no such file or folder; did you mean data?");
+  expect({"eval", "soup.glb", "data"}, 3, "soup.glb: there is no such file or folder");
+  write("file", "");
+  expect({"eval", example, "data", "--context", "osmesa", "-o", "file"}, 5,
+         "file: cannot be made a folder");
+  std::filesystem::remove(folder / "data/test/r_1.png");
+  expect({"eval", example, "data", "--context", "osmesa", "-o", "views"}, 3, "r_1.png");
+  EXPECT_FALSE(exists("views"));
+}
+
+TEST_F(Eval, WithoutAContextItSaysSo) {
+  make_dataset();
+  // The loader of EGL drivers finds none.
+  ::setenv("__EGL_VENDOR_LIBRARY_FILENAMES", (folder / "none.json").c_str(), 1);
+  const ChildResult result = run({"eval", example, "data", "--context", "egl", "-o", "views"});
+  ::unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES");
+  if (result.exit_code == 0) GTEST_SKIP() << "this EGL needs no loader, and cannot be made to fail";
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_THAT(result.err, HasSubstr("EGL"));
+}
+
+}  // namespace
+}  // namespace tureen

@@ -1,0 +1,92 @@
+// The parts of an evaluation that need no dataset on the disk.
+#include "cli/evaluation.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "soup/error.hpp"
+
+namespace tureen::cli {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<Photograph> named(const std::vector<std::string>& names) {
+  std::vector<Photograph> photographs(names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) photographs[i].camera.name = names[i];
+  return photographs;
+}
+
+TEST(PictureNames, AreFlatSafeAndDistinct) {
+  EXPECT_THAT(
+      picture_names(named({"./test/r_0", "images/IMG_7.JPG", "images/IMG_7.png", "../../etc/x.png",
+                           "a b:c.png", ".hidden.png", "", "contact_sheet.jpg"})),
+      ElementsAre("test_r_0.png", "images_IMG_7.png", "images_IMG_7_2.png", "etc_x.png",
+                  "a_b_c.png", "hidden.png", "view.png", "contact_sheet_2.png"));
+}
+
+/// A grey triangle that covers all of the view, and a camera that looks at it.
+TriangleSoup grey_wall(glm::u8vec4 color) {
+  TriangleSoup soup;
+  soup.positions = {{-50, -50, 0}, {50, -50, 0}, {0, 90, 0}};
+  soup.triangles = {{0, 1, 2}};
+  soup.appearance = FaceColors{{glm::vec4(color) / 255.0f}};
+  return soup;
+}
+
+Photograph photograph(const std::string& name, glm::u8vec4 color) {
+  Photograph result;
+  result.camera = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.7, 32, 24);
+  result.camera.name = name;
+  result.image = Image8(32, 24, color);
+  return result;
+}
+
+TEST(Evaluate, GivesEachViewItsNumbersAndTheirMean) {
+  const std::vector<Photograph> photographs{photograph("same", {100, 100, 100, 255}),
+                                            photograph("brighter", {151, 151, 151, 255}),
+                                            photograph("clear", {0, 0, 0, 0})};
+  const Evaluation result =
+      evaluate(grey_wall({100, 100, 100, 255}), glm::dvec3(0), photographs,
+               {.drawing = {.backend = gl::Backend::osmesa}, .background = glm::vec3(1)});
+  ASSERT_EQ(result.views.size(), 3u);
+  EXPECT_EQ(result.views[0].name, "same");
+  EXPECT_EQ(result.views[0].psnr_db, 100);
+  EXPECT_NEAR(result.views[0].ssim, 1, 1e-12);
+  EXPECT_EQ(result.views[0].flip, 0);
+  // 51 / 255 is one fifth: -20 log10 0.2. Floats hold the values to 6e-8.
+  EXPECT_NEAR(result.views[1].psnr_db, 13.979400086720377, 1e-5);
+  EXPECT_GT(result.views[1].flip, 0);
+  // A clear photograph is the white background.
+  EXPECT_NEAR(result.views[2].psnr_db, -20 * std::log10(155.0 / 255), 1e-5);
+  for (double ViewMetrics::*value : {&ViewMetrics::psnr_db, &ViewMetrics::ssim, &ViewMetrics::flip})
+    EXPECT_NEAR(result.mean.*value,
+                (result.views[0].*value + result.views[1].*value + result.views[2].*value) / 3,
+                1e-12);
+  EXPECT_TRUE(result.output.empty());
+}
+
+TEST(Evaluate, EndsWhereItsProgressThrows) {
+  std::vector<Photograph> photographs(20, photograph("grey", {100, 100, 100, 255}));
+  EvaluationOptions options{.drawing = {.backend = gl::Backend::osmesa}};
+  options.progress = [](double fraction) {
+    if (fraction > 0.5) throw UsageError("enough");
+  };
+  EXPECT_THROW(evaluate(grey_wall({100, 100, 100, 255}), glm::dvec3(0), photographs, options),
+               UsageError);
+}
+
+TEST(Evaluate, RefusesViewsThatTheWindowDoesNotFitInto) {
+  Photograph small = photograph("small", {0, 0, 0, 255});
+  small.camera = resized(small.camera, 8, 8);
+  small.image = Image8(8, 8);
+  const std::vector<Photograph> photographs{small};
+  EXPECT_THROW(evaluate(grey_wall({100, 100, 100, 255}), glm::dvec3(0), photographs,
+                        {.drawing = {.backend = gl::Backend::osmesa}}),
+               UsageError);
+}
+
+}  // namespace
+}  // namespace tureen::cli

@@ -1,0 +1,229 @@
+// The photographs that the example is trained from.
+#include "photograph.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <stdexcept>
+
+#include "curve.hpp"
+#include "formats/dataset.hpp"
+#include "formats/output.hpp"
+#include "formats/png.hpp"
+#include "nerf_synthetic.hpp"
+#include "parallel.hpp"
+#include "shapes.hpp"
+#include "still_life.hpp"
+
+namespace tureen::example {
+namespace {
+
+const Studio& studio() {
+  static const Studio made(still_life(), draft_light);
+  return made;
+}
+
+/// A square in the plane y = 0, |x|, |z| <= 1, that faces up.
+Surface square(std::function<Paint(const SurfacePoint&)> paint) {
+  return {.position = [](glm::dvec2 uv) { return glm::dvec3(2 * uv.y - 1, 0, 2 * uv.x - 1); },
+          .paint = std::move(paint),
+          .columns = 2,
+          .rows = 2,
+          .texel_size = 0.05};
+}
+
+Camera from_above(int size) { return look_at({0, 10, 0}, {0, 0, 0}, {0, 0, -1}, 0.3, size, size); }
+
+TEST(InParallel, DoesEveryPieceOnceAndPassesOnWhatIsThrown) {
+  std::vector<std::atomic<int>> done(1000);
+  in_parallel(1000, 3, [&](int i) { ++done[i]; });
+  for (const std::atomic<int>& times : done) EXPECT_EQ(times, 1);
+  EXPECT_THROW(in_parallel(1000, 3,
+                           [](int i) {
+                             if (i == 500) throw std::runtime_error("no");
+                           }),
+               std::runtime_error);
+}
+
+/// The unit sphere, in one paint.
+Model sphere(const Paint& paint) {
+  std::vector<glm::dvec3> half_circle;
+  for (int i = 0; i <= 32; ++i) {
+    const double angle = std::numbers::pi * i / 32;
+    half_circle.emplace_back(std::sin(angle), -std::cos(angle), 0.0);
+  }
+  Model model;
+  model.add({.position = turned(Curve(half_circle), {}),
+             .paint = [paint](const SurfacePoint&) { return paint; },
+             .columns = 64,
+             .rows = 32,
+             .closed = true});
+  return model;
+}
+
+TEST(LightMap, IsTheLightAtItsPointsAndCloseToItBetween) {
+  const Model model = sphere({});
+  const RayCaster caster(model);
+  const Light light(model, caster, draft_light.light);
+  const LightMap map(model, light, 0.1, 2), fine(model, light, 0.05, 1);
+  const auto error = [&](const LightMap& approximate, glm::dvec2 uv) {
+    const glm::dvec3 exact = light.falling(0, model.point(0, uv));
+    return glm::distance(approximate.falling(0, uv), exact) / glm::length(exact);
+  };
+  EXPECT_LT(error(map, {0, 0}), 1e-6);  // kept as floats
+  EXPECT_LT(error(map, {1, 1}), 1e-6);
+  double sum = 0, fine_sum = 0;
+  for (int i = 0; i < 100; ++i) {
+    const glm::dvec2 uv((i % 10 + 0.37) / 10, (i / 10 + 0.41) / 10);
+    sum += error(map, uv) / 100;
+    fine_sum += error(fine, uv) / 100;
+  }
+  // Nothing casts a shadow on a sphere that stands alone: light falls as the cosine, whose bend
+  // over a cell of 0.1 is 0.1^2 / 8 in either direction.
+  EXPECT_LT(sum, 2 * 0.1 * 0.1 / 8);
+  EXPECT_LT(fine_sum, 0.5 * sum);
+}
+
+TEST(Photograph, IsTheSameFromAnyNumberOfThreads) {
+  StudioOptions options = draft_light;
+  options.threads = 3;
+  const Studio other(still_life(), options);
+  const Camera camera = example_cameras(3, 48)[1];
+  const Image8 once = studio().photograph(camera, 2), again = studio().photograph(camera, 2);
+  EXPECT_EQ(once.pixels, again.pixels);
+  EXPECT_EQ(once.pixels, other.photograph(camera, 2).pixels);
+}
+
+TEST(Photograph, AlphaIsThePartThatIsCovered) {
+  // The square's right half is cut away, and the camera shifted so that its left border and the
+  // cut fall on quarters of pixels: on borders of the strata.
+  Model model;
+  model.add(square([](const SurfacePoint& at) {
+    return Paint{.albedo = {0.5, 0.3, 0.1}, .alpha = at.position.x < 0 ? 1.0 : 0.0};
+  }));
+  const Studio small(std::move(model), draft_light);
+  Camera camera = from_above(32);
+  camera.fx = camera.fy = 80;  // 8 pixels a unit
+  camera.cx = 16.25;           // x = -1 at 8.25, x = 0 at 16.25
+  const Image8 image = small.photograph(camera, 4);
+  EXPECT_EQ(image.at(7, 16).a, 0);
+  EXPECT_EQ(image.at(8, 16).a, 191);  // 3/4
+  EXPECT_EQ(image.at(9, 16).a, 255);
+  EXPECT_EQ(image.at(15, 16).a, 255);
+  EXPECT_EQ(image.at(16, 16).a, 64);  // 1/4
+  EXPECT_EQ(image.at(17, 16).a, 0);
+  // Straight: the colour of what is there does not fade with the coverage, and light on a square
+  // that stands alone is the same everywhere.
+  EXPECT_EQ(glm::u8vec3(image.at(8, 16)), glm::u8vec3(image.at(12, 16)));
+  EXPECT_EQ(glm::u8vec3(image.at(16, 16)), glm::u8vec3(image.at(12, 16)));
+  EXPECT_GT(image.at(12, 16).r, image.at(12, 16).g);
+  EXPECT_GT(image.at(12, 16).g, image.at(12, 16).b);
+}
+
+/// The normal of the unit sphere where its photograph from `direction` is brightest: the mean over
+/// the pixels that are nearly as bright as the brightest.
+glm::dvec3 brightest_normal(const Studio& studio_of_sphere, glm::dvec3 direction) {
+  const Camera camera = look_at(8.0 * direction, {0, 0, 0}, {0, 1, 0}, 0.28, 96, 96);
+  const Image8 image = studio_of_sphere.photograph(camera, 4);
+  int most = 0;
+  for (const auto& pixel : image.pixels)
+    if (pixel.a == 255) most = std::max(most, int(pixel.g));
+  glm::dvec3 sum(0);
+  const glm::dvec3 eye = camera.eye();
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      if (image.at(x, y).a < 255 || image.at(x, y).g < most - 12) continue;
+      const glm::dvec3 view((x + 0.5 - camera.cx) / camera.fx, (camera.cy - y - 0.5) / camera.fy,
+                            -1);
+      const glm::dvec3 d = glm::normalize(camera.world_from_view_rotation() * view);
+      const double b = glm::dot(eye, d), c = glm::dot(eye, eye) - 1;
+      sum += eye + (-b - std::sqrt(std::max(0.0, b * b - c))) * d;
+    }
+  return glm::normalize(sum);
+}
+
+TEST(Photograph, TheHighlightMovesWithTheEye) {
+  // A dark glazed sphere is brightest half way between the eye and the window.
+  const Studio dark(sphere({.albedo = glm::dvec3(0.02), .gloss = 0.6}), draft_light);
+  const glm::dvec3 window = glm::normalize(glm::dvec3(-0.62, 0.74, 0.36));
+  for (const glm::dvec3 seen_from :
+       {glm::dvec3(0, 0.3, 1), glm::dvec3(-1, 0.2, -0.2), glm::dvec3(0.3, 1, 0.3)}) {
+    const glm::dvec3 eye = glm::normalize(seen_from);
+    const glm::dvec3 found = brightest_normal(dark, eye);
+    // A pixel is 0.024 wide, and the sky behind the spot has a slope.
+    EXPECT_LT(glm::distance(found, glm::normalize(eye + window)), 0.05);
+  }
+}
+
+TEST(ExampleCameras, HoldTheWholeStillLifeFromEverySide) {
+  constexpr int size = 48;
+  const std::vector<Camera> cameras = example_cameras(24, size);
+  double lowest = 1, highest = -1;
+  glm::dvec3 mean(0);
+  for (const Camera& camera : cameras) {
+    const glm::dvec3 direction = glm::normalize(camera.eye());
+    lowest = std::min(lowest, direction.y);
+    highest = std::max(highest, direction.y);
+    mean += direction / double(cameras.size());
+    const Image8 image = studio().photograph(camera, 1);
+    int covered = 0, on_the_border = 0;
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x) {
+        if (image.at(x, y).a == 0) continue;
+        ++covered;
+        on_the_border += x == 0 || y == 0 || x == size - 1 || y == size - 1;
+      }
+    EXPECT_EQ(on_the_border, 0) << camera.name;
+    EXPECT_GT(covered, size * size / 6) << camera.name;
+  }
+  // The views to test on are none of those to train on, whatever the counts.
+  for (const int count : {4, 24})
+    for (const Camera& test : example_cameras(count, size, 0.5))
+      for (const Camera& camera : cameras)
+        EXPECT_GT(glm::distance(test.eye(), camera.eye()), 0.1) << test.name << ' ' << camera.name;
+  EXPECT_LT(lowest, 0.1);
+  EXPECT_GT(highest, 0.9);
+  EXPECT_LT(std::hypot(mean.x, mean.z), 0.1);  // no side is left out
+}
+
+TEST(Transforms, AreReadAsTheSameCamerasWithZUp) {
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) / "tureen_transforms";
+  std::filesystem::remove_all(folder);
+  for (const auto& [split, count] : {std::pair("train", 3), std::pair("test", 2)}) {
+    const std::vector<Camera> cameras = example_cameras(count, 8);
+    std::filesystem::create_directories(folder / split);
+    for (const Camera& camera : cameras) {
+      Output output(folder / split / (camera.name + ".png"));
+      output.write(encode_png(Image8(8, 8)));
+      output.commit();
+    }
+    write_transforms(folder, split, cameras);
+  }
+  const Dataset dataset = read_dataset(folder);
+  std::filesystem::remove_all(folder);
+  EXPECT_EQ(dataset.up, glm::vec3(0, 0, 1));
+  ASSERT_EQ(dataset.train.size(), 3u);
+  ASSERT_EQ(dataset.test.size(), 2u);
+  const std::vector<Camera> cameras = example_cameras(3, 8);
+  for (int i = 0; i < 3; ++i) {
+    const Camera &wanted = cameras[i], &read = dataset.train[i].camera;
+    // An angle and its tangent, in double.
+    EXPECT_NEAR(read.fx, wanted.fx, 1e-9);
+    EXPECT_NEAR(read.fy, wanted.fy, 1e-9);
+    EXPECT_EQ(read.cx, wanted.cx);
+    EXPECT_EQ(read.cy, wanted.cy);
+    for (const glm::dvec3 p :
+         {glm::dvec3(0), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)}) {
+      const glm::dvec4 before(p, 1), after(p.x, -p.z, p.y, 1);
+      EXPECT_LT(glm::distance(wanted.view_from_world * before, read.view_from_world * after), 1e-6);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tureen::example
