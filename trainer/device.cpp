@@ -1,0 +1,41 @@
+#include "trainer/device.hpp"
+
+#include "soup/error.hpp"
+#if defined(TUREEN_HAS_CUDA)
+#include "trainer/cuda/cuda_backend.hpp"
+#endif
+
+namespace tureen::trainer {
+
+#if defined(TUREEN_HAS_CUDA)
+
+bool has_cuda_backend() { return true; }
+
+#else
+
+bool has_cuda_backend() { return false; }
+
+namespace {
+
+std::unique_ptr<Backend> make_cuda_backend(std::span<const TrainingView>, const Config&) {
+  throw ContextError("this build has no CUDA backend (nvcc was not there): use --device cpu");
+}
+
+}  // namespace
+
+#endif
+
+std::unique_ptr<Backend> make_backend(std::span<const TrainingView> views, const Config& config,
+                                      Device device, int threads) {
+  if (device == Device::cuda) return make_cuda_backend(views, config);
+  if (device == Device::automatic && has_cuda_backend()) {
+    try {
+      return make_cuda_backend(views, config);
+    } catch (const ContextError&) {      // no GPU
+    } catch (const DeviceLimitError&) {  // too small a one
+    }
+  }
+  return make_cpu_backend(views, config, threads);
+}
+
+}  // namespace tureen::trainer
