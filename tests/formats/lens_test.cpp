@@ -104,10 +104,10 @@ void expect_the_scene(const Lens& lens) {
         ++count;
       }
     }
-  // Two roundings to a byte leave 0.25 to 0.35 of one on average. The cubic's own error here is
-  // some 0.5, and at the very edge, where it goes on as a constant, half a pixel's slope: the
-  // checks rise by 28 a pixel. Half a pixel off anywhere would make some 5 on average.
-  EXPECT_LT(sum / count, 0.5);
+  // Rounding twice to a byte, with a little of the cubic's own error, leaves 0.31 on average here;
+  // half a pixel off anywhere makes 2.1. At the very edge, where the photograph goes on as a
+  // constant, half a pixel of the checks' slope may be missing: they rise by 27 a pixel.
+  EXPECT_LT(sum / count, 0.4);
   EXPECT_LT(worst, 14);
 }
 
