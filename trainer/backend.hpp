@@ -38,6 +38,7 @@ struct StepReport {
 /// take_times(), and what there was to do.
 struct StageTimes {
   double visibility = 0, shading = 0, loss = 0, shading_backward = 0, faces = 0;
+  std::uint64_t fragments = 0;  // pixel centres that triangles cover, hidden or not
   std::uint64_t shaded_pixels = 0, pixels = 0, steps = 0;
 };
 
@@ -60,6 +61,10 @@ class Backend {
   virtual StepReport step(std::span<const std::uint32_t> views, const Rates& rates) = 0;
 
   virtual StageTimes take_times() = 0;
+
+  /// The error that each face showed in the steps since the last call or upload: the sum over its
+  /// pixels and their channels of |C - G|.
+  virtual std::vector<float> take_errors() = 0;
 
   /// How many pixels each face wins, threshold masking, all `cameras` together.
   virtual std::vector<std::uint64_t> visible_pixels(std::span<const Camera> cameras) = 0;

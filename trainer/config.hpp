@@ -42,17 +42,18 @@ struct Config {
   // --- Initialisation
   Initialisation initialisation = Initialisation::automatic;
   int initial_triangles = 15'000;  // published, random: 100,000
-  float initial_radius = 0.25f;    // circumradius in mean distances to the nearest neighbour
+  float initial_radius = 1.0f;     // circumradius in mean distances to the nearest neighbour;
+                                   // published: 0.25
   bool local_radius = false;  // of points: each by its own neighbour instead of the mean distance
   float box = 0.0f;  // half side of the box for random points in world units; 0: from the cameras
   float far_points = 0.0f;  // the fraction of random points that lies around the box, out to
   float far_extent = 8.0f;  // so many of its half sides
 
   // --- The texture
-  int coarse_level = 0;            // the one level until lift_step
-  int min_level = 2;               // levels min_level .. max_level afterwards
-  int max_level = 3;               // published: 5, which is for pictures of 800 pixels and more
-  float lift_at = 0.5f;            // fraction of the steps after which the levels are lifted
+  int coarse_level = 0;   // the one level until lift_step
+  int min_level = 2;      // levels min_level .. max_level afterwards
+  int max_level = 3;      // published: 5, which is for pictures of 800 pixels and more
+  float lift_at = 0.05f;  // published: 0.5; fraction of the steps after which the levels are lifted
   bool lift_keeps_opacity = true;  // published: false, opacity starts again at one half
 
   // --- The loss: l1_weight * mean |C - G| + ssim_weight * (1 - SSIM) / 2
@@ -65,7 +66,7 @@ struct Config {
   // --- Optimisation
   float texture_rate = 5e-2f;  // features and opacity
   float mlp_rate = 1e-2f;
-  float vertex_rate = 1e-3f;  // lengths of training, see above; published for photographs: 1e-2
+  float vertex_rate = 1e-2f;  // lengths of training, see above; published for objects: 1e-3
   float decay = 0.01f;        // rates fall to this fraction, exponentially
   float beta1 = 0.9f, beta2 = 0.999f, epsilon = 1e-8f;
   bool dense_updates = false;  // published: true. Also step what no picture of the batch touched
@@ -76,8 +77,11 @@ struct Config {
   int resample_every = 100;
   float resample_until = 0.95f;   // fraction of the steps; the last one only prunes
   bool resample_textures = true;  // published: false. Children copy the parent's texels
-  float split_fraction = 0.2f;    // of the picture's height: longer projected edges are split
-  int split_views = 20;           // at most so many views choose edges
+  float turnover = 0.05f;       // published: 0. Fraction of the faces, those of fewest pixels, that
+                                // makes room for others at each resampling
+  bool split_by_error = true;   // published: false. Splits what errs most, not what is longest
+  float split_fraction = 0.2f;  // of the picture's height: longer projected edges are split
+  int split_views = 20;         // at most so many views choose edges
 
   // --- The picture
   float near = 0.01f;

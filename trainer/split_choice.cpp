@@ -17,11 +17,11 @@ namespace {
 constexpr double least_cut = 0x1p-10;
 
 struct Candidate {
-  double length;
+  double priority;  // a length, or an error
   Split split;
 
   bool operator<(const Candidate& other) const {  // a queue's top is its greatest
-    return length != other.length ? length < other.length : split.face > other.split.face;
+    return priority != other.priority ? priority < other.priority : split.face > other.split.face;
   }
 };
 
@@ -36,6 +36,18 @@ struct Faces {
   }
 
   std::size_t count() const { return origin.size(); }
+
+  /// In the world, cut in its middle.
+  Candidate longest_edge(std::uint32_t face) const {
+    const glm::vec3* corner = &positions[3 * std::size_t(face)];
+    Candidate best{-1, {face, 0, 0.5f}};
+    for (int edge = 0; edge < 3; ++edge) {
+      const double length =
+          glm::distance(glm::dvec3(corner[edge]), glm::dvec3(corner[(edge + 1) % 3]));
+      if (length > best.priority) best = {length, {face, edge, 0.5f}};
+    }
+    return best;
+  }
 
   void cut(const Split& split) {
     cut_face(positions, split);
@@ -127,18 +139,29 @@ class Projection {
 
 std::vector<Split> longest_edges(const Model& model, std::size_t budget) {
   Faces faces(model);
-  const auto longest = [&](std::uint32_t face) -> std::optional<Candidate> {
-    const glm::vec3* corner = &faces.positions[3 * std::size_t(face)];
-    Candidate best{-1, {face, 0, 0.5f}};
-    for (int edge = 0; edge < 3; ++edge) {
-      const double length =
-          glm::distance(glm::dvec3(corner[edge]), glm::dvec3(corner[(edge + 1) % 3]));
-      if (length > best.length) best = {length, {face, edge, 0.5f}};
-    }
-    return best;
-  };
   split_longest(
-      faces, budget, [](std::size_t) { return true; }, longest);
+      faces, budget, [](std::size_t) { return true; },
+      [&](std::uint32_t face) { return faces.longest_edge(face); });
+  return std::move(faces.splits);
+}
+
+std::vector<Split> greatest_errors(const Model& model, std::span<const float> errors,
+                                   std::size_t budget) {
+  assert(errors.size() == model.faces());
+  Faces faces(model);
+  std::vector<double> error(errors.begin(), errors.end());
+  split_longest(
+      faces, budget, [](std::size_t) { return true; },
+      [&](std::uint32_t face) {
+        // Asked for again after a cut: for the half in its place, then for the one at the end.
+        if (face == error.size())
+          error.push_back(error[faces.splits.back().face]);
+        else if (!faces.splits.empty() && faces.splits.back().face == face)
+          error[face] *= 0.5;
+        Candidate candidate = faces.longest_edge(face);
+        candidate.priority = error[face];
+        return std::optional(candidate);
+      });
   return std::move(faces.splits);
 }
 
@@ -156,7 +179,7 @@ std::vector<Split> longest_projected_edges(const Model& model, std::span<const S
       for (int edge = 0; edge < 3; ++edge) {
         const auto part = project.visible(p[edge], p[(edge + 1) % 3]);
         if (part && part->length > rule.fraction * view.camera.height &&
-            (!best || part->length > best->length))
+            (!best || part->length > best->priority))
           best = Candidate{part->length, {face, edge, float(part->t)}};
       }
       return best;

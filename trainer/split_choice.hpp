@@ -17,6 +17,12 @@ namespace tureen::trainer {
 /// there is no face at all.
 std::vector<Split> longest_edges(const Model& model, std::size_t budget);
 
+/// Bisects the face of the greatest error, again and again, at its longest edge, until there are
+/// `budget` faces; each child has half of its parent's error. `errors` has one number a face.
+/// Triangles go where the picture needs them, which a length alone does not tell.
+std::vector<Split> greatest_errors(const Model& model, std::span<const float> errors,
+                                   std::size_t budget);
+
 /// One view that chooses edges.
 struct SplitView {
   Camera camera;

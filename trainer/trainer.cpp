@@ -121,7 +121,13 @@ void Trainer::lift() {
 
 void Trainer::resample() {
   TrainingState state = this->state();
+  const std::vector<float> errors = backend_->take_errors();
+  std::vector<std::uint32_t> origin(state.model.faces());
+  std::iota(origin.begin(), origin.end(), 0u);
   const auto apply = [&](Resampled&& resampled) {
+    std::vector<std::uint32_t> from;
+    for (const std::uint32_t face : resampled.origin) from.push_back(origin[face]);
+    origin = std::move(from);
     state.moments = carried(state.moments, resampled);
     state.model = std::move(resampled.model);
   };
@@ -129,14 +135,25 @@ void Trainer::resample() {
   std::vector<Camera> cameras;
   for (const TrainingView& view : views_) cameras.push_back(half_size(view.camera));
   std::vector<std::uint64_t> pixels = backend_->visible_pixels(cameras);
+  // Where nothing is seen (yet), there is nothing to go by.
+  if (std::all_of(pixels.begin(), pixels.end(), [](std::uint64_t count) { return count == 0; }))
+    return;
   apply(prune_unseen(state.model, pixels));
   last_resample_ = {.unseen = before - state.model.faces()};
-  if (state.model.faces() > budget) {
+  // What is hardly seen makes room, but not when it is too late for others to learn.
+  const bool renews = step_ < 0.75 * config_.steps;
+  const std::size_t kept =
+      budget - (renews ? std::size_t(double(config_.turnover) * double(budget)) : 0);
+  if (state.model.faces() > kept) {
     std::erase(pixels, 0u);  // in the order of the faces that are left
-    last_resample_.pruned = state.model.faces() - budget;
-    apply(prune(state.model, pixels, budget));
+    last_resample_.pruned = state.model.faces() - kept;
+    apply(prune(state.model, pixels, kept));
   }
-  const std::vector<Split> splits = choose_splits(state, cameras);
+  std::vector<float> ordered;
+  for (const std::uint32_t face : origin) ordered.push_back(errors[face]);
+  const std::vector<Split> splits = config_.split_by_error
+                                        ? greatest_errors(state.model, ordered, budget)
+                                        : choose_splits(state, cameras);
   last_resample_.split = splits.size();
   if (!splits.empty())
     apply(split(state.model, splits,

@@ -53,6 +53,9 @@ class CpuBackend final : public Backend {
   void upload(const TrainingState& state) override;
   void download(TrainingState& state) const override { state = state_; }
   StepReport step(std::span<const std::uint32_t> views, const Rates& rates) override;
+  std::vector<float> take_errors() override {
+    return std::exchange(errors_, std::vector<float>(state_.model.faces()));
+  }
   StageTimes take_times() override { return std::exchange(times_, {}); }
   std::vector<std::uint64_t> visible_pixels(std::span<const Camera> cameras) override;
   std::vector<float> render(const Camera& camera) override;
@@ -84,6 +87,7 @@ class CpuBackend final : public Backend {
   std::vector<std::size_t> first_pixel_;  // of each view in the baseline
   std::vector<MlpParameters> mlp_gradients_;
   ImageLossScratch<float> loss_scratch_;
+  std::vector<float> errors_;  // one a face
   StageTimes times_;
 };
 
@@ -106,6 +110,7 @@ void CpuBackend::upload(const TrainingState& state) {
   state_ = state;
   if (config_.baseline) state_.baseline.resize(first_pixel_.back());
   const Model& model = state_.model;
+  errors_.assign(model.faces(), 0.0f);
   pyramid_ = std::make_unique<Pyramid>(model.min_level, model.max_level);
   store_.values.resize(model.faces() * pyramid_->fine_texels() * channels);
   store_.alpha.resize(model.faces() * pyramid_->fine_texels());
@@ -129,17 +134,18 @@ void CpuBackend::prepare(Picture& picture, const Camera& camera) const {
 void CpuBackend::find_visible_faces(std::span<Picture> pictures, Masking masking) {
   const Stopwatch stopwatch(times_.visibility);
   const Model& model = state_.model;
-  pool_.run(pictures.size(), [&](std::size_t i) {
-    bin_faces(pictures[i], &model.positions.data()->x, model.faces());
-  });
+  pool_.run(pictures.size(), [&](std::size_t i) { bin_faces(pictures[i], model); });
   const std::vector<Band> tasks = bands(pictures);
+  std::vector<std::uint64_t> fragments(tasks.size());
   pool_.run(tasks.size(), [&](std::size_t task) {
     const Band& band = tasks[task];
     Picture& picture = pictures[band.picture];
     for (int x = 0; x < picture.tiles_x; ++x)
-      find_visible(picture, std::size_t(band.y0 / tile_side) * picture.tiles_x + x,
-                   store_.alpha.data(), model.max_level, masking);
+      fragments[task] +=
+          find_visible(picture, std::size_t(band.y0 / tile_side) * picture.tiles_x + x,
+                       store_.alpha.data(), model.max_level, masking);
   });
+  for (const std::uint64_t count : fragments) times_.fragments += count;
 }
 
 void CpuBackend::shade(std::span<Picture> pictures) {
@@ -179,7 +185,10 @@ StepReport CpuBackend::step(std::span<const std::uint32_t> views, const Rates& r
 void CpuBackend::shade_backward(std::span<const std::uint32_t> views, StepReport& report) {
   const Stopwatch stopwatch(times_.shading_backward);
   const std::vector<Band> tasks = bands(pictures_);
-  const ShadingInput input = shading_input();
+  ShadingInput input = shading_input();
+  // Gradients are means over the batch: scaled to a pixel's own they suit the range of a half.
+  if (config_.gradient_precision == GradientPrecision::float16)
+    input.half_scale = 3.0f * float(pictures_[0].pixels()) * float(pictures_.size());
   mlp_gradients_.resize(tasks.size());
   std::vector<BandReport> reports(tasks.size());
   pool_.run(tasks.size(), [&](std::size_t task) {
@@ -204,6 +213,7 @@ void CpuBackend::step_faces(const Rates& rates, StepReport& report) {
                            .model = &state_.model,
                            .moments = &state_.moments,
                            .store = &store_,
+                           .errors = &errors_,
                            .texture_rate = rates.texture,
                            .vertex_rate = rates.vertex,
                            .beta1 = config_.beta1,
@@ -265,6 +275,7 @@ CpuBackend::BandReport CpuBackend::take_advantage(Picture& picture, std::uint32_
       if (std::isfinite(d)) report.squared += d * d;
     }
     float loss = picture.loss[p];
+    picture.gradient[p].error = loss;
     if (config_.baseline) {
       std::uint16_t& stored = state_.baseline[first_pixel_[view_index] + p];
       const float root = float(stored) / 65535;

@@ -16,6 +16,7 @@ namespace {
 /// A face's gradient from one picture, added up.
 struct Gathered {
   float corners[3][3] = {};  // by the positions, world axes
+  float error = 0;
   bool touched = false;
 };
 
@@ -78,6 +79,7 @@ struct Gathered {
               picture.loss[pixel] *
               kernels::logit_score(role, a, at.weights[j], alpha[at.texels[j]]);
         if (!won) return;
+        out.error += picture.gradient[pixel].error;
         const kernels::TexelPack by_features =
             kernels::load_texel(picture.gradient[pixel].features);
         for (int j = 0; j < 3; ++j) {
@@ -153,6 +155,7 @@ TUREEN_VECTOR_CLONES TUREEN_FLATTEN unsigned step_face(const FaceStep& step, std
     if (!picture.projected[face].empty()) gather_picture(step, picture, face, scratch, gathered);
   if (!gathered.touched && !step.dense_updates) return 0;
 
+  (*step.errors)[face] += gathered.error;
   Moments& moments = *step.moments;
   const double t = ++moments.steps[face];
   const std::size_t fine = pyramid.fine_texels(), count = pyramid.texels() * std::size_t(channels);

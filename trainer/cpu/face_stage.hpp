@@ -20,6 +20,7 @@ struct FaceStep {
   Model* model;
   Moments* moments;
   TextureStore* store;
+  std::vector<float>* errors;  // one a face, added to
   float texture_rate, vertex_rate;
   float beta1, beta2, epsilon;
   float slide;         // scale of the texture slide, kernels/edge_gradient.hpp

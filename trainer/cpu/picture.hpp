@@ -27,6 +27,7 @@ struct alignas(64) PixelGradient {
   float features[channels];  // dL/dfeature 0..6, and 0
   float color[3];
   float by_color[3];  // dL/dcolour
+  float error;        // sum over channels of |C - G|
 };
 
 struct Picture {

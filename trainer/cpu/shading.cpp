@@ -131,6 +131,9 @@ TUREEN_VECTOR_CLONES TUREEN_FLATTEN void shade_rows_backward(Picture& picture,
         for (int l = 0; l < batch.count; ++l) {
           float* out = picture.gradient[batch.pixel[l]].features;
           for (int f = 0; f < kernels::features; ++f) out[f] = dfeatures[f][l];
+          if (input.half_scale != 0)
+            for (int f = 0; f < kernels::features; ++f)
+              out[f] = kernels::rounded_to_half(out[f] * input.half_scale) / input.half_scale;
           out[alpha_channel] = 0;
         }
       });

@@ -12,6 +12,8 @@ struct ShadingInput {
   int level;
   const MlpParameters* mlp;
   const float* background;  // 3
+  /// Not 0: gradients of features are rounded to half precision, times this.
+  float half_scale = 0;
 };
 
 /// Rows [y0, y1) of picture.color.

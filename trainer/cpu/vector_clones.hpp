@@ -30,8 +30,8 @@
 #endif
 #endif
 
-/// Beside TUREEN_VECTOR_CLONES: everything that the function calls is inlined into each clone, where
-/// the callees are not ours to mark.
+/// Beside TUREEN_VECTOR_CLONES: everything that the function calls is inlined into each clone,
+/// where the callees are not ours to mark.
 #if defined(__GNUC__) && defined(__OPTIMIZE__)
 #define TUREEN_FLATTEN __attribute__((flatten))
 #else

@@ -21,11 +21,12 @@ void for_each_tile(const Picture& picture, const kernels::ProjectedFace& face, V
 
 }  // namespace
 
-void bin_faces(Picture& picture, const float* positions, std::size_t faces) {
+void bin_faces(Picture& picture, const Model& model) {
+  const std::size_t faces = model.faces();
   picture.projected.resize(faces);
   picture.bin_begin.assign(std::size_t(picture.tiles_x) * picture.tiles_y + 1, 0);
   for (std::size_t face = 0; face < faces; ++face) {
-    picture.projected[face] = kernels::project(picture.view, positions + 9 * face);
+    picture.projected[face] = kernels::project(picture.view, &model.positions[3 * face].x);
     for_each_tile(picture, picture.projected[face],
                   [&](std::size_t tile) { ++picture.bin_begin[tile + 1]; });
   }
@@ -38,14 +39,15 @@ void bin_faces(Picture& picture, const float* positions, std::size_t faces) {
                   [&](std::size_t tile) { picture.bins[next[tile]++] = std::uint32_t(face); });
 }
 
-TUREEN_VECTOR_CLONES TUREEN_FLATTEN void find_visible(Picture& picture, std::size_t tile,
-                                                      const float* alpha, int level,
-                                                      Masking masking) {
+TUREEN_VECTOR_CLONES TUREEN_FLATTEN std::uint64_t find_visible(Picture& picture, std::size_t tile,
+                                                               const float* alpha, int level,
+                                                               Masking masking) {
   const kernels::Rectangle within = picture.tile(tile);
   const std::size_t width = std::size_t(picture.view.width);
   for (int y = within.y0; y < within.y1; ++y)
     std::fill_n(picture.visible.begin() + std::ptrdiff_t(std::size_t(y) * width) + within.x0,
                 within.x1 - within.x0, VisiblePixel{});
+  std::uint64_t fragments = 0;
   const std::size_t texels = lattice::texel_count(level);
   for (std::uint32_t i = picture.bin_begin[tile]; i < picture.bin_begin[tile + 1]; ++i) {
     const std::uint32_t face = picture.bins[i];
@@ -53,6 +55,7 @@ TUREEN_VECTOR_CLONES TUREEN_FLATTEN void find_visible(Picture& picture, std::siz
     kernels::for_each_fragment(
         picture.view, picture.projected[face],
         within, [&](const kernels::Fragment& fragment) __attribute__((always_inline)) {
+          ++fragments;
           const std::size_t pixel = std::size_t(fragment.y) * width + std::size_t(fragment.x);
           VisiblePixel& visible = picture.visible[pixel];
           if (fragment.inverse_depth <= visible.inverse_depth) return;
@@ -67,6 +70,7 @@ TUREEN_VECTOR_CLONES TUREEN_FLATTEN void find_visible(Picture& picture, std::siz
           visible = {face, fragment.inverse_depth, fragment.b0, fragment.b1};
         });
   }
+  return fragments;
 }
 
 }  // namespace tureen::trainer

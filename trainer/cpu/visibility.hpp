@@ -7,11 +7,12 @@
 
 namespace tureen::trainer {
 
-/// Projects all faces and sorts them into tiles. `positions` are nine floats a face.
-void bin_faces(Picture& picture, const float* positions, std::size_t faces);
+/// Projects all faces and sorts them into tiles.
+void bin_faces(Picture& picture, const Model& model);
 
-/// Fills winner, b0, b1 and inverse_depth of one tile. Of equal depths the lower face wins.
-void find_visible(Picture& picture, std::size_t tile, const float* alpha, int level,
-                  Masking masking);
+/// Fills picture.visible of one tile. Of equal depths the lower face wins. Returns how many
+/// fragments there were.
+std::uint64_t find_visible(Picture& picture, std::size_t tile, const float* alpha, int level,
+                           Masking masking);
 
 }  // namespace tureen::trainer

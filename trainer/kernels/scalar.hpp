@@ -64,6 +64,15 @@ TUREEN_HOST_DEVICE Pack exponential(const Pack& value) {
 
 #endif
 
+/// The nearest number of half precision (11 significant bits, up to 65504; what is smaller than a
+/// normal one becomes 0).
+TUREEN_HOST_DEVICE float rounded_to_half(float x) {
+  if (!(std::fabs(x) >= 0x1p-14f)) return x != x ? x : 0.0f;
+  if (std::fabs(x) > 65504.0f) return x > 0 ? 65504.0f : -65504.0f;
+  const float c = x * 8193.0f;  // 2^13 + 1: Dekker's splitting keeps the upper 24 - 13 bits
+  return c - (c - x);
+}
+
 /// 1 / (1 + e^-x); saturates without overflow on both sides.
 template <class Real>
 TUREEN_HOST_DEVICE Real sigmoid(const Real& x) {

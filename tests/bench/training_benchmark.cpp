@@ -1,0 +1,124 @@
+// What a training step costs on the processor, stage by stage, and what a second thread gains.
+// Runs with one thread and with all are interleaved step by step, so that whatever else the machine
+// does hits them alike: only the ratios mean anything on another machine.
+//
+//   training_benchmark [WIDTH] [HEIGHT] [STEPS] [LEVEL]
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include "support/cutout_cloud.hpp"
+#include "trainer/backend.hpp"
+#include "trainer/model.hpp"
+#include "trainer/trainer.hpp"
+
+namespace tureen::test {
+namespace {
+
+using trainer::Backend;
+using trainer::StageTimes;
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+/// The times of single steps.
+struct Contender {
+  std::unique_ptr<Backend> backend;
+  std::vector<StageTimes> steps;
+
+  double ms(double StageTimes::*stage) const {
+    std::vector<double> values;
+    for (const StageTimes& times : steps) values.push_back(times.*stage * 1e3);
+    return median(values);
+  }
+};
+
+struct Stage {
+  const char* name;
+  double StageTimes::*seconds;
+  std::uint64_t StageTimes::*work;  // what its time is divided by
+  const char* unit;
+};
+
+constexpr Stage stages[] = {
+    {"visibility", &StageTimes::visibility, &StageTimes::fragments, "fragment"},
+    {"shading", &StageTimes::shading, &StageTimes::shaded_pixels, "shaded pixel"},
+    {"loss", &StageTimes::loss, &StageTimes::pixels, "pixel"},
+    {"backward", &StageTimes::shading_backward, &StageTimes::shaded_pixels, "shaded pixel"},
+    {"faces", &StageTimes::faces, &StageTimes::fragments, "fragment"},
+};
+
+/// Pictures of another cloud: there is always something to learn.
+std::vector<trainer::TrainingView> pictures(const Scene& scene, const trainer::Config& config) {
+  trainer::TrainingState state;
+  state.model = trainer::from_scene(scene, {});
+  state.moments.reset_faces(state.model);
+  const auto backend = trainer::make_cpu_backend({}, config, 0);
+  backend->upload(state);
+  std::vector<trainer::TrainingView> views;
+  for (const Camera& camera : scene.cameras) {
+    trainer::TrainingView& view = views.emplace_back();
+    view.camera = camera;
+    for (const float value : backend->render(camera))
+      view.target.push_back(std::uint8_t(std::clamp(value, 0.0f, 1.0f) * 255 + 0.5f));
+  }
+  return views;
+}
+
+int run(int width, int height, int steps, int level) {
+  const Scene learned = cutout_cloud({.width = width, .height = height});
+  const Scene shown = cutout_cloud({.seed = 2, .width = width, .height = height});
+  trainer::Config config = trainer::preset(trainer::Preset::object);
+  config.background[0] = config.background[1] = config.background[2] = 0;
+  const std::vector<trainer::TrainingView> views = pictures(shown, config);
+  trainer::TrainingState state;
+  state.model = trainer::lifted(trainer::from_scene(learned, {}), std::min(2, level), level,
+                                trainer::LiftedOpacity::kept);
+  state.moments.reset_faces(state.model);
+
+  Contender contenders[2] = {{trainer::make_cpu_backend(views, config, 1), {}},
+                             {trainer::make_cpu_backend(views, config, 0), {}}};
+  for (Contender& contender : contenders) contender.backend->upload(state);
+  // Rates of 0: every step does the same work on the same soup. The first three fill caches.
+  for (int step = 1; step <= steps + 3; ++step)
+    for (Contender& contender : contenders) {
+      contender.backend->step(trainer::batch_of(step, 4, views.size(), 0),
+                              {.texture = 0, .mlp = 0, .vertex = 0});
+      const StageTimes times = contender.backend->take_times();
+      if (step > 3) contender.steps.push_back(times);
+    }
+
+  const StageTimes& last = contenders[0].steps.back();
+  std::printf("%zu triangles, level %d, 4 pictures of %d x %d, %d steps\n", state.model.faces(),
+              level, width, height, steps);
+  std::printf("%.1f fragments and %.2f shaded pixels for each of %llu pixels\n\n",
+              double(last.fragments) / double(last.pixels),
+              double(last.shaded_pixels) / double(last.pixels),
+              static_cast<unsigned long long>(last.pixels));
+  std::printf("%-12s %28s   %s\n", "", "1 thread", contenders[1].backend->description().c_str());
+  double sums[2] = {};
+  for (const Stage& stage : stages) {
+    const double one = contenders[0].ms(stage.seconds), all = contenders[1].ms(stage.seconds);
+    sums[0] += one;
+    sums[1] += all;
+    std::printf("%-12s %7.2f ms %6.1f ns a %-13s %7.2f ms   %.2f times as fast\n", stage.name, one,
+                one * 1e6 / double(last.*stage.work), stage.unit, all, one / all);
+  }
+  std::printf("%-12s %7.2f ms %32.2f ms   %.2f times as fast\n", "all", sums[0], sums[1],
+              sums[0] / sums[1]);
+  return 0;
+}
+
+}  // namespace
+}  // namespace tureen::test
+
+int main(int argc, char** argv) {
+  const auto number = [&](int index, int otherwise) {
+    return argc > index ? std::max(1, std::atoi(argv[index])) : otherwise;
+  };
+  return tureen::test::run(number(1, 400), number(2, 400), number(3, 20), number(4, 3));
+}
