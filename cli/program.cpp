@@ -109,6 +109,7 @@ bad, 4 no OpenGL context, 5 anything else.)");
 
   Action action;
   add_render(program, action);
+  add_train(program, action);
   add_info(program, action);
   add_convert(program, action);
   add_compare(program, action);

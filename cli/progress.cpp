@@ -17,16 +17,15 @@ namespace tureen::cli {
 
 namespace {
 
-// Work shorter than this shows nothing; bars are redrawn ten times a second; logs get a line
-// every five seconds, which neither fills them nor leaves anybody in doubt.
-constexpr double quiet_seconds = 0.5, bar_seconds = 0.1, line_seconds = 5;
+// Work shorter than this shows nothing; bars are redrawn ten times a second.
+constexpr double quiet_seconds = 0.5, bar_seconds = 0.1;
 
 int percent(double fraction) { return int(std::clamp(fraction, 0.0, 1.0) * 100); }
 
 }  // namespace
 
 Progress::Output Progress::standard_error() {
-  return {stderr, isatty(fileno(stderr)) != 0, [] {
+  return {.stream = stderr, .terminal = isatty(fileno(stderr)) != 0, .seconds = [] {
             const auto now = std::chrono::steady_clock::now().time_since_epoch();
             return std::chrono::duration<double>(now).count();
           }};
@@ -39,26 +38,30 @@ Progress::~Progress() {
   if (shown_ && output_.terminal) std::fputs("\r\033[K", output_.stream);
 }
 
-void Progress::update(double fraction) {
+void Progress::update(double fraction, const std::string& detail) {
   throw_if_interrupted();
   const double now = output_.seconds();
-  const double pause = output_.terminal ? (shown_ ? bar_seconds : quiet_seconds) : line_seconds;
+  const double pause =
+      output_.terminal ? (shown_ ? bar_seconds : quiet_seconds) : output_.line_seconds;
   if (now - (shown_ ? last_ : start_) < pause) return;
   last_ = now;
   shown_ = true;
   if (output_.terminal)
-    draw_bar(fraction);
+    draw_bar(fraction, detail);
   else
-    std::fprintf(output_.stream, "%s: %d %%\n", task_.c_str(), percent(fraction));
+    std::fprintf(output_.stream, "%s: %d %%%s%s\n", task_.c_str(), percent(fraction),
+                 detail.empty() ? "" : ", ", detail.c_str());
   std::fflush(output_.stream);
 }
 
-void Progress::draw_bar(double fraction) {
-  constexpr int width = 30;
+void Progress::draw_bar(double fraction, const std::string& detail) {
+  // With words beside it the bar is shorter, so that both fit 80 columns.
+  const int width = detail.empty() ? 30 : 10;
   const int full = percent(fraction) * width / 100;
-  std::fprintf(output_.stream, "\r%s [%s%s] %d %%\033[K", task_.c_str(),
+  const std::string text = detail.empty() ? std::to_string(percent(fraction)) + " %" : detail;
+  std::fprintf(output_.stream, "\r%s [%s%s] %s\033[K", task_.c_str(),
                std::string(std::size_t(full), '#').c_str(),
-               std::string(std::size_t(width - full), '.').c_str(), percent(fraction));
+               std::string(std::size_t(width - full), '.').c_str(), text.c_str());
 }
 
 }  // namespace tureen::cli

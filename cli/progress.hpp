@@ -15,6 +15,7 @@ class Progress {
     std::FILE* stream = stderr;
     bool terminal = false;
     std::function<double()> seconds;  // a clock that never goes back
+    double line_seconds = 5;          // between plain lines: few fill a log, and leave no doubt
   };
   /// Standard error and the steady clock.
   static Output standard_error();
@@ -26,11 +27,12 @@ class Progress {
   /// Wipes the bar.
   ~Progress();
 
-  /// Fraction done, 0..1. Cheap enough to call often. Throws Interrupted after Ctrl-C.
-  void update(double fraction);
+  /// Fraction done, 0..1, and what else there is to say. Cheap enough to call often. Throws
+  /// Interrupted after Ctrl-C.
+  void update(double fraction, const std::string& detail = {});
 
  private:
-  void draw_bar(double fraction);
+  void draw_bar(double fraction, const std::string& detail);
 
   std::string task_;
   Output output_;

@@ -9,6 +9,17 @@
 
 namespace tureen::cli {
 
+namespace {
+
+/// `indent` -1 writes no line's end but the last.
+void print(const Json& document, int indent) {
+  const std::string text = document.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+    throw OutputError({}, "standard output cannot be written");
+}
+
+}  // namespace
+
 void say(const std::string& line) {
   std::string safe = line;
   for (char& c : safe)
@@ -22,11 +33,9 @@ void say_list(const std::string& heading, const std::vector<std::string>& lines)
   for (const std::string& line : lines) say("  " + line);
 }
 
-void print_json(const Json& document) {
-  const std::string text = document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-    throw OutputError({}, "standard output cannot be written");
-}
+void print_json(const Json& document) { print(document, 2); }
+
+void print_json_line(const Json& document) { print(document, -1); }
 
 std::string counted(std::uint64_t number) {
   std::string text = std::to_string(number);

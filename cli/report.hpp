@@ -21,6 +21,9 @@ void say_list(const std::string& heading, const std::vector<std::string>& lines)
 /// The document and a line's end. Text that is not UTF-8 has U+FFFD where it breaks.
 void print_json(const Json& document);
 
+/// The same in one line, for programs that read output line by line.
+void print_json_line(const Json& document);
+
 /// "33,417".
 std::string counted(std::uint64_t number);
 

@@ -1,0 +1,92 @@
+#include "cli/config_options.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/choice.hpp"
+#include "soup/error.hpp"
+#include "trainer/config_fields.hpp"
+#include "trainer/config_file.hpp"
+
+namespace tureen::cli {
+
+using trainer::Config;
+using trainer::Initialisation;
+using trainer::Preset;
+
+namespace {
+
+template <class T>
+CLI::Option* add_number(CLI::App& command, const std::string& name, std::optional<T>& value,
+                        const std::string& help) {
+  return command.add_option(name, value, help)->option_text("N");
+}
+
+}  // namespace
+
+std::string ConfigOptions::mesh() const {
+  return begin == "random" || begin == "points" ? std::string() : begin;
+}
+
+void add_config_options(CLI::App& command, ConfigOptions& options) {
+  add_choice<std::optional<Preset>>(
+      command, "--preset", options.preset, {{"object", Preset::object}, {"scene", Preset::scene}},
+      "constants for pictures of one thing, or of a place; by default object where the pictures "
+      "have alpha, else scene")
+      ->option_text("NAME");
+  command
+      .add_option("--config", options.file,
+                  "a JSON file with any of the constants of docs/training-constants.md")
+      ->option_text("FILE");
+  command.add_flag("--compat", options.published, "DiffSoup's published choices where ours differ");
+  add_number(command, "--triangles", options.triangles, "so many in the end; 15,000 by default");
+  add_number(command, "--steps", options.steps, "steps of the optimiser; 10,000 by default");
+  add_number(command, "--batch", options.batch, "views a step; 4 by default");
+  add_number(command, "--seed", options.seed, "of every random number; 0 by default");
+  add_number(command, "--level", options.level,
+             "the finest level of the textures: a face has (2^N + 1)(2^N + 2) / 2 texels");
+  command
+      .add_option("--init", options.begin,
+                  "where triangles begin: random, points (of structure from motion), or a scene "
+                  "whose triangles are trained further; by default points where there are some")
+      ->option_text("WHERE");
+}
+
+Config base_config(const ConfigOptions& options, Preset otherwise) {
+  const Preset kind = options.preset.value_or(otherwise);
+  if (options.file.empty())
+    return options.published ? trainer::published(kind) : trainer::preset(kind);
+  const Config config = trainer::read_config(std::filesystem::path(options.file),
+                                             {.preset = kind, .published = options.published});
+  if (options.preset && config.preset != kind)
+    throw UsageError("--preset and " + options.file + " name different presets");
+  return config;
+}
+
+Config with_options(const Config& base, const ConfigOptions& options) {
+  Config config = base;
+  if (options.triangles) {
+    const double ratio = double(*options.triangles) / config.triangles;
+    config.initial_triangles =
+        int(std::clamp(std::round(config.initial_triangles * ratio), 1.0, 4e6));
+    config.triangles = *options.triangles;
+  }
+  config.steps = options.steps.value_or(config.steps);
+  config.batch = options.batch.value_or(config.batch);
+  config.seed = options.seed.value_or(config.seed);
+  if (options.level) {
+    config.max_level = *options.level;
+    config.min_level = std::min(config.min_level, config.max_level);
+    config.coarse_level = std::min(config.coarse_level, config.min_level);
+  }
+  if (options.begin == "random")
+    config.initialisation = Initialisation::random;
+  else if (options.begin == "points")
+    config.initialisation = Initialisation::points;
+  else if (!options.begin.empty())
+    config.initialisation = Initialisation::mesh;
+  if (const std::optional<std::string> reason = trainer::defect(config)) throw UsageError(*reason);
+  return config;
+}
+
+}  // namespace tureen::cli

@@ -1,0 +1,370 @@
+// `tureen train`: photographs to a soup.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "cli/choice.hpp"
+#include "cli/commands.hpp"
+#include "cli/config_options.hpp"
+#include "cli/dataset_argument.hpp"
+#include "cli/evaluation.hpp"
+#include "cli/held_out.hpp"
+#include "cli/progress.hpp"
+#include "cli/report.hpp"
+#include "cli/scene_argument.hpp"
+#include "cli/training_plot.hpp"
+#include "cli/training_session.hpp"
+#include "formats/output.hpp"
+#include "formats/scene_file.hpp"
+#include "soup/error.hpp"
+#include "soup/lattice_bytes.hpp"
+#include "trainer/config_file.hpp"
+#include "trainer/device.hpp"
+#include "trainer/initialise.hpp"
+#include "trainer/training_views.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using trainer::Checkpoint;
+using trainer::Config;
+using trainer::Device;
+using trainer::Preset;
+
+struct Options {
+  DatasetArgument dataset;
+  ConfigOptions config;
+  std::string output;
+  std::string log;              // empty: beside the output
+  std::string diffsoup_export;  // empty: none
+  Device device = Device::automatic;
+  int threads = 0;
+  std::optional<int> checkpoint_every;
+  int preview_every = 0;
+  bool resume = false;
+  bool print_config = false;
+  bool json = false;
+};
+
+TrainingFiles files_of(const Options& options) {
+  if (options.output.empty()) throw UsageError("-o OUT.glb is required");
+  TrainingFiles files = training_files(options.output);
+  if (!options.log.empty()) files.log = options.log;
+  files.diffsoup_export = options.diffsoup_export;
+  return files;
+}
+
+Preset preset_for(const Dataset& dataset) {
+  return dataset.has_alpha ? Preset::object : Preset::scene;
+}
+
+/// The constants of this run. One that goes on has those of its checkpoint, and what the command
+/// line names must be the same.
+Config config_of(const Options& options, Preset otherwise, const Checkpoint* checkpoint) {
+  const bool is_new = !checkpoint || options.config.name_a_base();
+  const Config base = is_new ? base_config(options.config, otherwise) : checkpoint->config;
+  const Config config = with_options(base, options.config);
+  if (checkpoint)
+    if (const auto reason = difference(config, checkpoint->config))
+      throw UsageError("--resume cannot go on with another configuration: " + *reason);
+  if (config.initialisation == trainer::Initialisation::mesh && !checkpoint &&
+      options.config.mesh().empty())
+    throw UsageError("initialisation \"mesh\" needs the scene: --init FILE");
+  return config;
+}
+
+void check_pictures(const Options& options, const Dataset& dataset) {
+  constexpr int window = 11;  // of the SSIM
+  for (const auto* views : {&dataset.train, &dataset.test})
+    for (const Photograph& view : *views)
+      if (view.camera.width < window || view.camera.height < window)
+        throw InputError(
+            {options.dataset.path, {}, {}},
+            fmt::format("{} is {} x {} pixels; there must be {} each way to train on",
+                        view.camera.name, view.camera.width, view.camera.height, window));
+}
+
+trainer::TrainingState first_state(const Options& options, const Dataset& dataset,
+                                   const Config& config) {
+  std::optional<Scene> mesh;
+  if (config.initialisation == trainer::Initialisation::mesh)
+    mesh = read(SceneArgument{.path = options.config.mesh(), .vertex_colors = {}, .up = {}});
+  trainer::TrainingState state;
+  state.model = trainer::initial_model(dataset, config, mesh ? &*mesh : nullptr);
+  state.moments.reset_faces(state.model);
+  return state;
+}
+
+std::vector<Camera> cameras_of(const std::vector<Photograph>& photographs) {
+  std::vector<Camera> cameras;
+  for (const Photograph& photograph : photographs) cameras.push_back(photograph.camera);
+  return cameras;
+}
+
+/// Of all texels, those whose alpha is within 0.05 of 0 or of 1.
+double opacity_binary_fraction(const trainer::Model& model) {
+  std::uint64_t binary = 0, texels = 0;
+  std::vector<float> values;
+  for (std::size_t face = 0; face < model.faces(); ++face) {
+    fine_texture(model, face, values);
+    for (std::size_t i = trainer::alpha_channel; i < values.size(); i += trainer::channels) {
+      binary += values[i] <= 0.05f || values[i] >= 0.95f;
+      ++texels;
+    }
+  }
+  return texels > 0 ? double(binary) / double(texels) : 1.0;
+}
+
+struct Result {
+  trainer::TrainingState state;
+  double seconds = 0;
+  double trainer_psnr_db = 0;
+  std::optional<Evaluation> evaluation;  // none without OpenGL
+  std::vector<std::string> output;
+};
+
+Scene scene_of(const Options& options, const Dataset& dataset, const Config& config,
+               const trainer::TrainingState& state) {
+  Scene scene = to_scene(state.model);
+  round_to_bytes(std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance));
+  scene.cameras = cameras_of(dataset.train);
+  scene.info.name = fs::path(options.output).stem().string();
+  scene.info.up = dataset.up;
+  scene.info.background = {config.background[0], config.background[1], config.background[2]};
+  scene.info.source = fmt::format("Tureen trainer, {} steps", state.step);
+  return scene;
+}
+
+/// The soup and all that is made of it. Once this is written the checkpoint has done its work.
+void write_results(const TrainingFiles& files, const Scene& scene, Result& result) {
+  write_scene(scene, files.scene);
+  result.output.push_back(files.scene.string());
+  if (!files.diffsoup_export.empty()) {
+    say_list("Lost in " + files.diffsoup_export.string() + ":",
+             write_scene(scene, files.diffsoup_export));
+    result.output.push_back(files.diffsoup_export.string());
+  }
+  std::error_code ignored;
+  fs::remove(files.checkpoint, ignored);
+  const std::vector<TrainingRun> runs{{files.scene.stem().string(), read_training_log(files.log)}};
+  if (!runs.front().records.empty()) {
+    Output plot(files.plot);
+    plot.write(training_plot(runs));
+    plot.commit();
+    result.output.push_back(files.plot.string());
+  }
+  result.output.push_back(files.log.string());
+}
+
+/// What everybody will see, drawn by the runtime; nothing where it cannot draw here.
+std::optional<Evaluation> evaluation_of(const Scene& scene, std::span<const Photograph> views) {
+  Progress progress("evaluating");
+  EvaluationOptions options;
+  options.background = scene.info.background;
+  options.progress = [&](double fraction) { progress.update(fraction); };
+  std::string reason;
+  try {
+    return evaluate(std::get<TriangleSoup>(scene.primitives), scene.origin, views, options);
+  } catch (const ContextError& error) {
+    reason = error.reason();
+  } catch (const DeviceLimitError& error) {
+    reason = error.reason();
+  }
+  say("The soup could not be drawn by the runtime, so the trainer's own drawing was measured: " +
+      reason);
+  return std::nullopt;
+}
+
+void say_result(const Options& options, const Dataset& dataset, const Result& result) {
+  const trainer::TrainingState& state = result.state;
+  say(fmt::format("{} triangles after {} steps in {}; {:.1f} % of the texels are clear or opaque",
+                  counted(state.model.faces()), counted(std::uint64_t(state.step)),
+                  duration_text(result.seconds), 100 * opacity_binary_fraction(state.model)));
+  if (state.non_finite > 0)
+    say(fmt::format("{} numbers that were not finite were put aside", counted(state.non_finite)));
+  say(fmt::format("{} test views: {:.2f} dB as the trainer draws", counted(dataset.test.size()),
+                  result.trainer_psnr_db));
+  if (result.evaluation)
+    say(fmt::format("as everybody sees {}: {:.2f} dB, SSIM {:.4f}, FLIP {:.4f}", options.output,
+                    result.evaluation->mean.psnr_db, result.evaluation->mean.ssim,
+                    result.evaluation->mean.flip));
+  for (const std::string& path : result.output) say("wrote " + path);
+}
+
+Json report(const Dataset& dataset, const Result& result) {
+  Json test{{"views", dataset.test.size()}};
+  if (result.evaluation) {
+    test.update(to_json(result.evaluation->mean, true));
+    test["drawn_by"] = result.evaluation->renderer;
+  } else {
+    test["psnr_db"] = result.trainer_psnr_db;
+    test["drawn_by"] = "trainer";
+  }
+  return {{"done", true},
+          {"steps", result.state.step},
+          {"seconds", result.seconds},
+          {"triangles", result.state.model.faces()},
+          {"test", test},
+          {"trainer_psnr_db", result.trainer_psnr_db},
+          {"opacity_binary_fraction", opacity_binary_fraction(result.state.model)},
+          {"non_finite", result.state.non_finite},
+          {"output", result.output}};
+}
+
+void say_beginning(const Dataset& dataset, const Config& config, const trainer::Backend& backend) {
+  const Camera& first = dataset.train.front().camera;
+  say(
+      fmt::format("{} views to train on and {} to test with, the first {} x {}; {} steps to {} "
+                  "triangles; {}",
+                  counted(dataset.train.size()), counted(dataset.test.size()), first.width,
+                  first.height, counted(std::uint64_t(config.steps)),
+                  counted(std::uint64_t(config.triangles)), backend.description()));
+}
+
+void prepare_files(const Options& options, const TrainingFiles& files) {
+  check_writable(files);
+  std::error_code error;
+  if (!options.resume && fs::exists(files.checkpoint, error))
+    throw UsageError(files.checkpoint.string() +
+                     " is there, of a run that was not finished: --resume goes on with it; remove "
+                     "it to begin again");
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw OutputError({folder.string(), {}, {}}, "cannot be made a folder: " + error.message());
+}
+
+ExitCode train(const Options& options) {
+  // Everything that can be wrong with the arguments is said before the photographs are read.
+  TrainingFiles files;
+  if (!options.print_config) {
+    files = files_of(options);
+    prepare_files(options, files);
+  }
+  std::optional<Checkpoint> checkpoint;
+  if (options.resume) checkpoint = trainer::read_checkpoint(files.checkpoint);
+  const Checkpoint* before = checkpoint ? &*checkpoint : nullptr;
+  config_of(options, Preset::object, before);
+
+  Dataset dataset = read(options.dataset, DatasetPart::all);
+  check_pictures(options, dataset);
+  const Config config = config_of(options, preset_for(dataset), before);
+  if (options.print_config) {
+    std::fputs(trainer::config_to_json(config).c_str(), stdout);
+    return ExitCode::done;
+  }
+  say_list("Reading " + options.dataset.path + ":", dataset.notes);
+  if (!checkpoint && !options.config.preset && options.config.file.empty())
+    say(dataset.has_alpha ? "The pictures have alpha: --preset object"
+                          : "The pictures have no alpha: --preset scene");
+
+  Checkpoint run{.config = config,
+                 .views = trainer::fingerprint(dataset.train),
+                 .seconds = checkpoint ? checkpoint->seconds : 0.0,
+                 .state = {}};
+  if (checkpoint)
+    if (const auto reason = difference(run.views, checkpoint->views))
+      throw UsageError("--resume cannot go on with another dataset: " + *reason);
+  const Config scaled = trainer::scaled_to(config, trainer::region_of_interest(dataset).half_side);
+  run.state = checkpoint ? std::move(checkpoint->state) : first_state(options, dataset, scaled);
+  const std::vector<trainer::TrainingView> views =
+      trainer::take_training_views(dataset.train, scaled);
+  trainer::Trainer trainer(scaled, views,
+                           trainer::make_backend(views, scaled, options.device, options.threads),
+                           run.state);
+  say_beginning(dataset, config, trainer.backend());
+  if (options.preview_every > 0) make_folder(files.previews);
+
+  TrainingSession session(trainer,
+                          {.files = files,
+                           .checkpoint_every = options.checkpoint_every,
+                           .preview_every = options.preview_every,
+                           .test_views = dataset.test,
+                           .seconds_before = run.seconds},
+                          std::move(run));
+  session.run();
+
+  Result result;
+  result.seconds = session.seconds();
+  result.state = trainer.state();
+  const Scene scene = scene_of(options, dataset, config, result.state);
+  write_results(files, scene, result);
+  {
+    Progress progress("measuring");
+    result.trainer_psnr_db = mean_psnr_db(trainer.backend(), dataset.test, config,
+                                          [&](double fraction) { progress.update(fraction); });
+  }
+  result.evaluation = evaluation_of(scene, dataset.test);
+  say_result(options, dataset, result);
+  if (options.json) print_json_line(report(dataset, result));
+  return ExitCode::done;
+}
+
+void add_file_options(CLI::App& command, Options& options) {
+  command.add_option("-o,--output", options.output, "the soup")->option_text("OUT.glb");
+  command
+      .add_option("--log", options.log,
+                  "the log, JSON lines; OUT.jsonl by default (tureen plot draws it)")
+      ->option_text("FILE");
+  command
+      .add_option("--checkpoint-every", options.checkpoint_every,
+                  "write OUT.checkpoint every N steps; every two minutes by default")
+      ->check(CLI::Range(1, 10'000'000))
+      ->option_text("N");
+  command.add_flag("--resume", options.resume,
+                   "go on from OUT.checkpoint, to the same soup as without the break");
+  command
+      .add_option("--preview-every", options.preview_every,
+                  "every N steps draw a test view beside its photograph into OUT.previews")
+      ->check(CLI::Range(1, 10'000'000))
+      ->option_text("N");
+  command
+      .add_option("--export-diffsoup", options.diffsoup_export,
+                  "also write the folder that DiffSoup's web viewer reads")
+      ->option_text("FOLDER");
+}
+
+}  // namespace
+
+void add_train(CLI::App& program, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("train", "Photographs to a soup");
+  command->footer(
+      R"(Trains triangles with lattice textures and a color MLP until they look like the
+photographs, writes them as OUT.glb, and measures them against the test views. Ctrl-C leaves a
+checkpoint that --resume goes on from. Equal seeds give equal soups, on any number of threads.
+
+Examples:
+  tureen train lego -o lego.glb
+  tureen train fox -o fox.glb --scale 0.25 --steps 5000      quick, from smaller photographs
+  tureen train fox -o fox.glb --scale 0.25 --resume          after Ctrl-C
+  tureen train lego -o lego.glb --preview-every 500          watch it
+  tureen train lego -o better.glb --init lego.glb            train a soup further
+  tureen train lego --print-config > lego.json               all constants, for --config
+
+Exit codes: 0 done, 2 wrong usage, 3 the photographs or the checkpoint cannot be read,
+4 no GPU where one is asked for, 5 interrupted, or the soup cannot be written.)");
+  add_dataset_argument(*command, options->dataset);
+  add_file_options(*command, *options);
+  add_config_options(*command, options->config);
+  add_choice<Device>(*command, "--device", options->device,
+                     {{"auto", Device::automatic}, {"cpu", Device::cpu}, {"cuda", Device::cuda}},
+                     "what does the arithmetic: auto (a GPU where one answers), cpu or cuda")
+      ->option_text("NAME");
+  command->add_option("--threads", options->threads, "of the processor; all cores by default")
+      ->check(CLI::Range(1, 1024))
+      ->option_text("N");
+  command->add_flag("--print-config", options->print_config,
+                    "print all constants of this run as JSON instead of training");
+  command->add_flag("--json", options->json, "the result as one line of JSON on standard output");
+  command->callback([options, &action] { action = [options] { return train(*options); }; });
+}
+
+}  // namespace tureen::cli

@@ -1,0 +1,165 @@
+#include "cli/training_session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "cli/held_out.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/picture_file.hpp"
+#include "cli/progress.hpp"
+#include "cli/report.hpp"
+#include "soup/metrics.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+constexpr int record_every = 50;
+/// Held-out views that are measured as the run goes: more tell little more, and take time.
+constexpr std::size_t measured_views = 5;
+/// Writing one takes about a second: little of two minutes, and no more than those are ever lost.
+constexpr double checkpoint_seconds = 120;
+
+double clock_seconds() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double>(now).count();
+}
+
+/// Forty points on the curve of a long run; in a short one every 250 steps, or four points.
+int steps_between_tests(int steps) { return std::max({steps / 40, std::min(steps / 4, 250), 1}); }
+
+/// Follows the last hundred steps or so.
+double smoothed(double mean, double value) {
+  return mean > 0 ? mean + 0.02 * (value - mean) : value;
+}
+
+TrainingLog open_log(const SessionOptions& options, int step) {
+  return step > 0 ? TrainingLog::resume(options.files.log, step)
+                  : TrainingLog::create(options.files.log);
+}
+
+}  // namespace
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long long>(seconds + 0.5);
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+  return fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
+}
+
+TrainingSession::TrainingSession(trainer::Trainer& trainer, SessionOptions options,
+                                 trainer::Checkpoint run)
+    : trainer_(trainer),
+      options_(std::move(options)),
+      run_(std::move(run)),
+      measured_views_(some_of(options_.test_views, measured_views)),
+      log_(open_log(options_, trainer.steps_done())),
+      test_every_(steps_between_tests(trainer.config().steps)),
+      start_(clock_seconds()),
+      last_checkpoint_(options_.seconds_before),
+      non_finite_(run_.state.non_finite) {
+  run_.state = {};
+  recent_.begin = options_.seconds_before;
+}
+
+double TrainingSession::seconds() const {
+  return options_.seconds_before + clock_seconds() - start_;
+}
+
+void TrainingSession::run() {
+  try {
+    train_to_the_end();
+  } catch (const Interrupted&) {
+    // Between two steps, where the state is whole.
+    save_checkpoint();
+    say(fmt::format("wrote {} after step {} of {}; the same command with --resume goes on from it",
+                    options_.files.checkpoint.string(), counted(trainer_.steps_done()),
+                    counted(trainer_.config().steps)));
+    throw;
+  }
+}
+
+void TrainingSession::train_to_the_end() {
+  Progress::Output output = Progress::standard_error();
+  output.line_seconds = 10;
+  Progress progress("training", output);
+  while (!trainer_.done()) {
+    progress.update(double(trainer_.steps_done()) / trainer_.config().steps, detail());
+    const double before = seconds();
+    const trainer::StepReport report = trainer_.step();
+    seconds_per_step_ = smoothed(seconds_per_step_, seconds() - before);
+    after_step(report);
+  }
+}
+
+void TrainingSession::after_step(const trainer::StepReport& report) {
+  ++recent_.steps;
+  recent_.loss += report.loss;
+  recent_.l1 += report.l1;
+  recent_.ssim += report.ssim;
+  recent_.mse += report.mse;
+  non_finite_ += report.non_finite;
+  loss_ = smoothed(loss_, report.loss);
+
+  const int step = trainer_.steps_done();
+  const bool test = step % test_every_ == 0 || trainer_.done();
+  if (test) measure();
+  if (test || step % record_every == 0) record();
+  if (options_.preview_every > 0 && (step % options_.preview_every == 0 || trainer_.done()))
+    write_preview();
+  if (trainer_.done()) return;
+  if (options_.checkpoint_every ? step % *options_.checkpoint_every == 0
+                                : seconds() - last_checkpoint_ >= checkpoint_seconds)
+    save_checkpoint();
+}
+
+void TrainingSession::measure() {
+  fresh_test_psnr_ = mean_psnr_db(trainer_.backend(), measured_views_, trainer_.config());
+  shown_test_psnr_ = fresh_test_psnr_;
+}
+
+void TrainingSession::record() {
+  const double n = recent_.steps, now = seconds();
+  log_.append({.step = trainer_.steps_done(),
+               .seconds = now,
+               .loss = recent_.loss / n,
+               .l1 = recent_.l1 / n,
+               .ssim = recent_.ssim / n,
+               .train_psnr_db = psnr_from_mse(recent_.mse / n),
+               .test_psnr_db = fresh_test_psnr_,
+               .triangles = trainer_.faces(),
+               .it_per_second = n / (now - recent_.begin),
+               .non_finite = non_finite_});
+  recent_ = {.begin = now};
+  fresh_test_psnr_.reset();
+}
+
+void TrainingSession::write_preview() {
+  const int digits = int(std::to_string(trainer_.config().steps).size());
+  write_picture(
+      preview(trainer_.backend(), options_.test_views.front(), trainer_.config()),
+      options_.files.previews / fmt::format("step_{:0{}}.png", trainer_.steps_done(), digits));
+}
+
+void TrainingSession::save_checkpoint() {
+  run_.state = trainer_.state();
+  run_.seconds = seconds();
+  trainer::write_checkpoint(options_.files.checkpoint, run_);
+  run_.state = {};  // hundreds of megabytes at times
+  last_checkpoint_ = seconds();
+}
+
+std::string TrainingSession::detail() const {
+  const int step = trainer_.steps_done(), steps = trainer_.config().steps;
+  std::string text = fmt::format("{}/{}", step, steps);
+  if (loss_ > 0) text += fmt::format(", loss {:.4f}", loss_);
+  if (shown_test_psnr_) text += fmt::format(", {:.2f} dB", *shown_test_psnr_);
+  if (seconds_per_step_ > 0)
+    text += fmt::format(", {:.3g} it/s, {} left", 1 / seconds_per_step_,
+                        duration_text(seconds_per_step_ * (steps - step)));
+  return text;
+}
+
+}  // namespace tureen::cli
