@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
+#include <vector>
 
 #include "trainer/random_model.hpp"
 
@@ -52,6 +54,40 @@ TEST(LongestEdges, EndWithFacesOfNoSizeOrNumber) {
   model.positions[0].x = std::nanf("");
   EXPECT_THAT(longest_edges(model, 50), SizeIs(48));
   EXPECT_THAT(longest_edges(random_model(62, {.faces = 0}), 50), IsEmpty());
+}
+
+// Held against the obvious way, as above.
+TEST(GreatestErrors, AreHalvedUntilTheBudgetIsMet) {
+  const Model model = random_model(63, {.faces = 8, .max_level = 0});
+  std::vector<float> errors;
+  for (int i = 0; i < 8; ++i) errors.push_back(float(1 + (5 * i) % 8));  // all different
+  for (const std::size_t budget : {0u, 8u, 9u, 40u}) {
+    const Resampled result =
+        split(model, greatest_errors(model, errors, budget), ChildTexture::copied);
+    Model slow = model;
+    std::vector<double> left(errors.begin(), errors.end());
+    while (slow.faces() < budget) {
+      const auto worst = std::max_element(left.begin(), left.end()) - left.begin();
+      Split next{.face = std::uint32_t(worst), .edge = 0, .t = 0.5f};
+      double longest = -1;
+      for (int edge = 0; edge < 3; ++edge) {
+        const double length =
+            glm::distance(glm::dvec3(slow.positions[3 * std::size_t(worst) + edge]),
+                          glm::dvec3(slow.positions[3 * std::size_t(worst) + (edge + 1) % 3]));
+        if (length > longest) longest = length, next.edge = edge;
+      }
+      slow = split(slow, std::span(&next, 1), ChildTexture::copied).model;
+      left[std::size_t(worst)] /= 2;
+      left.push_back(left[std::size_t(worst)]);
+    }
+    EXPECT_EQ(result.model.faces(), std::max<std::size_t>(budget, 8));
+    EXPECT_EQ(result.model.positions, slow.positions) << budget;
+  }
+}
+
+TEST(GreatestErrors, OfZeroStillMeetTheBudget) {
+  const Model model = random_model(64, {.faces = 3, .max_level = 0});
+  EXPECT_THAT(greatest_errors(model, std::vector<float>(3), 20), SizeIs(17));
 }
 
 /// A camera at the origin that looks along -z: at depth 1 a picture of 200 x 100 pixels is 2 x 1.
