@@ -62,10 +62,6 @@ class Backend {
 
   virtual StageTimes take_times() = 0;
 
-  /// The error that each face showed in the steps since the last call or upload: the sum over its
-  /// pixels and their channels of |C - G|.
-  virtual std::vector<float> take_errors() = 0;
-
   /// How many pixels each face wins, threshold masking, all `cameras` together.
   virtual std::vector<std::uint64_t> visible_pixels(std::span<const Camera> cameras) = 0;
 

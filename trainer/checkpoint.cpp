@@ -107,8 +107,9 @@ void visit_view(Archive& archive, View& view) {
 /// compile until it is named here.
 template <class Archive, class State>
 void visit_state(Archive& archive, State& state) {
-  auto& [model, moments, step, baseline, non_finite] = state;
+  auto& [model, moments, step, errors, baseline, non_finite] = state;
   archive(step, "the step");
+  archive(errors, "the errors of the faces");
   archive(baseline, "the baseline");
   archive(non_finite, "the count of quarantined numbers");
   auto& [min_level, max_level, positions, logits, mlp, origin] = model;
@@ -178,6 +179,8 @@ std::optional<std::string> defect(const Checkpoint& checkpoint) {
   if (!state.baseline.empty() && state.baseline.size() != pixels)
     return fmt::format("a baseline of {} pixels for views of {}", state.baseline.size(), pixels);
   if (const auto reason = defect(state.model)) return reason;
+  if (!state.errors.empty() && state.errors.size() != state.model.faces())
+    return fmt::format("errors of {} faces for {}", state.errors.size(), state.model.faces());
   return defect(state.moments, state.model);
 }
 

@@ -26,6 +26,9 @@ struct TrainingState {
   Model model;
   Moments moments;
   int step = 0;  // steps done
+  /// The error that each face showed since the last resampling: the sum over its pixels and their
+  /// channels of |C - G|. Empty: none yet.
+  std::vector<float> errors;
   /// Running mean of the score's loss, a pixel of each training picture in its order, picture after
   /// picture, stored as round(65535 sqrt(l / 3)); empty without a baseline.
   std::vector<std::uint16_t> baseline;

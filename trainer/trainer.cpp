@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "trainer/random.hpp"
 #include "trainer/split_choice.hpp"
@@ -121,7 +122,7 @@ void Trainer::lift() {
 
 void Trainer::resample() {
   TrainingState state = this->state();
-  const std::vector<float> errors = backend_->take_errors();
+  const std::vector<float> errors = std::exchange(state.errors, {});
   std::vector<std::uint32_t> origin(state.model.faces());
   std::iota(origin.begin(), origin.end(), 0u);
   const auto apply = [&](Resampled&& resampled) {

@@ -53,9 +53,6 @@ class CpuBackend final : public Backend {
   void upload(const TrainingState& state) override;
   void download(TrainingState& state) const override { state = state_; }
   StepReport step(std::span<const std::uint32_t> views, const Rates& rates) override;
-  std::vector<float> take_errors() override {
-    return std::exchange(errors_, std::vector<float>(state_.model.faces()));
-  }
   StageTimes take_times() override { return std::exchange(times_, {}); }
   std::vector<std::uint64_t> visible_pixels(std::span<const Camera> cameras) override;
   std::vector<float> render(const Camera& camera) override;
@@ -87,7 +84,6 @@ class CpuBackend final : public Backend {
   std::vector<std::size_t> first_pixel_;  // of each view in the baseline
   std::vector<MlpParameters> mlp_gradients_;
   ImageLossScratch<float> loss_scratch_;
-  std::vector<float> errors_;  // one a face
   StageTimes times_;
 };
 
@@ -110,7 +106,7 @@ void CpuBackend::upload(const TrainingState& state) {
   state_ = state;
   if (config_.baseline) state_.baseline.resize(first_pixel_.back());
   const Model& model = state_.model;
-  errors_.assign(model.faces(), 0.0f);
+  state_.errors.resize(model.faces());
   pyramid_ = std::make_unique<Pyramid>(model.min_level, model.max_level);
   store_.values.resize(model.faces() * pyramid_->fine_texels() * channels);
   store_.alpha.resize(model.faces() * pyramid_->fine_texels());
@@ -213,7 +209,7 @@ void CpuBackend::step_faces(const Rates& rates, StepReport& report) {
                            .model = &state_.model,
                            .moments = &state_.moments,
                            .store = &store_,
-                           .errors = &errors_,
+                           .errors = &state_.errors,
                            .texture_rate = rates.texture,
                            .vertex_rate = rates.vertex,
                            .beta1 = config_.beta1,
