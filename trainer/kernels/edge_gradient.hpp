@@ -44,7 +44,8 @@ TUREEN_HOST_DEVICE PointGradient edge_gradient(const ProjectedFace& face,
   float adjoint = 0;
   for (int c = 0; c < 3; ++c)
     adjoint += 0.5f * (p.gradient[c] + q.gradient[c]) * (p.color[c] - q.color[c]);
-  if (adjoint == 0) return result;
+  // Nothing to gain, or a colour that is no number and must not move its neighbours' faces.
+  if (!(adjoint < 0 || adjoint > 0)) return result;
   float at_p[3], at_q[3];
   edge_values(face, float(px), float(py), at_p);
   edge_values(face, float(qx), float(qy), at_q);
@@ -64,11 +65,18 @@ TUREEN_HOST_DEVICE PointGradient edge_gradient(const ProjectedFace& face,
     if (!covers_p || !(other_inverse_p < p.inverse_depth)) return result;
     result.kind = EdgeCase::intersection;
     // Along pq the inverse depths are affine: they cross at t, and t moves by 1 / slope for each
-    // unit by which p's triangle comes nearer.
+    // unit by which p's triangle comes nearer. Pairs side by side and pairs one above the other
+    // both see that motion of a slanted line in full, so they share it by the squares of its
+    // normal's components, slope^2 / |gradient|^2.
     const float ahead = p.inverse_depth - other_inverse_p, behind = q.inverse_depth - inverse_q;
     const float slope = ahead + behind;
+    float across = 0, down = 0;
+    for (int k = 0; k < 3; ++k) {
+      across += face.dx[k] - other->dx[k];
+      down += face.dy[k] - other->dy[k];
+    }
     t = ahead / slope;
-    result.g_inverse = adjoint / slope;
+    result.g_inverse = adjoint * slope / (across * across + down * down);
   } else if (covers_q) {
     result.kind = EdgeCase::opacity;  // nearer than what shows at q, and yet not accepted there
   } else if (q_is_background || p.inverse_depth > q.inverse_depth) {
