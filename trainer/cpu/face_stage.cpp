@@ -67,8 +67,12 @@ struct Gathered {
         const std::size_t pixel = std::size_t(fragment.y) * width + std::size_t(fragment.x);
         const VisiblePixel& visible = picture.visible[pixel];
         const bool won = visible.face == index;
-        // Behind the winner nothing depends on this face.
-        if (!won && !(fragment.inverse_depth >= visible.inverse_depth)) return;
+        // Behind the winner nothing depends on this face; of equal depths the lower face is in
+        // front, as find_visible has it.
+        const bool in_front =
+            fragment.inverse_depth > visible.inverse_depth ||
+            (fragment.inverse_depth == visible.inverse_depth && index < visible.face);
+        if (!won && !in_front) return;
         out.touched = true;
         const auto at = lattice::footprint(level, fragment.b0, fragment.b1);
         float a = 0;
@@ -108,13 +112,15 @@ struct Gathered {
   }
 }
 
-/// Whether all are finite: x * 0 is NaN for those that are not, and NaN stays in a sum.
+/// Whether all are finite, and the sum of three squares that a second moment takes: x * 0 is NaN
+/// for those that are not, and NaN stays in a sum. A second moment that is infinite would hold its
+/// number still forever.
 [[gnu::always_inline]] inline bool all_finite(const float* values, std::size_t count) {
   float sums[16] = {};
   std::size_t i = 0;
   for (; i + 16 <= count; i += 16)
-    for (std::size_t l = 0; l < 16; ++l) sums[l] += values[i + l] * 0.0f;
-  for (; i < count; ++i) sums[0] += values[i] * 0.0f;
+    for (std::size_t l = 0; l < 16; ++l) sums[l] += 4 * values[i + l] * values[i + l] * 0.0f;
+  for (; i < count; ++i) sums[0] += 4 * values[i] * values[i] * 0.0f;
   for (float s : sums)
     if (!(s == 0.0f)) return false;
   return true;
