@@ -62,6 +62,14 @@ struct Batch {
                             state.input + kernels::features);
 }
 
+/// Lanes whose features are all finite; the features of others become 0. What is no number would
+/// reach the network's gradient even times zero.
+[[gnu::always_inline]] inline void quarantine(State& state, kernels::IntPack& finite) {
+  finite = Pack{} == Pack{};
+  for (int f = 0; f < kernels::features; ++f) finite &= state.input[f] * 0.0f == 0.0f;
+  for (int f = 0; f < kernels::features; ++f) state.input[f] = finite ? state.input[f] : Pack{};
+}
+
 /// Calls visit(batch) for all visible pixels of the rows, the last batch may not be full.
 template <class Visitor>
 [[gnu::always_inline]] inline void for_each_batch(const Picture& picture, int y0, int y1,
@@ -118,6 +126,8 @@ TUREEN_VECTOR_CLONES TUREEN_FLATTEN void shade_rows_backward(Picture& picture,
       picture, y0, y1, [&](const Batch& batch) __attribute__((always_inline)) {
         State state;
         gather(picture, input, batch, state);
+        kernels::IntPack finite;
+        quarantine(state, finite);
         Pack color[3], dcolor[3];
         kernels::shade(input.mlp->data(), state, color);
         for (int c = 0; c < 3; ++c) {
@@ -125,6 +135,7 @@ TUREEN_VECTOR_CLONES TUREEN_FLATTEN void shade_rows_backward(Picture& picture,
           for (int l = 0; l < batch.count; ++l)
             by_color[l] = picture.by_color[c * pixels + batch.pixel[l]];
           std::memcpy(&dcolor[c], by_color, sizeof(Pack));
+          dcolor[c] = finite ? dcolor[c] : Pack{};
         }
         Pack dfeatures[kernels::features];
         kernels::shade_backward(input.mlp->data(), state, dcolor, sums, dfeatures);

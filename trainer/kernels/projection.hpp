@@ -49,7 +49,7 @@ TUREEN_HOST_DEVICE void view_coordinates(const View& view, const float* position
   v[2] = view.forward[0] * d[0] + view.forward[1] * d[1] + view.forward[2] * d[2];
 }
 
-/// Grows an interval of pixel indices by a coordinate; the cast is safe for any value.
+/// Grows an interval of pixel indices by a coordinate that is a number; the cast is then safe.
 TUREEN_HOST_DEVICE void include(double coordinate, int size, int& low, int& high) {
   const double clamped = coordinate < -1 ? -1 : coordinate > size + 1 ? size + 1 : coordinate;
   // Pixel i has its centre at i + 1/2: the first one not left of `coordinate`, the last not right.
@@ -82,12 +82,16 @@ TUREEN_HOST_DEVICE void bounding_rectangle(const View& view, const double (&v)[3
   face.y1 = std::int16_t(y1 < view.height ? y1 : view.height);
 }
 
-/// `corners` are three positions of three floats. A triangle that is seen edge-on, has no area or
-/// lies outside the picture is empty.
+/// `corners` are three positions of three floats. A triangle that is seen edge-on, has no area,
+/// lies outside the picture or has a coordinate that is not finite is empty.
 TUREEN_HOST_DEVICE ProjectedFace project(const View& view, const float* corners) {
   ProjectedFace face{};
   double v[3][3];
-  for (int i = 0; i < 3; ++i) view_coordinates(view, corners + 3 * i, v[i]);
+  for (int i = 0; i < 3; ++i) {
+    view_coordinates(view, corners + 3 * i, v[i]);
+    for (int j = 0; j < 3; ++j)
+      if (!std::isfinite(v[i][j])) return face;
+  }
   if (v[0][2] < view.near && v[1][2] < view.near && v[2][2] < view.near) return face;
   bounding_rectangle(view, v, face);
   if (face.x0 >= face.x1 || face.y0 >= face.y1) {
