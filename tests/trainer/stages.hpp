@@ -1,0 +1,109 @@
+// The stages of a training step on their own: a picture as the backend prepares it, and the
+// gradient that a face was stepped with.
+#pragma once
+
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "trainer/cpu/face_stage.hpp"
+#include "trainer/cpu/picture.hpp"
+#include "trainer/cpu/visibility.hpp"
+#include "trainer/levels.hpp"
+
+namespace tureen::trainer::test {
+
+/// A camera at the origin that looks along -z, with square pixels and the principal point in the
+/// middle. At distance z a unit measures focal / z pixels.
+inline Camera axis_camera(int width, int height, double focal) {
+  return {.name = {},
+          .width = width,
+          .height = height,
+          .fx = focal,
+          .fy = focal,
+          .cx = width / 2.0,
+          .cy = height / 2.0};
+}
+
+inline Picture make_picture(const Camera& camera, double near = 0.01, double far = 100) {
+  Picture picture;
+  picture.view = view_of(camera, glm::dvec3(0.0), near, far);
+  picture.tiles_x = (camera.width + tile_side - 1) / tile_side;
+  picture.tiles_y = (camera.height + tile_side - 1) / tile_side;
+  picture.visible.resize(picture.pixels());
+  picture.color.resize(3 * picture.pixels());
+  picture.by_color.resize(3 * picture.pixels());
+  picture.loss.resize(picture.pixels());
+  picture.gradient.resize(picture.pixels());
+  return picture;
+}
+
+/// Faces of one lattice level, their moments and their textures.
+struct Faces {
+  Model model;
+  Moments moments;
+  Pyramid pyramid;
+  TextureStore store;
+  std::vector<float> errors;
+
+  /// Three positions a face; all logits 0 but those of alpha, which are `alpha_logit`.
+  explicit Faces(std::vector<glm::vec3> positions, float alpha_logit = 200.0f, int level = 0)
+      : pyramid(level, level) {
+    model.min_level = model.max_level = level;
+    model.positions = std::move(positions);
+    model.logits.assign(model.faces() * model.texels() * channels, 0.0f);
+    for (std::size_t i = alpha_channel; i < model.logits.size(); i += channels)
+      model.logits[i] = alpha_logit;
+    refresh();
+  }
+
+  /// After changes of the logits.
+  void refresh() {
+    moments.reset_faces(model);
+    store.values.resize(model.faces() * pyramid.fine_texels() * channels);
+    store.alpha.resize(model.faces() * pyramid.fine_texels());
+    FaceScratch scratch(pyramid);
+    for (std::size_t face = 0; face < model.faces(); ++face)
+      refresh_texture(pyramid, model, face, store, scratch);
+  }
+
+  void find(Picture& picture, Masking masking) const {
+    bin_faces(picture, model);
+    for (std::size_t tile = 0; tile + 1 < picture.bin_begin.size(); ++tile)
+      find_visible(picture, tile, store.alpha.data(), model.max_level, masking);
+  }
+
+  /// What the face gathers from the pictures, as the moments of a first step hold it: with
+  /// beta1 = 0 the first moment is the gradient. Rates are 0: nothing moves.
+  unsigned gather(std::span<const Picture> pictures, std::size_t face) {
+    moments.reset_faces(model);
+    errors.assign(model.faces(), 0.0f);
+    const FaceStep step{.pictures = pictures,
+                        .pyramid = &pyramid,
+                        .model = &model,
+                        .moments = &moments,
+                        .store = &store,
+                        .errors = &errors,
+                        .texture_rate = 0,
+                        .vertex_rate = 0,
+                        .beta1 = 0,
+                        .beta2 = 0.999f,
+                        .epsilon = 1e-8f,
+                        .slide = 0.5f,
+                        .dense_updates = false};
+    FaceScratch scratch(pyramid);
+    return step_face(step, face, scratch);
+  }
+
+  /// After gather(): dL/dposition of a corner.
+  glm::dvec3 by_corner(std::size_t face, int corner) const {
+    return glm::dvec3(moments.vertex_first[3 * face + std::size_t(corner)]);
+  }
+
+  /// After gather(): dL/dlogit.
+  double by_logit(std::size_t face, std::size_t texel, int channel) const {
+    return moments.first[(face * model.texels() + texel) * channels + std::size_t(channel)];
+  }
+};
+
+}  // namespace tureen::trainer::test
