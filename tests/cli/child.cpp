@@ -1,21 +1,18 @@
 #include "cli/child.hpp"
 
+#include <fcntl.h>
+#include <signal.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
-#include <cstdlib>
+#include <cerrno>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 
 namespace tureen::test {
 
 namespace {
-
-/// In single quotes, so that the shell passes every byte on.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
-}
 
 std::string contents(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
@@ -24,16 +21,59 @@ std::string contents(const std::filesystem::path& path) {
   return text.str();
 }
 
+/// In the child: file descriptor `target` is this file from now on.
+void redirect(const char* path, int flags, int target) {
+  const int file = ::open(path, flags, 0644);
+  if (file < 0 || ::dup2(file, target) < 0) ::_exit(126);
+  if (file != target) ::close(file);
+}
+
 }  // namespace
+
+Child::Child(const std::vector<std::string>& arguments, std::filesystem::path folder)
+    : folder_(std::move(folder)) {
+  std::vector<std::string> words{TUREEN_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  pid_ = ::fork();
+  if (pid_ < 0) throw std::runtime_error("no process can be made");
+  if (pid_ > 0) return;
+  // Nothing but system calls from here on: the test may have other threads.
+  if (::chdir(folder_.c_str()) != 0) ::_exit(126);
+  redirect("/dev/null", O_RDONLY, STDIN_FILENO);
+  redirect("stdout.txt", O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
+  redirect("stderr.txt", O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
+  ::execv(argv.front(), argv.data());
+  ::_exit(127);
+}
+
+Child::~Child() {
+  if (!running()) return;
+  signal(SIGKILL);
+  wait();
+}
+
+void Child::signal(int number) const {
+  if (pid_ > 0) ::kill(pid_, number);
+}
+
+bool Child::running() {
+  if (pid_ > 0 && ::waitpid(pid_, &status_, WNOHANG) == pid_) pid_ = -1;
+  return pid_ > 0;
+}
+
+ChildResult Child::wait() {
+  while (pid_ > 0)
+    if (::waitpid(pid_, &status_, 0) == pid_ || errno != EINTR) pid_ = -1;
+  return {WIFEXITED(status_) ? WEXITSTATUS(status_) : -1, contents(folder_ / "stdout.txt"),
+          contents(folder_ / "stderr.txt")};
+}
 
 ChildResult run_tureen(const std::vector<std::string>& arguments,
                        const std::filesystem::path& folder) {
-  const std::filesystem::path out = folder / "stdout.txt", err = folder / "stderr.txt";
-  std::string command = "cd " + quoted(folder.string()) + " && " + quoted(TUREEN_PROGRAM);
-  for (const std::string& argument : arguments) command += " " + quoted(argument);
-  command += " >" + quoted(out.string()) + " 2>" + quoted(err.string()) + " </dev/null";
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(out), contents(err)};
+  return Child(arguments, folder).wait();
 }
 
 }  // namespace tureen::test

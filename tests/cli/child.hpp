@@ -1,6 +1,8 @@
 // Runs the built program as a user does: a child process, its two streams and its exit code.
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -13,7 +15,27 @@ struct ChildResult {
   std::string err;     // standard error
 };
 
-/// `tureen` with these arguments, in `folder`.
+/// A program that runs beside the test. Ended hard where the test forgets it.
+class Child {
+ public:
+  /// `tureen` with these arguments, in `folder`.
+  Child(const std::vector<std::string>& arguments, std::filesystem::path folder);
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  ~Child();
+
+  /// As `kill` does: SIGINT is Ctrl-C.
+  void signal(int number) const;
+  bool running();
+  ChildResult wait();
+
+ private:
+  std::filesystem::path folder_;
+  pid_t pid_ = -1;  // -1 once it has ended
+  int status_ = 0;
+};
+
+/// `tureen` with these arguments, in `folder`, to its end.
 ChildResult run_tureen(const std::vector<std::string>& arguments,
                        const std::filesystem::path& folder);
 

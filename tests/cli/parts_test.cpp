@@ -74,14 +74,15 @@ TEST(Report, WritesNumbersForPeople) {
 }
 
 /// What a Progress writes to a stream while a clock of our own goes on.
-std::string progress_text(bool terminal, const std::vector<std::pair<double, double>>& updates) {
+std::string progress_text(bool terminal, const std::vector<std::pair<double, double>>& updates,
+                          const std::string& detail = {}) {
   std::FILE* stream = std::tmpfile();
   double now = 0;
   {
     Progress progress("working", {stream, terminal, [&] { return now; }});
     for (const auto& [time, fraction] : updates) {
       now = time;
-      progress.update(fraction);
+      progress.update(fraction, detail);
     }
   }
   std::string text(std::size_t(std::ftell(stream)), '\0');
@@ -107,6 +108,12 @@ TEST(Progress, DrawsABarOnATerminalAndWipesIt) {
 TEST(Progress, WritesPlainLinesElsewhere) {
   EXPECT_EQ(progress_text(false, {{6, 0.25}, {7, 0.3}, {12, 0.75}}),
             "working: 25 %\nworking: 75 %\n");
+}
+
+TEST(Progress, SaysMoreBesideAShorterBar) {
+  EXPECT_THAT(progress_text(true, {{1.0, 0.5}}, "7/14, 3 it/s"),
+              HasSubstr("working [#####.....] 7/14, 3 it/s\033[K"));
+  EXPECT_EQ(progress_text(false, {{6, 0.25}}, "7/28"), "working: 25 %, 7/28\n");
 }
 
 TEST(ContactSheet, HoldsEveryPictureInAGrid) {

@@ -22,7 +22,7 @@ using testing::Not;
 // --- Usage ----------------------------------------------------------------------------------
 
 TEST_F(Program, HelpTeachesAndGoesToStandardOutput) {
-  for (const char* command : {"render", "info", "convert", "compare", "eval", "plot"}) {
+  for (const char* command : {"render", "info", "convert", "compare", "train", "eval", "plot"}) {
     const ChildResult result = run({command, "--help"});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.out, HasSubstr(std::string("Examples:\n  tureen ") + command));

@@ -1,0 +1,163 @@
+// Training from end to end, small: the example's still life at 64 x 64 pixels becomes a soup of 500
+// triangles in 300 steps. Seconds of work that nothing but the trainer itself could do.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+
+#include "formats/scene_file.hpp"
+#include "photograph.hpp"
+#include "soup/metrics.hpp"
+#include "soup/quantise.hpp"
+#include "still_life.hpp"
+#include "trainer/checkpoint.hpp"
+#include "trainer/initialise.hpp"
+#include "trainer/trainer.hpp"
+#include "trainer/training_views.hpp"
+
+namespace tureen::trainer {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int size = 64, steps = 300, triangles = 500;
+
+std::vector<Photograph> photographs(const example::Studio& studio, int count, double turn) {
+  std::vector<Photograph> result;
+  for (const Camera& camera : example::example_cameras(count, size, turn))
+    result.push_back({camera, studio.photograph(camera, 2)});
+  return result;
+}
+
+/// 24 photographs to train on, 6 to test with.
+const Dataset& still_life() {
+  static const Dataset dataset = [] {
+    const example::Studio studio(example::still_life(), example::draft_light);
+    Dataset made;
+    made.train = photographs(studio, 24, 0);
+    made.test = photographs(studio, 6, 0.5);
+    made.has_alpha = true;
+    return made;
+  }();
+  return dataset;
+}
+
+Config smoke_config() {
+  Config config = preset(Preset::object);
+  config.steps = steps;
+  config.triangles = triangles;
+  config.initial_triangles = triangles;
+  config.max_level = 2;
+  config.resample_every = 50;
+  config.seed = 7;
+  // So few steps must be long ones.
+  config.texture_rate = 0.2f;
+  config.vertex_rate = 0.04f;
+  return scaled_to(config, region_of_interest(still_life()).half_side);
+}
+
+TrainingState first_state(const Config& config) {
+  TrainingState state;
+  state.model = initial_model(still_life(), config);
+  state.moments.reset_faces(state.model);
+  return state;
+}
+
+/// A run with views of its own.
+struct TrainingRun {
+  TrainingRun(const Config& config, int threads, const TrainingState& state)
+      : views([&] {
+          std::vector<Photograph> train = still_life().train;
+          return take_training_views(train, config);
+        }()),
+        trainer(config, views, make_cpu_backend(views, config, threads), state) {}
+
+  void train_until(int step) {
+    while (trainer.steps_done() < step) non_finite += trainer.step().non_finite;
+  }
+
+  std::vector<TrainingView> views;
+  Trainer trainer;
+  std::uint64_t non_finite = 0;
+};
+
+/// Of the test views, drawn by the trainer as 8 bits a channel.
+double test_psnr(TrainingRun& run, const Config& config) {
+  double sum = 0;
+  for (const Photograph& photograph : still_life().test) {
+    const TrainingView truth = training_view(photograph, config);
+    const std::vector<float> drawn = run.trainer.backend().render(photograph.camera);
+    double squared = 0;
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      const double d = (int(quantised_unit(drawn[i])) - int(truth.target[i])) / 255.0;
+      squared += d * d;
+    }
+    sum += psnr_from_mse(squared / double(drawn.size()));
+  }
+  return sum / double(still_life().test.size());
+}
+
+/// The soup as the file that would be deployed.
+std::vector<std::byte> file_of(const TrainingState& state) {
+  const fs::path path = fs::path(testing::TempDir()) / "tureen_smoke.glb";
+  write_scene(to_scene(state.model), path);
+  std::vector<std::byte> bytes = Input::open(path).read_rest();
+  fs::remove(path);
+  return bytes;
+}
+
+TEST(SmokeTraining, LearnsTheStillLife) {
+  const Config config = smoke_config();
+  TrainingRun run(config, 2, first_state(config));
+  const double before = test_psnr(run, config);
+  run.train_until(steps);
+  const double after = test_psnr(run, config);
+  RecordProperty("test_psnr_db", std::to_string(after));
+  std::printf("test PSNR %.2f dB, %.2f dB before training\n", after, before);
+  EXPECT_EQ(run.trainer.faces(), std::size_t(triangles));
+  EXPECT_EQ(run.non_finite, 0u);
+  // 22.9 dB where this was written; six seeds gave 22.5 to 23.3 dB, and other processors round
+  // differently, which is like another seed. One decibel of margin.
+  EXPECT_GE(after, 21.5);
+}
+
+TEST(SmokeTraining, HasTheSameBytesWithAnyNumberOfThreads) {
+  const Config config = smoke_config();
+  TrainingRun one(config, 1, first_state(config)), two(config, 2, first_state(config));
+  one.train_until(steps);
+  two.train_until(steps);
+  EXPECT_EQ(file_of(one.trainer.state()), file_of(two.trainer.state()));
+}
+
+TEST(SmokeTraining, GoesOnFromACheckpointAsIfItHadNeverStopped) {
+  const Config config = smoke_config();
+  TrainingRun whole(config, 2, first_state(config));
+  whole.train_until(steps);
+  const fs::path path = fs::path(testing::TempDir()) / "tureen_smoke.checkpoint";
+  // In the middle of everything: between two resamplings, and between two epochs.
+  constexpr int stop = steps / 2 - 17;
+  {
+    TrainingRun first(config, 2, first_state(config));
+    first.train_until(stop);
+    write_checkpoint(path, {.config = config,
+                            .views = fingerprint(still_life().train),
+                            .seconds = 1.0,
+                            .state = first.trainer.state()});
+  }
+  const Checkpoint checkpoint = read_checkpoint(path);
+  fs::remove(path);
+  ASSERT_FALSE(difference(config, checkpoint.config)) << *difference(config, checkpoint.config);
+  EXPECT_EQ(checkpoint.state.step, stop);
+  TrainingRun second(config, 1, checkpoint.state);
+  second.train_until(steps);
+  const TrainingState a = whole.trainer.state(), b = second.trainer.state();
+  EXPECT_EQ(a.model.positions, b.model.positions);
+  EXPECT_EQ(a.model.logits, b.model.logits);
+  EXPECT_EQ(a.moments.second, b.moments.second);
+  EXPECT_EQ(a.baseline, b.baseline);
+  EXPECT_EQ(a.errors, b.errors);
+  EXPECT_EQ(file_of(a), file_of(b));
+}
+
+}  // namespace
+}  // namespace tureen::trainer

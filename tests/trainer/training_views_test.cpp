@@ -1,0 +1,80 @@
+#include "trainer/training_views.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "support/random.hpp"
+#include "trainer/config_fields.hpp"
+
+namespace tureen::trainer {
+namespace {
+
+Photograph random_photograph(std::uint64_t seed) {
+  test::Random random(seed);
+  Photograph photograph;
+  photograph.camera = look_at({3, 0, 1}, {0, 0, 0}, {0, 0, 1}, 0.8, 7, 5);
+  photograph.camera.name = "r_" + std::to_string(seed);
+  photograph.image = Image8(7, 5);
+  const auto byte = [&random] { return static_cast<std::uint8_t>(random.uniform() * 255.99); };
+  for (glm::u8vec4& pixel : photograph.image.pixels) pixel = {byte(), byte(), byte(), byte()};
+  photograph.image.pixels[0].a = 0;
+  photograph.image.pixels[1].a = 255;
+  return photograph;
+}
+
+TEST(TrainingViews, AreThePhotographsOverTheBackgroundPlaneByPlane) {
+  const Photograph photograph = random_photograph(1);
+  Config config;
+  config.background[0] = 1.0f;
+  config.background[1] = 0.25f;
+  config.background[2] = 0.0f;
+  const TrainingView view = training_view(photograph, config);
+  EXPECT_EQ(view.camera.name, "r_1");
+  EXPECT_TRUE(view.ignored.empty());
+  const std::size_t pixels = photograph.image.pixels.size();
+  ASSERT_EQ(view.target.size(), 3 * pixels);
+  for (std::size_t p = 0; p < pixels; ++p)
+    for (int c = 0; c < 3; ++c) {
+      const glm::u8vec4 pixel = photograph.image.pixels[p];
+      const double a = pixel.a / 255.0;
+      const double exact = a * pixel[c] + (1 - a) * 255 * double(config.background[c]);
+      // The nearest byte, and an ulp of slack for values half way between two.
+      EXPECT_NEAR(view.target[std::size_t(c) * pixels + p], exact, 0.5 + 1e-9) << p << " " << c;
+    }
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_EQ(view.target[c * pixels + 1], photograph.image.pixels[1][int(c)]);  // opaque
+    EXPECT_EQ(view.target[c * pixels], (std::array{255, 64, 0})[c]);             // transparent
+  }
+}
+
+TEST(TrainingViews, AreTakenOutOfTheDataset) {
+  std::vector<Photograph> photographs{random_photograph(1), random_photograph(2)};
+  const TrainingView expected = training_view(photographs[1], {});
+  const std::vector<TrainingView> views = take_training_views(photographs, {});
+  ASSERT_EQ(views.size(), 2u);
+  EXPECT_EQ(views[1].target, expected.target);
+  EXPECT_EQ(photographs.size(), 2u);
+  EXPECT_EQ(photographs[1].camera.name, "r_2");
+  EXPECT_TRUE(photographs[0].image.pixels.empty());
+}
+
+TEST(ScaledTo, ChangesLengthsOfTrainingAndNothingElse) {
+  const Config config = preset(Preset::scene);
+  const Config scaled = scaled_to(config, 6.0);  // four times the reference
+  EXPECT_FLOAT_EQ(scaled.vertex_rate, 4 * config.vertex_rate);
+  EXPECT_FLOAT_EQ(scaled.near, 4 * config.near);
+  EXPECT_FLOAT_EQ(scaled.far, 4 * config.far);
+  for (const ConfigField& field : config_fields()) {
+    const std::string name = field.name;
+    if (name == "vertex_rate" || name == "near" || name == "far") continue;
+    EXPECT_EQ(value_text(scaled, field), value_text(config, field)) << name;
+  }
+  const Config same = scaled_to(config, reference_extent);
+  for (const ConfigField& field : config_fields())
+    EXPECT_EQ(value_text(same, field), value_text(config, field)) << field.name;
+}
+
+}  // namespace
+}  // namespace tureen::trainer
