@@ -58,15 +58,17 @@ struct Footprint {
 /// Piecewise-linear interpolation at barycentrics (b0, b1); continuous across lattice cells.
 /// Cells are clamped, so a point slightly outside extrapolates from the border cell: no index
 /// ever leaves [0, texel_count(level)). NaN yields a valid footprint with NaN weights.
+/// Constant expressions may be evaluated anywhere: nvcc compiles it for GPUs, too.
 template <class Real>
-Footprint<Real> footprint(int level, Real b0, Real b1) {
+constexpr Footprint<Real> footprint(int level, Real b0, Real b1) {
   const int n = resolution(level);
   Real p = b0 * static_cast<Real>(n);
   Real q = b1 * static_cast<Real>(n);
   // Clamped as floats before the cast: casting a float outside int's range is undefined. The
-  // order of the arguments makes NaN come out as the lower bound.
+  // order of the arguments makes NaN come out as the lower bound. What is not negative the cast
+  // rounds down.
   const auto cell = [](Real value, int upper) {
-    return static_cast<int>(std::min(std::max(Real(0), std::floor(value)), Real(upper)));
+    return static_cast<int>(std::min(std::max(Real(0), value), Real(upper)));
   };
   const int x = cell(p, n - 1);
   const int y = cell(q, n - 1 - x);

@@ -16,7 +16,8 @@ struct AdamStep {
   float inverse_root_correction2;  // 1 / sqrt(1 - beta2^t)
 };
 
-inline AdamStep adam_step(float rate, float beta1, float beta2, float epsilon, double t) {
+TUREEN_HOST_DEVICE AdamStep adam_step(float rate, float beta1, float beta2, float epsilon,
+                                      double t) {
   return {beta1, beta2, epsilon, float(rate / (1 - std::pow(double(beta1), t))),
           float(1 / std::sqrt(1 - std::pow(double(beta2), t)))};
 }

@@ -67,27 +67,40 @@ TUREEN_HOST_DEVICE void shade(const Weight* mlp, NetworkState<Real>& state, Real
   }
 }
 
-/// dL/dx of one dense layer, and what it adds to the gradients of weights and biases.
-template <int Inputs, int Outputs, class Weight, class Real>
-TUREEN_HOST_DEVICE void dense_backward(const Weight* weights, const Real (&x)[Inputs],
-                                       const Real (&dy)[Outputs], Real* dweights, Real* dbiases,
-                                       Real (&dx)[Inputs]) {
+/// Adds what a pixel does to the gradient of the network, where there is memory for all of it.
+template <class Real>
+struct AddedDerivatives {
+  Real* dmlp;  // mlp_parameters numbers
+
+  TUREEN_HOST_DEVICE void bias(int biases, int o, const Real& dy) const { dmlp[biases + o] += dy; }
+  TUREEN_HOST_DEVICE void weight(int weights, int index, const Real& x, const Real& dy) const {
+    dmlp[weights + index] += x * dy;
+  }
+};
+
+/// dL/dx of one dense layer, which begins at `first_weight` and `first_bias` of `mlp`. Its
+/// derivatives go to `sums`, which is like AddedDerivatives.
+template <int Inputs, int Outputs, class Weight, class Real, class Sums>
+TUREEN_HOST_DEVICE void dense_backward(const Weight* mlp, int first_weight, int first_bias,
+                                       const Real (&x)[Inputs], const Real (&dy)[Outputs],
+                                       const Sums& sums, Real (&dx)[Inputs]) {
+  const Weight* weights = mlp + first_weight;
   for (int i = 0; i < Inputs; ++i) dx[i] = Real{};
   for (int o = 0; o < Outputs; ++o) {
-    dbiases[o] += dy[o];
+    sums.bias(first_bias, o, dy[o]);
     for (int i = 0; i < Inputs; ++i) {
       dx[i] += weights[o * Inputs + i] * dy[o];
-      dweights[o * Inputs + i] += x[i] * dy[o];
+      sums.weight(first_weight, o * Inputs + i, x[i], dy[o]);
     }
   }
 }
 
-/// From dL/dcolour to dL/dfeatures, and adds to `dmlp`, mlp_parameters numbers. `state` is what
-/// shade() left. The direction is not differentiated.
-template <class Weight, class Real>
-TUREEN_HOST_DEVICE void shade_backward(const Weight* mlp, const NetworkState<Real>& state,
-                                       const Real (&dcolor)[3], Real* dmlp,
-                                       Real (&dfeatures)[features]) {
+/// From dL/dcolour to dL/dfeatures; what the pixel adds to the gradient of the network goes to
+/// `sums`. `state` is what shade() left. The direction is not differentiated.
+template <class Weight, class Real, class Sums>
+TUREEN_HOST_DEVICE void network_backward(const Weight* mlp, const NetworkState<Real>& state,
+                                         const Real (&dcolor)[3], const Sums& sums,
+                                         Real (&dfeatures)[features]) {
   Real dz3[mlp_outputs], dz2[mlp_width], dz1[mlp_width], dx[mlp_inputs];
   const Real& blend = state.input[blend_feature];
   Real dblend = Real{};
@@ -96,14 +109,22 @@ TUREEN_HOST_DEVICE void shade_backward(const Weight* mlp, const NetworkState<Rea
     dz3[c] = dcolor[c] * blend * s * (1.0f - s);
     dblend += dcolor[c] * (s - state.input[c]);
   }
-  dense_backward(mlp + weights3, state.hidden2, dz3, dmlp + weights3, dmlp + biases3, dz2);
+  dense_backward(mlp, weights3, biases3, state.hidden2, dz3, sums, dz2);
   for (int o = 0; o < mlp_width; ++o) dz2[o] = state.hidden2[o] > Real{} ? dz2[o] : Real{};
-  dense_backward(mlp + weights2, state.hidden1, dz2, dmlp + weights2, dmlp + biases2, dz1);
+  dense_backward(mlp, weights2, biases2, state.hidden1, dz2, sums, dz1);
   for (int o = 0; o < mlp_width; ++o) dz1[o] = state.hidden1[o] > Real{} ? dz1[o] : Real{};
-  dense_backward(mlp + weights1, state.input, dz1, dmlp + weights1, dmlp + biases1, dx);
+  dense_backward(mlp, weights1, biases1, state.input, dz1, sums, dx);
   for (int f = 0; f < features; ++f) dfeatures[f] = dx[f];
   for (int c = 0; c < 3; ++c) dfeatures[c] += dcolor[c] * (1.0f - blend);
   dfeatures[blend_feature] += dblend;
+}
+
+/// The same, added to `dmlp`, mlp_parameters numbers.
+template <class Weight, class Real>
+TUREEN_HOST_DEVICE void shade_backward(const Weight* mlp, const NetworkState<Real>& state,
+                                       const Real (&dcolor)[3], Real* dmlp,
+                                       Real (&dfeatures)[features]) {
+  network_backward(mlp, state, dcolor, AddedDerivatives<Real>{dmlp}, dfeatures);
 }
 
 }  // namespace tureen::trainer::kernels

@@ -18,6 +18,23 @@ struct Fragment {
   float inverse_depth;
 };
 
+/// The fragment of one pixel, for who has a thread for each: the same arithmetic as below. False
+/// where the triangle does not cover the pixel's centre, or not between the planes.
+TUREEN_HOST_DEVICE bool fragment_at(const View& view, const ProjectedFace& face, int x, int y,
+                                    Fragment& fragment) {
+  float e[3];
+  const float dx = float(x - face.x0), dy = float(y - face.y0);
+  for (int k = 0; k < 3; ++k) {
+    const float row = face.c[k] + face.dy[k] * dy;
+    e[k] = row + face.dx[k] * dx;
+  }
+  const float inverse = e[0] + e[1] + e[2];
+  if (!(e[0] >= 0 && e[1] >= 0 && e[2] >= 0)) return false;
+  if (!(inverse >= float(1 / view.far) && inverse <= float(1 / view.near))) return false;
+  fragment = {x, y, e[0] / inverse, e[1] / inverse, inverse};
+  return true;
+}
+
 /// Calls visit(Fragment) row by row. Pixels whose centre lies on an edge belong to the triangle.
 /// `view` gives the near and the far plane.
 template <class Visitor>

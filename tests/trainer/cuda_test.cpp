@@ -1,0 +1,60 @@
+// The CUDA backend against the processor's, where a GPU answers; and the choice between them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+
+#include "soup/error.hpp"
+#include "trainer/backend_agreement.hpp"
+#include "trainer/device.hpp"
+
+namespace tureen::trainer::test {
+
+namespace {
+
+std::unique_ptr<Backend> on_gpu(std::span<const TrainingView> views, const Config& config) {
+  return make_backend(views, config, Device::cuda, 1);
+}
+
+/// Why there is no GPU to test.
+std::optional<std::string> reason_to_skip() {
+  try {
+    (void)on_gpu({}, {});
+  } catch (const ContextError& error) {
+    return error.reason();
+  }
+  return {};
+}
+
+class Cuda : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (const auto reason = reason_to_skip()) GTEST_SKIP() << *reason;
+  }
+};
+
+TEST_F(Cuda, DrawsTheSamePictures) { expect_same_pictures(on_gpu); }
+TEST_F(Cuda, DoesTheSameStep) { expect_same_step(on_gpu); }
+TEST_F(Cuda, DoesTheSameStepInOddCases) { expect_same_step_in_odd_cases(on_gpu); }
+TEST_F(Cuda, KeepsTheState) { expect_state_kept(on_gpu); }
+TEST_F(Cuda, GivesTheSameBitsAgain) { expect_same_bits_again(on_gpu, on_gpu); }
+TEST_F(Cuda, QuarantinesWhatIsNotFinite) { expect_quarantine(on_gpu); }
+TEST_F(Cuda, TrainsAlike) { expect_same_training(on_gpu, 50); }
+
+TEST(Device, TheProcessorIsChosenByName) {
+  EXPECT_EQ(make_backend({}, {}, Device::cpu, 1)->description(), "CPU, 1 thread");
+}
+
+TEST(Device, WithoutAGpuTheProcessorTrainsAndCudaSaysWhy) {
+  const auto reason = reason_to_skip();
+  if (!reason) GTEST_SKIP() << "a GPU answers";
+  EXPECT_EQ(make_backend({}, {}, Device::automatic, 1)->description(), "CPU, 1 thread");
+  EXPECT_THAT(*reason, testing::HasSubstr(has_cuda_backend() ? "no GPU answers (cuda"
+                                                             : "this build has no CUDA backend"));
+  EXPECT_THAT(*reason, testing::EndsWith("use --device cpu"));
+}
+
+}  // namespace
+
+}  // namespace tureen::trainer::test

@@ -1,0 +1,33 @@
+// The CUDA backend's kernels, and the backend itself, on the processor: a whole step, end to end,
+// against the processor's own backend.
+#include <gtest/gtest.h>
+
+#include "trainer/backend_agreement.hpp"
+#include "trainer/cuda/kernel_backend.hpp"
+#include "trainer/host_machine.hpp"
+
+namespace tureen::trainer::test {
+
+namespace {
+
+template <bool backwards>
+std::unique_ptr<Backend> on_host(std::span<const TrainingView> views, const Config& config) {
+  return std::make_unique<cuda::KernelBackend<HostMachine<backwards>>>(views, config);
+}
+
+TEST(HostLauncher, DrawsTheSamePictures) { expect_same_pictures(on_host<false>); }
+TEST(HostLauncher, DoesTheSameStep) { expect_same_step(on_host<false>); }
+TEST(HostLauncher, DoesTheSameStepInOddCases) { expect_same_step_in_odd_cases(on_host<false>); }
+TEST(HostLauncher, KeepsTheState) { expect_state_kept(on_host<false>); }
+
+// On a GPU blocks and threads run in any order: no bit may depend on it, nor on an interruption.
+TEST(HostLauncher, GivesTheSameBitsInAnyOrder) {
+  expect_same_bits_again(on_host<false>, on_host<true>);
+}
+
+TEST(HostLauncher, QuarantinesWhatIsNotFinite) { expect_quarantine(on_host<false>); }
+TEST(HostLauncher, TrainsAlike) { expect_same_training(on_host<false>, 50); }
+
+}  // namespace
+
+}  // namespace tureen::trainer::test

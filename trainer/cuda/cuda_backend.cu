@@ -1,0 +1,12 @@
+#include "trainer/cuda/cuda_backend.hpp"
+#include "trainer/cuda/cuda_machine.cuh"
+#include "trainer/cuda/kernel_backend.hpp"
+
+namespace tureen::trainer {
+
+std::unique_ptr<Backend> make_cuda_backend(std::span<const TrainingView> views,
+                                           const Config& config) {
+  return std::make_unique<cuda::KernelBackend<cuda::CudaMachine>>(views, config);
+}
+
+}  // namespace tureen::trainer
