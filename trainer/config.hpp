@@ -77,11 +77,12 @@ struct Config {
   int resample_every = 100;
   float resample_until = 0.95f;   // fraction of the steps; the last one only prunes
   bool resample_textures = true;  // published: false. Children copy the parent's texels
-  float turnover = 0.05f;       // published: 0. Fraction of the faces, those of fewest pixels, that
-                                // makes room for others at each resampling
-  bool split_by_error = true;   // published: false. Splits what errs most, not what is longest
-  float split_fraction = 0.2f;  // of the picture's height: longer projected edges are split
-  int split_views = 20;         // at most so many views choose edges
+  float turnover = 0.05f;  // published: 0. Fraction of the faces, those of fewest pixels, that
+                           // makes room for others at each resampling
+  float turnover_until = 0.75f;  // fraction of the steps; what comes later has no time to learn
+  bool split_by_error = true;    // published: false. Splits what errs most, not what is longest
+  float split_fraction = 0.2f;   // of the picture's height: longer projected edges are split
+  int split_views = 20;          // at most so many views choose edges
 
   // --- The picture
   float near = 0.01f;

@@ -141,8 +141,7 @@ void Trainer::resample() {
     return;
   apply(prune_unseen(state.model, pixels));
   last_resample_ = {.unseen = before - state.model.faces()};
-  // What is hardly seen makes room, but not when it is too late for others to learn.
-  const bool renews = step_ < 0.75 * config_.steps;
+  const bool renews = step_ < double(config_.turnover_until) * config_.steps;
   const std::size_t kept =
       budget - (renews ? std::size_t(double(config_.turnover) * double(budget)) : 0);
   if (state.model.faces() > kept) {
