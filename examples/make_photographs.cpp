@@ -63,8 +63,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   try {
     std::fprintf(stderr, "lighting\n");
-    // Finer than the soup: no corner of an outline is seen.
-    const Studio studio(still_life(96), {.threads = options.threads});
+    const Studio studio(still_life(), {.threads = options.threads});
     take(studio, options, "train", example_cameras(options.views, options.size));
     take(studio, options, "test", example_cameras(options.test_views, options.size, 0.5));
   } catch (const std::exception& error) {

@@ -17,11 +17,6 @@ const glm::dvec3 green_dark(0.028, 0.085, 0.022), green_light(0.16, 0.27, 0.06);
 /// 1 inside (distance < 0), 0 outside, over a border that is `soft` wide on either side.
 double inside(double distance, double soft) { return 1 - glm::smoothstep(-soft, soft, distance); }
 
-/// An outline to cut along: 1/2 on it, and linear beside it, as the lattice interpolates.
-double cut(double distance_inside, double texel) {
-  return std::clamp(0.5 + distance_inside / (4 * texel), 0.0, 1.0);
-}
-
 /// How far the point is inside a leaf outline of this length and half width (about).
 double leaf_inside(double across, double along, double length, double half_width) {
   const double t = std::clamp(along / length, 0.0, 1.0);
@@ -52,7 +47,6 @@ Paint wood(glm::dvec3 p) {
 }
 
 Paint lace(glm::dvec2 uv, Turned measure) {
-  const double texel = 0.016;
   constexpr int scallops = 40;
   const double each = measure.circumference / scallops;
   const double x = wrapped(uv.x * scallops) * each;
@@ -67,7 +61,7 @@ Paint lace(glm::dvec2 uv, Turned measure) {
   outside = std::min(outside, std::hypot(x2, y - centre + 0.062) - 0.027);
   outside = std::min(outside, std::hypot(x, y - centre + 0.125) - 0.036);
   outside = std::min(outside, std::hypot(x2, (y - centre + 0.195) * 0.75) - 0.030);
-  return {.albedo = {0.79, 0.765, 0.71}, .gloss = 0, .alpha = cut(outside, texel)};
+  return {.albedo = {0.79, 0.765, 0.71}, .gloss = 0, .hole = outside < 0};
 }
 
 Paint lemon_skin(glm::dvec2 uv) {
@@ -106,7 +100,7 @@ Paint leaf(glm::dvec2 uv, glm::dvec2 size, std::uint64_t seed) {
   const double light = std::clamp(tone + 0.35 * patch - 0.1, 0.0, 1.0);
   glm::dvec3 albedo = glm::mix(green_dark, green_light, light);
   albedo = glm::mix(albedo, glm::dvec3(0.25, 0.33, 0.10), std::max(0.75 * middle, vein));
-  return {.albedo = albedo, .gloss = 0.30, .alpha = cut(outline, 0.014)};
+  return {.albedo = albedo, .gloss = 0.30, .hole = outline < 0};
 }
 
 Paint petal(glm::dvec2 uv, glm::dvec2 size) {
@@ -116,7 +110,7 @@ Paint petal(glm::dvec2 uv, glm::dvec2 size) {
       std::min(0.46 * size.x * bulge - std::abs(across), std::min(along, size.y - along) - 0.002);
   const glm::dvec3 albedo = glm::mix(glm::dvec3(0.78, 0.72, 0.42), glm::dvec3(0.86, 0.83, 0.80),
                                      glm::smoothstep(0.05, 0.45, uv.y));
-  return {.albedo = albedo, .gloss = 0, .alpha = cut(outline, 0.011)};
+  return {.albedo = albedo, .gloss = 0, .hole = outline < 0};
 }
 
 Paint blossom_heart() { return {.albedo = {0.75, 0.45, 0.04}}; }

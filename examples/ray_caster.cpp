@@ -6,9 +6,6 @@
 #include <limits>
 #include <numeric>
 
-#include "soup/lattice.hpp"
-#include "soup/triangle_soup.hpp"
-
 namespace tureen::example {
 namespace {
 
@@ -16,16 +13,6 @@ constexpr std::uint32_t faces_per_leaf = 3;
 
 glm::dvec3 centre(const Face& face) {
   return (face.corners[0] + face.corners[1] + face.corners[2]) / 3.0;
-}
-
-bool any_hole(const Model& model, const Face& face) {
-  const int n = lattice::resolution(face.level);
-  for (int y = 0; y <= n; ++y)
-    for (int x = 0; x + y <= n; ++x)
-      if (model.paint(model.point(face.surface, model.texel_uv(face, x, y)), face.surface).alpha <
-          alpha_threshold)
-        return true;
-  return false;
 }
 
 struct Meeting {
@@ -50,7 +37,6 @@ std::optional<Meeting> meet(const Face& face, glm::dvec3 origin, glm::dvec3 dire
 }  // namespace
 
 RayCaster::RayCaster(const Model& model) : model_(model), faces_(model.faces.size()) {
-  for (const Face& face : model.faces) has_holes_.push_back(any_hole(model, face));
   std::iota(faces_.begin(), faces_.end(), 0u);
   nodes_.emplace_back();
   build(0, 0, static_cast<std::uint32_t>(faces_.size()));
@@ -111,8 +97,8 @@ std::optional<Hit> RayCaster::first_hit(glm::dvec3 origin, glm::dvec3 direction,
       if (!met || met->distance < nearest || met->distance >= best) continue;
       const glm::dvec2 uv =
           face.uv[0] * (1 - met->b1 - met->b2) + face.uv[1] * met->b1 + face.uv[2] * met->b2;
-      if (has_holes_[faces_[i]] &&
-          model_.paint(model_.point(face.surface, uv), face.surface).alpha < alpha_threshold)
+      if (model_.surfaces[face.surface].cut_out &&
+          model_.paint(model_.point(face.surface, uv), face.surface).hole)
         continue;
       best = met->distance;
       hit = Hit{faces_[i], uv};

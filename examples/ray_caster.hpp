@@ -32,7 +32,6 @@ class RayCaster {
   void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
 
   const Model& model_;
-  std::vector<bool> has_holes_;  // one a face
   std::vector<std::uint32_t> faces_;
   std::vector<Node> nodes_;
 };

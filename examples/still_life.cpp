@@ -12,6 +12,7 @@ namespace tureen::example {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr int segments = 96;  // around everything that is turned, but small things
 
 /// Oval porcelain: wider from handle to handle.
 const glm::dmat3 oval(1.14, 0, 0, 0, 1, 0, 0, 0, 1);
@@ -25,9 +26,7 @@ Curve profile(std::initializer_list<glm::dvec2> points) {
 struct Vessel {
   double widest;  // radius where the pattern is
   int rows;
-  int columns;
-  double texel_size = 0.030;  // level 3 on the belly: a finer one would double the file
-  std::function<bool(const SurfacePoint&)> plain = {};
+  int columns = segments;
 };
 
 void add_porcelain(Model& model, const Curve& curve, Vessel vessel,
@@ -37,22 +36,15 @@ void add_porcelain(Model& model, const Curve& curve, Vessel vessel,
              .paint = [=](const SurfacePoint& at) { return paint(at.uv, measure); },
              .columns = vessel.columns,
              .rows = vessel.rows,
-             .closed = true,
-             .texel_size = vessel.texel_size,
-             .plain = vessel.plain});
+             .closed = true});
 }
 
-void add_table(Model& model, int segments) {
+void add_table(Model& model) {
   const double r = table_radius;
   model.add({.position = disc(r - 0.05, {}),
              .paint = [](const SurfacePoint& at) { return wood(at.position); },
              .columns = segments / 4,
-             .rows = segments / 4,
-             .texel_size = 0.028,
-             .plain =
-                 [](const SurfacePoint& at) {
-                   return glm::length(at.position) < 1.38;  // under platter and lace
-                 }});
+             .rows = segments / 4});
   // The rim starts a hair below the top, so that the two overlap without a crack.
   model.add({.position = turned(profile({{r - 0.14, -0.17},
                                          {r - 0.06, -0.165},
@@ -69,15 +61,13 @@ void add_table(Model& model, int segments) {
                  },
              .columns = segments,
              .rows = 3,
-             .closed = true,
-             .texel_size = 0.08});
+             .closed = true});
   // Seen by nobody but whoever looks from below.
   model.add({.position = turned(profile({{0.0, -0.17}, {r - 0.139, -0.17}}), {}),
              .paint = [](const SurfacePoint& at) { return wood(at.position); },
              .columns = segments,
              .rows = 1,
-             .closed = true,
-             .texel_size = 0.5});
+             .closed = true});
 }
 
 void add_doily(Model& model) {
@@ -89,10 +79,10 @@ void add_doily(Model& model) {
              .columns = 48,
              .rows = 2,
              .closed = true,
-             .texel_size = 0.020});
+             .cut_out = true});
 }
 
-void add_tureen(Model& model, int segments) {
+void add_tureen(Model& model) {
   add_porcelain(model,
                 profile({{0.55, 0.022},
                          {0.86, 0.05},
@@ -103,18 +93,12 @@ void add_tureen(Model& model, int segments) {
                          {1.15, 0.150},
                          {0.86, 0.088},
                          {0.40, 0.075}}),
-                {.widest = 1.36,
-                 .rows = 9,
-                 .columns = segments,
-                 .texel_size = 0.034,
-                 // Its underside, and what the foot stands on.
-                 .plain = [](const SurfacePoint& at) { return at.uv.y < 0.42 || at.uv.y > 0.80; }},
-                platter);
+                {.widest = 1.36, .rows = 9}, platter);
   add_porcelain(
       model,
       profile(
           {{0.66, 0.075}, {0.675, 0.10}, {0.62, 0.15}, {0.49, 0.22}, {0.445, 0.29}, {0.50, 0.35}}),
-      {.widest = 0.6, .rows = 5, .columns = segments, .texel_size = 0.036}, tureen_foot);
+      {.widest = 0.6, .rows = 5}, tureen_foot);
   add_porcelain(model,
                 profile({{0.42, 0.315},
                          {0.62, 0.375},
@@ -125,7 +109,7 @@ void add_tureen(Model& model, int segments) {
                          {0.935, 1.21},
                          {0.965, 1.285},
                          {0.985, 1.315}}),
-                {.widest = 1.0, .rows = 12, .columns = segments}, tureen_body);
+                {.widest = 1.0, .rows = 12}, tureen_body);
   add_porcelain(model,
                 profile({{0.965, 1.290},
                          {1.005, 1.325},
@@ -135,7 +119,7 @@ void add_tureen(Model& model, int segments) {
                          {0.47, 1.665},
                          {0.24, 1.725},
                          {0.10, 1.75}}),
-                {.widest = 0.97, .rows = 8, .columns = segments}, tureen_lid);
+                {.widest = 0.97, .rows = 8}, tureen_lid);
   add_porcelain(model,
                 profile({{0.17, 1.735},
                          {0.105, 1.765},
@@ -145,7 +129,7 @@ void add_tureen(Model& model, int segments) {
                          {0.185, 2.01},
                          {0.11, 2.075},
                          {0.0, 2.098}}),
-                {.widest = 0.18, .rows = 9, .columns = 18, .texel_size = 0.022}, tureen_knob);
+                {.widest = 0.18, .rows = 9, .columns = 18}, tureen_knob);
   for (const double side : {-1.0, 1.0}) {
     // An ear: out from the shoulder, up, and back into the belly.
     const Curve ear({glm::dvec3(side * 1.02, 0.70, 0), glm::dvec3(side * 1.24, 0.71, 0),
@@ -158,8 +142,7 @@ void add_tureen(Model& model, int segments) {
          .paint = [](const SurfacePoint& at) { return tureen_handle(at.uv); },
          .columns = 9,
          .rows = 16,
-         .closed = true,
-         .texel_size = 0.022});
+         .closed = true});
   }
 }
 
@@ -179,8 +162,7 @@ void add_lemon(Model& model, glm::dvec3 centre, glm::dvec3 axis) {
              .paint = [](const SurfacePoint& at) { return lemon_skin(at.uv); },
              .columns = 18,
              .rows = 11,
-             .closed = true,
-             .texel_size = 0.03});
+             .closed = true});
 }
 
 /// `axis` points out of the cut.
@@ -200,8 +182,7 @@ void add_half_lemon(Model& model, glm::dvec3 centre, glm::dvec3 axis) {
                  },
              .columns = 26,
              .rows = 6,
-             .closed = true,
-             .texel_size = 0.03});
+             .closed = true});
   model.add({.position = disc(radius, placement),
              .paint =
                  [](const SurfacePoint& at) {
@@ -210,8 +191,7 @@ void add_half_lemon(Model& model, glm::dvec3 centre, glm::dvec3 axis) {
                    return lemon_flesh({p.x, p.z});
                  },
              .columns = 8,
-             .rows = 8,
-             .texel_size = 0.014});
+             .rows = 8});
 }
 
 void add_leaf(Model& model, glm::dvec3 root, glm::dvec3 direction, double length, double droop,
@@ -225,7 +205,7 @@ void add_leaf(Model& model, glm::dvec3 root, glm::dvec3 direction, double length
              .paint = [=](const SurfacePoint& at) { return leaf(at.uv, size, seed); },
              .columns = 2,
              .rows = 4,
-             .texel_size = 0.030,
+             .cut_out = true,
              .translucency = 0.35});
 }
 
@@ -242,7 +222,7 @@ void add_blossom(Model& model, glm::dvec3 centre, double radius, double turn) {
                .paint = [=](const SurfacePoint& at) { return petal(at.uv, size); },
                .columns = 2,
                .rows = 2,
-               .texel_size = 0.020,
+               .cut_out = true,
                .translucency = 0.5});
   }
   model.add({.position = turned(profile({{0.035, 0.0}, {0.036, 0.035}, {0.022, 0.062}, {0, 0.07}}),
@@ -250,8 +230,7 @@ void add_blossom(Model& model, glm::dvec3 centre, double radius, double turn) {
              .paint = [](const SurfacePoint&) { return blossom_heart(); },
              .columns = 8,
              .rows = 3,
-             .closed = true,
-             .texel_size = 0.03});
+             .closed = true});
 }
 
 /// A twig along `points` with leaves to both sides, larger in the middle, and one at its end.
@@ -262,8 +241,7 @@ void add_branch(Model& model, std::vector<glm::dvec3> points, int leaves, std::u
              .paint = [](const SurfacePoint& at) { return bark(at.uv); },
              .columns = 5,
              .rows = 9,
-             .closed = true,
-             .texel_size = 0.035});
+             .closed = true});
   for (int i = 0; i < leaves; ++i) {
     const double t = 0.12 + 0.86 * i / (leaves - 1);
     const bool last = i == leaves - 1;
@@ -284,11 +262,11 @@ void add_branch(Model& model, std::vector<glm::dvec3> points, int leaves, std::u
 
 }  // namespace
 
-Model still_life(int segments) {
+Model still_life() {
   Model model;
-  add_table(model, segments);
+  add_table(model);
   add_doily(model);
-  add_tureen(model, segments);
+  add_tureen(model);
   add_lemon(model, {1.32, 0.250, 1.36}, {0.9, 0.10, 0.35});
   add_lemon(model, {-1.55, 0.250, -1.05}, {0.3, 0.05, 0.9});
   add_half_lemon(model, {0.80, 0.245, 1.72}, {-0.25, 0.42, 0.87});

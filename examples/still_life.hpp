@@ -6,8 +6,7 @@
 namespace tureen::example {
 
 /// y is up, the table's top is y = 0, its radius table_radius; the tureen stands in the middle.
-/// What is turned has `segments` columns, small things fewer.
-Model still_life(int segments = 48);
+Model still_life();
 
 inline constexpr double table_radius = 2.35;
 

@@ -1,34 +1,8 @@
 #include "surface.hpp"
 
-#include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "soup/lattice.hpp"
-#include "soup/triangle_soup.hpp"
-
 namespace tureen::example {
-namespace {
-
-int level_of(const Face& face, double texel_size) {
-  double longest = 0;
-  for (int i = 0; i < 3; ++i)
-    longest = std::max(longest, glm::distance(face.corners[i], face.corners[(i + 1) % 3]));
-  int level = min_level;
-  while (level < max_level && longest > texel_size * lattice::resolution(level)) ++level;
-  return level;
-}
-
-bool all_cut_away(const Model& model, const Face& face) {
-  const int n = lattice::resolution(face.level);
-  for (int y = 0; y <= n; ++y)
-    for (int x = 0; x + y <= n; ++x)
-      if (model.paint(model.point(face.surface, model.texel_uv(face, x, y)), face.surface).alpha >=
-          alpha_threshold)
-        return false;
-  return true;
-}
-
-}  // namespace
 
 void Model::add(Surface added) {
   const auto index = static_cast<std::uint32_t>(surfaces.size());
@@ -43,7 +17,7 @@ void Model::add(Surface added) {
     return surface.position(uv(column, row));
   };
   const auto add_face = [&](std::array<glm::ivec2, 3> at) {
-    Face face{.surface = index, .level = 1, .uv = {}, .corners = {}};
+    Face face{.surface = index, .uv = {}, .corners = {}};
     for (int i = 0; i < 3; ++i) {
       face.uv[i] = uv(at[i].x, at[i].y);
       face.corners[i] = corner(at[i].x, at[i].y);
@@ -51,11 +25,7 @@ void Model::add(Surface added) {
     const double area = glm::length(
         glm::cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]));
     if (area < 1e-9) return;  // at a pole: the thinnest real face of the scene has 1e-5
-    face.level = level_of(face, surface.texel_size);
-    const glm::dvec2 middle = (face.uv[0] + face.uv[1] + face.uv[2]) / 3.0;
-    if (surface.plain && surface.plain(point(index, middle)))
-      face.level = std::max(min_level, face.level - 2);
-    if (!all_cut_away(*this, face)) faces.push_back(face);
+    faces.push_back(face);
   };
   for (int row = 0; row < surface.rows; ++row)
     for (int column = 0; column < surface.columns; ++column) {
@@ -83,11 +53,6 @@ SurfacePoint Model::point(std::uint32_t index, glm::dvec2 uv) const {
   const glm::dvec3 dv =
       surface.position(near + glm::dvec2(0, h)) - surface.position(near - glm::dvec2(0, h));
   return {uv, surface.position(uv), glm::normalize(glm::cross(du, dv))};
-}
-
-glm::dvec2 Model::texel_uv(const Face& face, int x, int y) const {
-  const double n = lattice::resolution(face.level);
-  return (double(x) * face.uv[0] + double(y) * face.uv[1] + (n - x - y) * face.uv[2]) / n;
 }
 
 }  // namespace tureen::example

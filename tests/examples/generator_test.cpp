@@ -11,9 +11,7 @@
 #include "light.hpp"
 #include "noise.hpp"
 #include "ray_caster.hpp"
-#include "soup/triangle_soup.hpp"
 #include "still_life.hpp"
-#include "training.hpp"
 
 namespace tureen::example {
 namespace {
@@ -46,14 +44,8 @@ TEST(RayCaster, FindsWhatTryingEveryFaceFinds) {
   SCOPED_TRACE("seed 4");
   // The porcelain and the lemons: nothing with holes, which the slow way does not know.
   Model solid;
-  for (const Surface& surface : model().surfaces) {
-    bool holes = false;
-    for (int i = 0; i < 400 && !holes; ++i) {
-      const SurfacePoint at{{(i % 20 + 0.5) / 20, (i / 20 + 0.5) / 20}, {0, 0, 0}, {0, 1, 0}};
-      holes = surface.paint(at).alpha < alpha_threshold;
-    }
-    if (!holes) solid.add(surface);
-  }
+  for (const Surface& surface : model().surfaces)
+    if (!surface.cut_out) solid.add(surface);
   const RayCaster caster(solid);
   Random random(seed);
   int hits = 0;
@@ -84,11 +76,11 @@ TEST(RayCaster, HolesLetARayPass) {
   pierced.add({.position = [](glm::dvec2 uv) { return glm::dvec3(uv.y, 0, uv.x); },
                .paint =
                    [](const SurfacePoint& at) {
-                     return Paint{.alpha = glm::distance(at.uv, glm::dvec2(0.5)) < 0.2 ? 0.0 : 1.0};
+                     return Paint{.hole = glm::distance(at.uv, glm::dvec2(0.5)) < 0.2};
                    },
                .columns = 2,
                .rows = 2,
-               .texel_size = 0.05});
+               .cut_out = true});
   const RayCaster caster(pierced);
   EXPECT_FALSE(caster.first_hit({0.55, 1, 0.45}, {0, -1, 0}, 0));
   EXPECT_TRUE(caster.first_hit({0.85, 1, 0.45}, {0, -1, 0}, 0));
@@ -112,47 +104,25 @@ TEST(StillLife, TurnedSurfacesHaveNoCracks) {
       EXPECT_LE(count, 2) << "surface " << s;
       open += count == 1;
     }
-    if (surface.paint(model().point(s, {0.5, 0.5})).alpha < 1) continue;
-    // Two rims at most; the doily's faces that are cut away leave more.
-    const bool doily = surface.rows == 2;
-    if (!doily) {
-      EXPECT_LE(open, 2 * surface.columns) << "surface " << s;
-    }
+    EXPECT_LE(open, 2 * surface.columns) << "surface " << s;  // two rims at most
     ++closed;
   }
   EXPECT_GT(closed, 8);
 }
 
-TEST(Training, LearnsAHighlight) {
-  // A blob of light around one normal, on a base colour that it must leave alone elsewhere.
-  const auto draw = [](Random& random) {
-    Example example{};
-    for (int c = 0; c < 3; ++c) example.features[c] = random.uniform(0.2, 0.6);
-    example.features[3] = 0.6;
-    const double a = random.uniform(0, 6.2831853);
-    const glm::dvec3 n(0.6 * std::cos(a), 0.8, 0.6 * std::sin(a));
-    for (int c = 0; c < 3; ++c) example.features[4 + c] = 0.5 + 0.5 * n[c];
-    example.to_eye = {0, 0, 1};
-    const double light = std::pow(std::max(0.0, n.z / 0.6), 8.0);
-    for (int c = 0; c < 3; ++c) example.color[c] = glm::mix(example.features[c], 0.95, 0.5 * light);
-    return example;
-  };
-  const Training untrained = train(draw, {.steps = 1, .batch = 4096});
-  const Training trained = train(draw, {.steps = 3000, .batch = 64, .rate = 1e-2});
-  EXPECT_FALSE(defect(trained.mlp, 7));
-  EXPECT_LT(trained.root_mean_square, 0.025);
-  EXPECT_GT(untrained.root_mean_square, 4 * trained.root_mean_square);
-
-  // What evaluate() draws is what was trained.
-  Random random(9);
-  double squares = 0;
-  for (int i = 0; i < 500; ++i) {
-    const Example example = draw(random);
-    const glm::dvec3 color = evaluate(trained.mlp, example.features, example.to_eye);
-    squares += glm::dot(color - example.color, color - example.color) / 3;
+TEST(StillLife, OnlyWhatIsCutOutHasHoles) {
+  int cut_out = 0;
+  for (std::uint32_t s = 0; s < model().surfaces.size(); ++s) {
+    int holes = 0;
+    for (int i = 0; i < 10000; ++i) {
+      const glm::dvec2 uv((i % 100 + 0.5) / 100, (i / 100 + 0.5) / 100);
+      holes += model().paint(model().point(s, uv), s).hole;
+    }
+    EXPECT_EQ(holes > 0, model().surfaces[s].cut_out) << "surface " << s;
+    EXPECT_LT(holes, 9000) << "surface " << s;
+    cut_out += model().surfaces[s].cut_out;
   }
-  EXPECT_NEAR(std::sqrt(squares / 500), trained.root_mean_square,
-              0.3 * trained.root_mean_square);  // another sample of the same error
+  EXPECT_GT(cut_out, 20);  // leaves, petals, lace
 }
 
 TEST(Glaze, MirrorsMoreAtGrazingAnglesAndNotWithoutGloss) {
