@@ -339,7 +339,7 @@ void add_train(CLI::App& program, Action& action) {
   command->footer(
       R"(Trains triangles with lattice textures and a color MLP until they look like the
 photographs, writes them as OUT.glb, and measures them against the test views. Ctrl-C leaves a
-checkpoint that --resume goes on from. Equal seeds give equal soups, on any number of threads.
+checkpoint that --resume goes on from. Equal seeds give equal soups with any number of threads.
 
 Examples:
   tureen train lego -o lego.glb

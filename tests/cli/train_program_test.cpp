@@ -78,8 +78,9 @@ class Train : public test::Program {
   static std::vector<std::string> arguments(const std::string& output,
                                             const std::vector<std::string>& more = {},
                                             const std::string& steps = "40") {
-    std::vector<std::string> all{"train", "ball",    "-o",  output,      "--triangles",
-                                 "100",   "--steps", steps, "--threads", "2"};
+    // A GPU, where there is one, gives other bits.
+    std::vector<std::string> all{"train",   "ball", "-o",        output, "--triangles", "100",
+                                 "--steps", steps,  "--threads", "2",    "--device",    "cpu"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -192,7 +193,8 @@ TEST_F(Train, GoesOnAfterCtrlCAsIfItHadNotHappened) {
               HasSubstr("steps is 3001, the checkpoint's 3000"));
 
   // What the command line does not name is the checkpoint's.
-  const ChildResult result = run({"train", "ball", "-o", "ball.glb", "--resume"});
+  const ChildResult result =
+      run({"train", "ball", "-o", "ball.glb", "--resume", "--device", "cpu"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(bytes("ball.glb"), bytes("whole/ball.glb"));
   EXPECT_FALSE(exists("ball.checkpoint"));

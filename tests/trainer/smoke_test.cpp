@@ -97,9 +97,15 @@ double test_psnr(TrainingRun& run, const Config& config) {
   return sum / double(still_life().test.size());
 }
 
+/// A name of the running test's own: others may run beside it.
+fs::path temporary(const std::string& extension) {
+  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+  return fs::path(testing::TempDir()) / ("tureen_smoke_" + std::string(info->name()) + extension);
+}
+
 /// The soup as the file that would be deployed.
 std::vector<std::byte> file_of(const TrainingState& state) {
-  const fs::path path = fs::path(testing::TempDir()) / "tureen_smoke.glb";
+  const fs::path path = temporary(".glb");
   write_scene(to_scene(state.model), path);
   std::vector<std::byte> bytes = Input::open(path).read_rest();
   fs::remove(path);
@@ -133,7 +139,7 @@ TEST(SmokeTraining, GoesOnFromACheckpointAsIfItHadNeverStopped) {
   const Config config = smoke_config();
   TrainingRun whole(config, 2, first_state(config));
   whole.train_until(steps);
-  const fs::path path = fs::path(testing::TempDir()) / "tureen_smoke.checkpoint";
+  const fs::path path = temporary(".checkpoint");
   // In the middle of everything: between two resamplings, and between two epochs.
   constexpr int stop = steps / 2 - 17;
   {
