@@ -55,7 +55,7 @@ constexpr Stage stages[] = {
 /// Pictures of another cloud: there is always something to learn.
 std::vector<trainer::TrainingView> pictures(const Scene& scene, const trainer::Config& config) {
   trainer::TrainingState state;
-  state.model = trainer::from_scene(scene, {});
+  state.model = trainer::from_scene(scene, {.min_level = 2, .max_level = 3});
   state.moments.reset_faces(state.model);
   const auto backend = trainer::make_cpu_backend({}, config, 0);
   backend->upload(state);
@@ -76,8 +76,7 @@ int run(int width, int height, int steps, int level) {
   config.background[0] = config.background[1] = config.background[2] = 0;
   const std::vector<trainer::TrainingView> views = pictures(shown, config);
   trainer::TrainingState state;
-  state.model = trainer::lifted(trainer::from_scene(learned, {}), std::min(2, level), level,
-                                trainer::LiftedOpacity::kept);
+  state.model = trainer::from_scene(learned, {.min_level = std::min(2, level), .max_level = level});
   state.moments.reset_faces(state.model);
 
   Contender contenders[2] = {{trainer::make_cpu_backend(views, config, 1), {}},
