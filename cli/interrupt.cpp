@@ -18,6 +18,13 @@ extern "C" void note_signal(int signal) {
 void catch_interrupts() {
   std::signal(SIGINT, note_signal);
   std::signal(SIGTERM, note_signal);
+#ifdef SIGHUP
+  std::signal(SIGHUP, note_signal);  // a session that was lost
+#endif
+#ifdef SIGXFSZ
+  // A file that grows past its limit is an error of the write, which says so, not the end.
+  std::signal(SIGXFSZ, SIG_IGN);
+#endif
 }
 
 void throw_if_interrupted() {

@@ -1,5 +1,5 @@
-// Ctrl-C and SIGTERM as an exception at the next safe point, so that temporary files are removed
-// on the way out. A second signal ends the program at once.
+// Ctrl-C, SIGTERM and SIGHUP as an exception at the next safe point, so that temporary files are
+// removed on the way out. A second signal ends the program at once.
 #pragma once
 
 #include <stdexcept>

@@ -1,5 +1,6 @@
 #include "cli/training_files.hpp"
 
+#include "cli/training_log.hpp"
 #include "formats/diffsoup_export.hpp"
 #include "formats/output.hpp"
 #include "soup/error.hpp"
@@ -15,6 +16,20 @@ void try_to_write(const fs::path& file) {
   if (fs::is_directory(file, error))
     throw OutputError({file.string(), {}, {}}, "cannot be written: it is a folder");
   const Output probe(file);  // removes its temporary file
+}
+
+/// A log is begun anew, so what is there must be one, or nothing: not a scene, not a dataset.
+void check_log(const TrainingFiles& files) {
+  std::error_code error;
+  for (const fs::path& other : {files.scene, files.checkpoint, files.plot})
+    if (files.log.lexically_normal() == other.lexically_normal())
+      throw UsageError("the log cannot be " + other.string() + ", which is written, too");
+  if (!fs::exists(files.log, error) || fs::is_empty(files.log, error)) return;
+  try {
+    read_training_log(files.log);
+  } catch (const InputError&) {
+    throw UsageError(files.log.string() + " exists and is no log of training; choose another name");
+  }
 }
 
 }  // namespace
@@ -36,6 +51,7 @@ TrainingFiles training_files(const fs::path& scene) {
 void check_writable(const TrainingFiles& files) {
   for (const fs::path& file : {files.scene, files.checkpoint, files.log, files.plot})
     try_to_write(file);
+  check_log(files);
   const fs::path& folder = files.diffsoup_export;
   if (folder.empty()) return;
   std::error_code error;

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <string>
 
 #include "formats/colmap.hpp"
 #include "formats/image_budget.hpp"
@@ -219,11 +220,25 @@ Dataset read_dataset(const fs::path& path, const DatasetOptions& options) {
   Dataset dataset = std::move(outline.dataset);
   ImageBudget budget;
   bool distorted = false;
+  glm::ivec2 first_size(0);  // of pictures whose size the dataset does not give
   int lost_columns = 0, lost_rows = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (options.progress) options.progress(double(i) / double(frames.size()));
     ReadPhotograph read = read_photograph(*frames[i], pictures[i], options);
     if (!budget.take(read.photograph.image)) fail_too_large(outline.file);
+    // An angle of view without a size says something only where all pictures of a split are alike.
+    if (i == outline.train.size()) first_size = glm::ivec2(0);
+    if (!frames[i]->size) {
+      const Camera& camera = read.photograph.camera;
+      if (first_size.x == 0) first_size = glm::ivec2(camera.width, camera.height);
+      if (first_size != glm::ivec2(camera.width, camera.height))
+        throw InputError({pictures[i].string(), {}, {}},
+                         "the picture is " + std::to_string(camera.width) + " x " +
+                             std::to_string(camera.height) + ", the first one " +
+                             std::to_string(first_size.x) + " x " + std::to_string(first_size.y) +
+                             (options.scale == 1 ? "" : " (after scaling)") +
+                             "; the dataset gives no sizes, so all must be equal");
+    }
     distorted = distorted || !frames[i]->lens.is_pinhole();
     lost_columns = std::max(lost_columns, read.lost_columns);
     lost_rows = std::max(lost_rows, read.lost_rows);

@@ -205,6 +205,15 @@ TEST_F(Train, GoesOnAfterCtrlCAsIfItHadNotHappened) {
 
 TEST_F(Train, CheckpointsAsOftenAsItIsTold) {
   make_dataset();
+  // A log is begun anew: nothing else must be in its place.
+  for (const char* log : {"ball/transforms_train.json", "ball.glb"}) {
+    const std::string before = bytes(log);
+    const ChildResult result = train("ball.glb", {"--log", log});
+    EXPECT_EQ(result.exit_code, 2) << log;
+    EXPECT_EQ(bytes(log), before) << log;
+  }
+  EXPECT_THAT(files(), IsEmpty());
+
   // A folder in the plot's place is found before the training.
   fs::create_directories(folder / "ball.svg");
   const ChildResult refused = train("ball.glb");

@@ -123,6 +123,24 @@ TEST(Dataset, ReadsAFileASplitWithoutExtensionsOrSizes) {
   EXPECT_FALSE(half.has_alpha);
 }
 
+TEST(Dataset, RefusesUnequalPicturesWhereNoSizeIsGiven) {
+  const TemporaryFolder folder;
+  const std::string angle = "\"camera_angle_x\": 1.5707963267948966, ";
+  for (const char* split : {"train", "test"})
+    write_text(folder / ("transforms_" + std::string(split) + ".json"),
+               transforms(angle, {frame("./" + std::string(split) + "/a"),
+                                  frame("./" + std::string(split) + "/b")}));
+  for (const char* name : {"train/a.png", "test/a.png", "test/b.png"})
+    write_picture(folder / name, a_picture(8, 6));
+  write_picture(folder / "train/b.png", a_picture(6, 6));
+  try {
+    read_dataset(folder / "");
+    FAIL() << "it was read";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("b.png: the picture is 6 x 6, the first one 8 x 6"));
+  }
+}
+
 TEST(Dataset, AFrameHasItsOwnIntrinsicsAndSize) {
   const TemporaryFolder folder;
   write_picture(folder / "a.png", a_picture(8, 6));
