@@ -1,7 +1,11 @@
 #include "cli/training_files.hpp"
 
-#include "cli/training_log.hpp"
+#include <array>
+#include <span>
+#include <string_view>
+
 #include "formats/diffsoup_export.hpp"
+#include "formats/input.hpp"
 #include "formats/output.hpp"
 #include "soup/error.hpp"
 
@@ -24,12 +28,14 @@ void check_log(const TrainingFiles& files) {
   for (const fs::path& other : {files.scene, files.checkpoint, files.plot})
     if (files.log.lexically_normal() == other.lexically_normal())
       throw UsageError("the log cannot be " + other.string() + ", which is written, too");
-  if (!fs::exists(files.log, error) || fs::is_empty(files.log, error)) return;
-  try {
-    read_training_log(files.log);
-  } catch (const InputError&) {
+  if (!fs::exists(files.log, error)) return;
+  // All lines of a log begin so, also one that was cut short.
+  constexpr std::string_view beginning = "{\"step\":";
+  Input log = Input::open(files.log);
+  std::array<char, beginning.size()> found{};
+  const std::size_t size = log.read_some(std::as_writable_bytes(std::span(found)));
+  if (std::string_view(found.data(), size) != beginning.substr(0, size))
     throw UsageError(files.log.string() + " exists and is no log of training; choose another name");
-  }
 }
 
 }  // namespace
