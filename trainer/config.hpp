@@ -75,7 +75,7 @@ struct Config {
 
   // --- Resampling: pruning and splitting
   int resample_every = 100;
-  float resample_until = 0.95f;   // fraction of the steps; the last one only prunes
+  float resample_until = 0.95f;   // fraction of the steps, after which faces stay
   bool resample_textures = true;  // published: false. Children copy the parent's texels
   float turnover = 0.05f;  // published: 0. Fraction of the faces, those of fewest pixels, that
                            // makes room for others at each resampling

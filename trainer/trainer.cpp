@@ -65,18 +65,12 @@ Camera half_size(const Camera& camera) {
 
 std::vector<std::uint32_t> batch_of(int step, int batch, std::size_t count, std::uint64_t seed) {
   assert(step >= 1 && batch >= 1 && count >= 1);
-  std::vector<std::uint32_t> views;
-  std::uint64_t epoch = ~std::uint64_t(0);
-  std::vector<std::uint32_t> order;
-  for (std::uint64_t n = std::uint64_t(step - 1) * batch; views.size() < std::size_t(batch); ++n) {
-    if (n / count != epoch) {
-      epoch = n / count;
-      order = shuffled(count, Random(seed, epoch_stream + epoch));
-    }
-    views.push_back(order[n % count]);
-    if (views.size() == count) break;  // no view twice in a batch
-  }
-  return views;
+  const std::size_t size = std::size_t(batch), steps_an_epoch = (count + size - 1) / size;
+  const std::size_t epoch = std::size_t(step - 1) / steps_an_epoch;
+  const std::size_t begin = std::size_t(step - 1) % steps_an_epoch * size;
+  const std::vector<std::uint32_t> order = shuffled(count, Random(seed, epoch_stream + epoch));
+  return {order.begin() + std::ptrdiff_t(begin),
+          order.begin() + std::ptrdiff_t(std::min(begin + size, count))};
 }
 
 Trainer::Trainer(const Config& config, std::span<const TrainingView> views,
@@ -98,12 +92,16 @@ StepReport Trainer::step() {
                       .vertex = float(config_.vertex_rate * decay)});
   const int lift_step = std::max(1, int(std::lround(double(config_.lift_at) * config_.steps)));
   if (step_ == lift_step) lift();
-  const int last = int(double(config_.resample_until) * config_.steps) / config_.resample_every *
-                   config_.resample_every;
-  // Short runs must meet the budget, too.
-  if (step_ == std::max(last, 1) || (step_ < last && step_ % config_.resample_every == 0))
-    resample();
+  const int last = last_resample_step();
+  if (step_ == last || (step_ < last && step_ % config_.resample_every == 0)) resample();
   return report;
+}
+
+int Trainer::last_resample_step() const {
+  // Rounded: 0.95f is a little less than 0.95.
+  const auto until = int(std::lround(double(config_.resample_until) * config_.steps));
+  // Short runs must meet the budget, too.
+  return std::max(until / config_.resample_every * config_.resample_every, 1);
 }
 
 TrainingState Trainer::state() const {
@@ -154,10 +152,15 @@ void Trainer::resample() {
   const std::vector<Split> splits = config_.split_by_error
                                         ? greatest_errors(state.model, ordered, budget)
                                         : choose_splits(state, cameras);
-  last_resample_.split = splits.size();
-  if (!splits.empty())
-    apply(split(state.model, splits,
-                config_.resample_textures ? ChildTexture::resampled : ChildTexture::copied));
+  const auto cut = [&](const std::vector<Split>& edges) {
+    last_resample_.split += edges.size();
+    if (!edges.empty())
+      apply(split(state.model, edges,
+                  config_.resample_textures ? ChildTexture::resampled : ChildTexture::copied));
+  };
+  cut(splits);
+  // Projected edges may all be short enough before the budget is met; in the end it is.
+  if (step_ == last_resample_step()) cut(longest_edges(state.model, budget));
   apply(in_space_order(state.model));
   if (config_.reset_moments) state.moments.reset_faces(state.model);
   faces_ = state.model.faces();

@@ -47,6 +47,7 @@ class Trainer {
   const Config& config() const { return config_; }
 
  private:
+  int last_resample_step() const;
   void lift();
   void resample();
   std::vector<Split> choose_splits(const TrainingState& state, std::span<const Camera> cameras);
@@ -60,7 +61,9 @@ class Trainer {
 };
 
 /// The views of step `step` (1, 2, ..): `batch` of `count`, so that every epoch shows each view
-/// once, in an order that only seed and epoch decide.
+/// once, in an order that only seed and epoch decide. The last batch of an epoch is shorter where
+/// `batch` does not divide `count`: no view is in a batch twice, as the same draws would count
+/// double and two tasks would write to the same pixels of the baseline.
 std::vector<std::uint32_t> batch_of(int step, int batch, std::size_t count, std::uint64_t seed);
 
 }  // namespace tureen::trainer

@@ -1,0 +1,146 @@
+// The schedule of a run, on a backend that learns nothing and sees what it is told: batches, and
+// the budget at the end.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include "random_model.hpp"
+#include "stages.hpp"
+#include "trainer/trainer.hpp"
+
+namespace tureen::trainer {
+
+namespace {
+
+/// Every face errs by its number, and every `unseen`-th has no pixel.
+class BlindBackend final : public Backend {
+ public:
+  explicit BlindBackend(std::size_t unseen) : unseen_(unseen) {}
+
+  std::string description() const override { return "none"; }
+  void upload(const TrainingState& state) override { state_ = state; }
+  void download(TrainingState& state) const override { state = state_; }
+  StepReport step(std::span<const std::uint32_t>, const Rates&) override {
+    state_.errors.resize(state_.model.faces());
+    std::iota(state_.errors.begin(), state_.errors.end(), 1.0f);
+    ++state_.step;
+    return {};
+  }
+  StageTimes take_times() override { return {}; }
+  std::vector<std::uint64_t> visible_pixels(std::span<const Camera>) override {
+    std::vector<std::uint64_t> pixels;
+    for (std::size_t face = 0; face < state_.model.faces(); ++face)
+      pixels.push_back(face % unseen_ == unseen_ - 1 ? 0 : face + 1);
+    return pixels;
+  }
+  std::vector<float> render(const Camera&) override { return {}; }
+
+ private:
+  std::size_t unseen_;
+  TrainingState state_;
+};
+
+struct Case {
+  const char* name;
+  Config config;
+  std::size_t initial_faces;
+  std::size_t unseen = 7;
+};
+
+/// Faces of about the size of the picture, some smaller than any threshold.
+TrainingState first_state(std::size_t faces) {
+  TrainingState state;
+  state.model = test::random_model(5, {.faces = faces, .min_level = 0, .max_level = 0});
+  state.model.origin = {0, 0, -5};
+  for (std::size_t i = 0; i < state.model.positions.size(); ++i)
+    if (i / 3 % 3) state.model.positions[i] *= 1e-3f;
+  state.moments.reset_faces(state.model);
+  return state;
+}
+
+std::size_t faces_in_the_end(const Case& run) {
+  const std::vector<TrainingView> views(
+      3, {.camera = test::axis_camera(64, 48, 60), .target = {}, .ignored = {}});
+  Trainer trainer(run.config, views, std::make_unique<BlindBackend>(run.unseen),
+                  first_state(run.initial_faces));
+  while (!trainer.done()) trainer.step();
+  EXPECT_EQ(trainer.state().model.faces(), trainer.faces()) << run.name;
+  EXPECT_EQ(trainer.state().model.max_level, run.config.max_level) << run.name;
+  return trainer.faces();
+}
+
+}  // namespace
+
+TEST(Schedule, EveryEpochShowsEachViewOnceAndNoBatchTwice) {
+  for (const std::size_t count : {1u, 2u, 3u, 4u, 5u, 8u, 35u})
+    for (const int batch : {1, 3, 4, 7}) {
+      const int steps_an_epoch = int((count + std::size_t(batch) - 1) / std::size_t(batch));
+      for (int epoch = 0; epoch < 3; ++epoch) {
+        std::multiset<std::uint32_t> shown;
+        for (int step = epoch * steps_an_epoch + 1; step <= (epoch + 1) * steps_an_epoch; ++step) {
+          const std::vector<std::uint32_t> views = batch_of(step, batch, count, 3);
+          ASSERT_FALSE(views.empty());
+          EXPECT_LE(views.size(), std::size_t(batch));
+          shown.insert(views.begin(), views.end());
+        }
+        EXPECT_EQ(shown.size(), count) << "batches of " << batch;
+        EXPECT_EQ(std::set(shown.begin(), shown.end()).size(), count) << "batches of " << batch;
+      }
+    }
+}
+
+TEST(Schedule, MeetsTheBudgetExactlyInEveryPreset) {
+  for (const Preset kind : {Preset::object, Preset::scene})
+    for (const bool compat : {false, true})
+      for (const int steps : {1, 7, 60})
+        for (const std::size_t initial : {std::size_t(1), std::size_t(50), std::size_t(200)}) {
+          Case run{"", compat ? published(kind) : preset(kind), initial};
+          run.config.steps = steps;
+          run.config.triangles = 50;
+          run.config.resample_every = 10;
+          run.config.max_level = 2;
+          EXPECT_EQ(faces_in_the_end(run), 50u)
+              << (kind == Preset::object ? "object" : "scene") << (compat ? ", published" : "")
+              << ", " << steps << " steps from " << initial << " faces";
+        }
+}
+
+TEST(Schedule, MeetsTheBudgetWhateverTheSchedule) {
+  Config config;
+  config.steps = 40;
+  config.triangles = 30;
+  config.resample_every = 10;
+  Config rare = config, early = config, late = config, none = config, greedy = config, one = config;
+  rare.resample_every = 1000;
+  early.lift_at = 0;
+  late.lift_at = 1;
+  none.resample_until = 0;
+  greedy.turnover = 0.99f;
+  one.triangles = 1;
+  for (const Case& run : {Case{"resampled rarely", rare, 30}, Case{"lifted at once", early, 30},
+                          Case{"lifted at the end", late, 30}, Case{"never resampled", none, 100},
+                          Case{"all renewed", greedy, 30}, Case{"one triangle", one, 30}})
+    EXPECT_EQ(faces_in_the_end(run), std::size_t(run.config.triangles)) << run.name;
+}
+
+TEST(Schedule, FacesStayAfterTheLastResampling) {
+  // 0.95f is below 0.95: of 200 steps it must still be step 190 and not 180.
+  Config config;
+  config.steps = 200;
+  config.triangles = 50;
+  config.resample_every = 10;
+  const std::vector<TrainingView> views(
+      3, {.camera = test::axis_camera(64, 48, 60), .target = {}, .ignored = {}});
+  Trainer trainer(config, views, std::make_unique<BlindBackend>(7), first_state(50));
+  int last = 0;
+  while (!trainer.done()) {
+    const std::vector<glm::vec3> before = trainer.state().model.positions;
+    trainer.step();
+    if (trainer.state().model.positions != before) last = trainer.steps_done();
+  }
+  EXPECT_EQ(last, 190);
+}
+
+}  // namespace tureen::trainer
