@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <vector>
 
 #include "formats/decimal.hpp"
@@ -29,6 +30,7 @@ constexpr Range views{1, 1024, {}, "a step looks at one view or more"};
 constexpr Range faces{1, 4e6, {}, "more triangles than that are no longer a small soup"};
 constexpr Range levels{0, lattice::max_level, {}, "a lattice has these levels"};
 constexpr Range fraction{0, 1, {}, "it is a fraction"};
+constexpr Range share{0, 1, Range::Ends::high_open, "some must stay for others to be cut from"};
 constexpr Range part{0, 1, Range::Ends::low_open, "it is a fraction, and nothing moves at 0"};
 constexpr Range weight{0, 1000, {}, "a weight below 0 would reward the error"};
 constexpr Range rate{0, 1e6, {}, "a rate below 0 would climb the loss; 0 keeps things as they are"};
@@ -133,7 +135,7 @@ const ConfigField fields[] = {
      "Children of a split resample their parent's texture instead of copying it"},
     {"turnover",
      &Config::turnover,
-     fraction,
+     share,
      {},
      "Fraction of the faces, those of fewest pixels, replaced at each resampling"},
     {"turnover_until",
@@ -226,6 +228,13 @@ std::optional<std::string> defect(const Config& config) {
   if (config.coarse_level > config.min_level)
     return "coarse_level: " + level(config.coarse_level) + " is above min_level, " +
            level(config.min_level) + " (the lift would lose what was learned)";
+  // Texels of a soup are numbered by 32 bits (LatticePatch::first_texel).
+  const std::uint64_t texels = lattice::texel_count(config.max_level);
+  if (const auto most = std::numeric_limits<std::uint32_t>::max() / texels;
+      std::uint64_t(config.triangles) > most)
+    return "triangles: " + std::to_string(config.triangles) + " of level " +
+           level(config.max_level) + " have more texels than a soup can number; at most " +
+           std::to_string(most) + " can be of that level";
   if (!(config.near < config.far))
     return "near: " + float_text(config.near) + " is not below far, " + float_text(config.far);
   if (config.l1_weight == 0 && config.ssim_weight == 0)
