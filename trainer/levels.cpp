@@ -5,23 +5,19 @@
 #include <cstdint>
 #include <vector>
 
+#include "trainer/kernels/texture.hpp"
+
 namespace tureen::trainer::levels {
 
 namespace {
 
-/// The two texels of the level below that a texel lies between; twice the same where it is one.
-struct Parents {
-  std::uint32_t a, b;
-};
+using kernels::Parents;
 
 std::vector<Parents> parents_of(int level) {
   std::vector<Parents> parents(lattice::texel_count(level));
   for (std::uint32_t texel = 0; texel < parents.size(); ++texel) {
     const auto [x, y] = lattice::texel_coordinates(texel);
-    // Edges run along x, along y and along x + y: odd coordinates name the edge.
-    const int odd_x = x & 1, odd_y = y & 1;
-    parents[texel] = {lattice::texel_index((x + odd_x) / 2, (y - odd_y) / 2 + odd_y * (1 - odd_x)),
-                      lattice::texel_index((x - odd_x) / 2, (y + odd_y) / 2 - odd_y * (1 - odd_x))};
+    parents[texel] = kernels::parents(x, y);
   }
   return parents;
 }
