@@ -1,6 +1,7 @@
 // `tureen train`: photographs to a soup.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -23,6 +24,7 @@
 #include "trainer/config_file.hpp"
 #include "trainer/device.hpp"
 #include "trainer/initialise.hpp"
+#include "trainer/kernels/projection.hpp"
 #include "trainer/training_views.hpp"
 
 namespace tureen::cli {
@@ -79,13 +81,17 @@ Config config_of(const Options& options, Preset otherwise, const Checkpoint* che
 
 void check_pictures(const Options& options, const Dataset& dataset) {
   constexpr int window = 11;  // of the SSIM
+  constexpr int most = trainer::kernels::most_picture_side;
   for (const auto* views : {&dataset.train, &dataset.test})
-    for (const Photograph& view : *views)
-      if (view.camera.width < window || view.camera.height < window)
+    for (const Photograph& view : *views) {
+      const auto [shorter, longer] = std::minmax(view.camera.width, view.camera.height);
+      if (shorter < window || longer > most)
         throw InputError(
             {options.dataset.path, {}, {}},
-            fmt::format("{} is {} x {} pixels; there must be {} each way to train on",
-                        view.camera.name, view.camera.width, view.camera.height, window));
+            fmt::format("{} is {} x {} pixels; there must be {} to {} each way to train on{}",
+                        view.camera.name, view.camera.width, view.camera.height, window, most,
+                        longer > most ? ": --scale makes it smaller" : ""));
+    }
 }
 
 trainer::TrainingState first_state(const Options& options, const Dataset& dataset,

@@ -10,9 +10,6 @@
 
 namespace tureen::trainer {
 
-/// The feature that blends between base colour and network.
-inline constexpr int blend_channel = 3;
-
 /// Random weights, biases 0: hidden layers Kaiming-uniform for ReLU, |w| < sqrt(6 / inputs); the
 /// last one Xavier-uniform, |w| < sqrt(6 / (inputs + outputs)). As DiffSoup's code does; its paper
 /// says Xavier for all.

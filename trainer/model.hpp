@@ -15,7 +15,8 @@
 
 namespace tureen::trainer {
 
-inline constexpr int channels = 8;  // f0 .. f6, alpha: the order of LatticeTexture
+inline constexpr int channels = 8;       // f0 .. f6, alpha: the order of LatticeTexture
+inline constexpr int blend_channel = 3;  // between base colour (f0, f1, f2) and network
 inline constexpr int alpha_channel = 7;
 
 /// 16-16-16-3, all numbers of one layer after those of the one before: W1 [16][16], b1 [16],

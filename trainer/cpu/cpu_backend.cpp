@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -33,6 +34,9 @@ class Stopwatch {
   double& sum_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
+
+/// Both pixels of a pair slide the texture of the one face that they show: each for one half.
+constexpr float slide_share = 0.5f;
 
 constexpr std::size_t faces_a_task = 64;  // enough to hide the cost of handing a task out
 
@@ -119,6 +123,7 @@ void CpuBackend::upload(const TrainingState& state) {
 }
 
 void CpuBackend::prepare(Picture& picture, const Camera& camera) const {
+  assert(std::max(camera.width, camera.height) <= kernels::most_picture_side);
   picture.view = view_of(camera, state_.model.origin, config_.near, config_.far);
   picture.tiles_x = (camera.width + tile_side - 1) / tile_side;
   picture.tiles_y = (camera.height + tile_side - 1) / tile_side;
@@ -215,7 +220,7 @@ void CpuBackend::step_faces(const Rates& rates, StepReport& report) {
                            .beta1 = config_.beta1,
                            .beta2 = config_.beta2,
                            .epsilon = config_.epsilon,
-                           .slide = 0.5f,
+                           .slide = slide_share,
                            .dense_updates = config_.dense_updates};
   const std::size_t faces = state_.model.faces();
   std::vector<unsigned> quarantined((faces + faces_a_task - 1) / faces_a_task);

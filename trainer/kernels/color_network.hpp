@@ -12,7 +12,6 @@
 namespace tureen::trainer::kernels {
 
 inline constexpr int features = channels - 1;
-inline constexpr int blend_feature = 3;
 
 // Where the layers begin in MlpParameters.
 inline constexpr int weights1 = 0, biases1 = weights1 + 256;
@@ -60,7 +59,7 @@ TUREEN_HOST_DEVICE void shade(const Weight* mlp, NetworkState<Real>& state, Real
   dense(mlp + weights2, mlp + biases2, state.hidden1, state.hidden2);
   for (Real& h : state.hidden2) h = positive_part(h);
   dense(mlp + weights3, mlp + biases3, state.hidden2, state.output);
-  const Real& blend = state.input[blend_feature];
+  const Real& blend = state.input[blend_channel];
   for (int c = 0; c < mlp_outputs; ++c) {
     state.output[c] = sigmoid(state.output[c]);
     color[c] = (1.0f - blend) * state.input[c] + blend * state.output[c];
@@ -102,7 +101,7 @@ TUREEN_HOST_DEVICE void network_backward(const Weight* mlp, const NetworkState<R
                                          const Real (&dcolor)[3], const Sums& sums,
                                          Real (&dfeatures)[features]) {
   Real dz3[mlp_outputs], dz2[mlp_width], dz1[mlp_width], dx[mlp_inputs];
-  const Real& blend = state.input[blend_feature];
+  const Real& blend = state.input[blend_channel];
   Real dblend = Real{};
   for (int c = 0; c < mlp_outputs; ++c) {
     const Real& s = state.output[c];
@@ -116,7 +115,7 @@ TUREEN_HOST_DEVICE void network_backward(const Weight* mlp, const NetworkState<R
   dense_backward(mlp, weights1, biases1, state.input, dz1, sums, dx);
   for (int f = 0; f < features; ++f) dfeatures[f] = dx[f];
   for (int c = 0; c < 3; ++c) dfeatures[c] += dcolor[c] * (1.0f - blend);
-  dfeatures[blend_feature] += dblend;
+  dfeatures[blend_channel] += dblend;
 }
 
 /// The same, added to `dmlp`, mlp_parameters numbers.

@@ -15,9 +15,12 @@
 
 namespace tureen::trainer::kernels {
 
+/// Pictures are at most so wide and high: a ProjectedFace keeps its rectangle in 16 bits.
+inline constexpr int most_picture_side = 32767;
+
 /// A pinhole camera relative to the model's origin.
 struct View {
-  int width, height;
+  int width, height;  // at most most_picture_side
   double fx, fy, cx, cy;
   double eye[3];
   double right[3], down[3], forward[3];  // unit axes of the picture in world coordinates
