@@ -27,6 +27,7 @@ Config published(Preset kind) {
   config.turnover = 0.0f;
   config.split_by_error = false;
   config.baseline = false;
+  config.texture_slide = 1.0f;
   config.dense_updates = true;
   config.reset_moments = true;
   config.resample_textures = false;

@@ -63,6 +63,10 @@ struct Config {
   bool baseline = true;         // published: false. Subtracts a running mean from the score's loss
   float baseline_rate = 0.25f;  // of its exponential moving average, by pixel
 
+  /// Both pixels of a pair slide the texture of the one face that they show, so each counts for one
+  /// half of the derivative; published: 1, each in full.
+  float texture_slide = 0.5f;
+
   // --- Optimisation
   float texture_rate = 5e-2f;  // features and opacity
   float mlp_rate = 1e-2f;

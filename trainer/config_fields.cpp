@@ -99,6 +99,12 @@ const ConfigField fields[] = {
      {},
      "A running mean is taken off the score's loss: less variance, the same expectation"},
     {"baseline_rate", &Config::baseline_rate, part, {}, "How fast that mean follows"},
+    {"texture_slide",
+     &Config::texture_slide,
+     weight,
+     {},
+     "Of the motion that a texture within a face gives its corners; one half is the exact "
+     "derivative"},
     {"texture_rate", &Config::texture_rate, rate, {}, "Learning rate of features and opacity"},
     {"mlp_rate", &Config::mlp_rate, rate, {}, "Learning rate of the color MLP"},
     {"vertex_rate",

@@ -35,9 +35,6 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Both pixels of a pair slide the texture of the one face that they show: each for one half.
-constexpr float slide_share = 0.5f;
-
 constexpr std::size_t faces_a_task = 64;  // enough to hide the cost of handing a task out
 
 class CpuBackend final : public Backend {
@@ -220,7 +217,7 @@ void CpuBackend::step_faces(const Rates& rates, StepReport& report) {
                            .beta1 = config_.beta1,
                            .beta2 = config_.beta2,
                            .epsilon = config_.epsilon,
-                           .slide = slide_share,
+                           .slide = config_.texture_slide,
                            .dense_updates = config_.dense_updates};
   const std::size_t faces = state_.model.faces();
   std::vector<unsigned> quarantined((faces + faces_a_task - 1) / faces_a_task);

@@ -418,7 +418,7 @@ void KernelBackend<Machine>::step_faces(const Rates& rates) {
                               .by_features = by_features_.data(),
                               .advantage = advantage_.data(),
                               .error = error_.data(),
-                              .slide = 0.5f,
+                              .slide = config_.texture_slide,
                               .sums = sums},
                   machine_.resident_blocks());
   machine_.launch(StepFaces{.textures = textures(),
