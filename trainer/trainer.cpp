@@ -134,16 +134,19 @@ void Trainer::resample() {
   std::vector<Camera> cameras;
   for (const TrainingView& view : views_) cameras.push_back(half_size(view.camera));
   std::vector<std::uint64_t> pixels = backend_->visible_pixels(cameras);
-  // Where nothing is seen (yet), there is nothing to go by.
-  if (std::all_of(pixels.begin(), pixels.end(), [](std::uint64_t count) { return count == 0; }))
-    return;
-  apply(prune_unseen(state.model, pixels));
+  // Where nothing is seen (yet), there is nothing to go by; in the end the budget is met all the
+  // same.
+  const bool seen = std::any_of(pixels.begin(), pixels.end(), [](auto count) { return count > 0; });
+  if (!seen && step_ != last_resample_step()) return;
+  if (seen) {
+    apply(prune_unseen(state.model, pixels));
+    std::erase(pixels, 0u);  // in the order of the faces that are left
+  }
   last_resample_ = {.unseen = before - state.model.faces()};
   const bool renews = step_ < double(config_.turnover_until) * config_.steps;
   const std::size_t kept =
       budget - (renews ? std::size_t(double(config_.turnover) * double(budget)) : 0);
   if (state.model.faces() > kept) {
-    std::erase(pixels, 0u);  // in the order of the faces that are left
     last_resample_.pruned = state.model.faces() - kept;
     apply(prune(state.model, pixels, kept));
   }

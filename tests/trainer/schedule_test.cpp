@@ -125,6 +125,20 @@ TEST(Schedule, MeetsTheBudgetWhateverTheSchedule) {
     EXPECT_EQ(faces_in_the_end(run), std::size_t(run.config.triangles)) << run.name;
 }
 
+TEST(Schedule, MeetsTheBudgetEvenWhereNothingIsSeen) {
+  for (const std::size_t initial : {std::size_t(10), std::size_t(90)}) {
+    Config config;
+    config.steps = 40;
+    config.triangles = 50;
+    config.resample_every = 10;
+    const std::vector<TrainingView> views(
+        3, {.camera = test::axis_camera(64, 48, 60), .target = {}, .ignored = {}});
+    Trainer trainer(config, views, std::make_unique<BlindBackend>(1), first_state(initial));
+    while (!trainer.done()) trainer.step();
+    EXPECT_EQ(trainer.faces(), 50u) << initial;
+  }
+}
+
 TEST(Schedule, FacesStayAfterTheLastResampling) {
   // 0.95f is below 0.95: of 200 steps it must still be step 190 and not 180.
   Config config;
