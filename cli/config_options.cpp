@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cli/choice.hpp"
 #include "soup/error.hpp"
@@ -20,6 +21,12 @@ template <class T>
 CLI::Option* add_number(CLI::App& command, const std::string& name, std::optional<T>& value,
                         const std::string& help) {
   return command.add_option(name, value, help)->option_text("N");
+}
+
+/// The nearest int: beyond an int is beyond every range as well, and is refused with its range.
+int as_int(std::int64_t value) {
+  constexpr std::int64_t most = std::numeric_limits<int>::max();
+  return static_cast<int>(std::clamp(value, -most, most));
 }
 
 }  // namespace
@@ -69,13 +76,13 @@ Config with_options(const Config& base, const ConfigOptions& options) {
     const double ratio = double(*options.triangles) / config.triangles;
     config.initial_triangles =
         int(std::clamp(std::round(config.initial_triangles * ratio), 1.0, 4e6));
-    config.triangles = *options.triangles;
+    config.triangles = as_int(*options.triangles);
   }
-  config.steps = options.steps.value_or(config.steps);
-  config.batch = options.batch.value_or(config.batch);
+  if (options.steps) config.steps = as_int(*options.steps);
+  if (options.batch) config.batch = as_int(*options.batch);
   config.seed = options.seed.value_or(config.seed);
   if (options.level) {
-    config.max_level = *options.level;
+    config.max_level = as_int(*options.level);
     config.min_level = std::min(config.min_level, config.max_level);
     config.coarse_level = std::min(config.coarse_level, config.min_level);
   }

@@ -15,7 +15,7 @@ struct ConfigOptions {
   std::optional<trainer::Preset> preset;
   std::string file;
   bool published = false;
-  std::optional<int> triangles, steps, batch, level;
+  std::optional<std::int64_t> triangles, steps, batch, level;  // ranges are checked in the end
   std::optional<std::uint64_t> seed;
   std::string begin;  // "random", "points", a scene, or empty
 

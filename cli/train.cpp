@@ -14,11 +14,13 @@
 #include "cli/held_out.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
+#include "cli/run_lock.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/training_plot.hpp"
 #include "cli/training_session.hpp"
 #include "formats/output.hpp"
 #include "formats/scene_file.hpp"
+#include "formats/suggestion.hpp"
 #include "soup/error.hpp"
 #include "soup/lattice_bytes.hpp"
 #include "trainer/config_file.hpp"
@@ -94,11 +96,8 @@ void check_pictures(const Options& options, const Dataset& dataset) {
     }
 }
 
-trainer::TrainingState first_state(const Options& options, const Dataset& dataset,
-                                   const Config& config) {
-  std::optional<Scene> mesh;
-  if (config.initialisation == trainer::Initialisation::mesh)
-    mesh = read(SceneArgument{.path = options.config.mesh(), .vertex_colors = {}, .up = {}});
+trainer::TrainingState first_state(const Dataset& dataset, const Config& config,
+                                   const std::optional<Scene>& mesh) {
   trainer::TrainingState state;
   state.model = trainer::initial_model(dataset, config, mesh ? &*mesh : nullptr);
   state.moments.reset_faces(state.model);
@@ -231,9 +230,27 @@ void say_beginning(const Dataset& dataset, const Config& config, const trainer::
                   counted(std::uint64_t(config.triangles)), backend.description()));
 }
 
-void prepare_files(const Options& options, const TrainingFiles& files) {
-  check_writable(files);
+/// The scene of --init.
+std::optional<Scene> read_mesh(const ConfigOptions& options) {
+  const fs::path path = options.mesh();
+  if (path.empty()) return std::nullopt;
   std::error_code error;
+  const std::vector<std::string> words{"random", "points"};
+  if (!fs::exists(path, error))
+    throw InputError({path.string(), {}, {}}, why_missing(path) +
+                                                  "; --init takes random, points or a scene" +
+                                                  did_you_mean(path.string(), words));
+  return read(SceneArgument{.path = path.string(), .vertex_colors = {}, .up = {}});
+}
+
+/// What is there already, and is not to be lost by mistake.
+void check_existing(const Options& options, const TrainingFiles& files) {
+  std::error_code error;
+  if (const fs::path mesh = options.config.mesh(); fs::equivalent(mesh, files.scene, error))
+    throw UsageError("-o would replace " + mesh.string() +
+                     ", from which --init begins; choose another name");
+  if (!options.resume && fs::exists(files.scene, error))
+    say(files.scene.string() + " is there and will be replaced in the end");
   if (!options.resume && fs::exists(files.checkpoint, error))
     throw UsageError(files.checkpoint.string() +
                      " is there, of a run that was not finished: --resume goes on with it; remove "
@@ -250,14 +267,21 @@ void make_folder(const fs::path& folder) {
 ExitCode train(const Options& options) {
   // Everything that can be wrong with the arguments is said before the photographs are read.
   TrainingFiles files;
+  std::optional<RunLock> lock;
   if (!options.print_config) {
     files = files_of(options);
-    prepare_files(options, files);
+    check_writable(files);
+    lock.emplace(files.lock);
+    check_existing(options, files);
+    trainer::require_device(options.device);
+    if (options.preview_every > 0) make_folder(files.previews);
   }
   std::optional<Checkpoint> checkpoint;
   if (options.resume) checkpoint = trainer::read_checkpoint(files.checkpoint);
   const Checkpoint* before = checkpoint ? &*checkpoint : nullptr;
   config_of(options, Preset::object, before);
+  const std::optional<Scene> mesh =
+      checkpoint || options.print_config ? std::nullopt : read_mesh(options.config);
 
   Dataset dataset = read(options.dataset, DatasetPart::all);
   check_pictures(options, dataset);
@@ -279,14 +303,13 @@ ExitCode train(const Options& options) {
     if (const auto reason = difference(run.views, checkpoint->views))
       throw UsageError("--resume cannot go on with another dataset: " + *reason);
   const Config scaled = trainer::scaled_to(config, trainer::region_of_interest(dataset).half_side);
-  run.state = checkpoint ? std::move(checkpoint->state) : first_state(options, dataset, scaled);
+  run.state = checkpoint ? std::move(checkpoint->state) : first_state(dataset, scaled, mesh);
   const std::vector<trainer::TrainingView> views =
       trainer::take_training_views(dataset.train, scaled);
   trainer::Trainer trainer(scaled, views,
                            trainer::make_backend(views, scaled, options.device, options.threads),
                            run.state);
   say_beginning(dataset, config, trainer.backend());
-  if (options.preview_every > 0) make_folder(files.previews);
 
   TrainingSession session(trainer,
                           {.files = files,
@@ -355,7 +378,8 @@ Examples:
   tureen train lego -o better.glb --init lego.glb            train a soup further
   tureen train lego --print-config > lego.json               all constants, for --config
 
-Exit codes: 0 done, 2 wrong usage, 3 the photographs or the checkpoint cannot be read,
+Exit codes: 0 done, 2 wrong usage, which a dataset or constants other than the checkpoint's are,
+3 the photographs, the checkpoint or the configuration cannot be read,
 4 no GPU where one is asked for, 5 interrupted, or the soup cannot be written.)");
   add_dataset_argument(*command, options->dataset);
   add_file_options(*command, *options);

@@ -51,6 +51,7 @@ TrainingFiles training_files(const fs::path& scene) {
           .log = beside(".jsonl"),
           .plot = beside(".svg"),
           .previews = beside(".previews"),
+          .lock = beside(".lock"),
           .diffsoup_export = {}};
 }
 

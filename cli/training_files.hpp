@@ -12,6 +12,7 @@ struct TrainingFiles {
   std::filesystem::path log;              // OUT.jsonl
   std::filesystem::path plot;             // OUT.svg
   std::filesystem::path previews;         // OUT.previews
+  std::filesystem::path lock;             // OUT.lock, while the run goes on
   std::filesystem::path diffsoup_export;  // empty: none
 };
 

@@ -57,6 +57,12 @@ Outline file_a_split(const fs::path& folder, const DatasetOptions& options) {
   Outline outline;
   const auto read = [&](const char* name) {
     outline.file = (folder / name).string();
+    std::error_code ignored;
+    if (!fs::exists(folder / name, ignored))
+      throw InputError({(folder / name).string(), {}, {}},
+                       "there is no such file, which the other half of the dataset's split goes "
+                       "with; without a split name the one file there is instead of the folder, "
+                       "and every n-th photograph is kept to test with");
     Frames frames = read_transforms_dataset(folder / name, options.images_folder);
     sort_by_name(frames);
     return frames;

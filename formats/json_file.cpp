@@ -2,20 +2,58 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
 
 namespace tureen {
 
-nlohmann::json read_json(Input& input) {
+namespace {
+
+/// Programs that write JSON by hand leave numbers in it that JSON does not have.
+std::string what_is_wrong(std::string_view text, std::size_t byte) {
+  for (const std::string_view word : {"NaN", "nan", "-Infinity", "Infinity", "-inf", "inf"})
+    // The parser stops at the letter that it cannot take, which may lie within the word.
+    for (std::size_t back = 0; back < word.size() && back <= byte; ++back)
+      if (text.substr(byte - back, word.size()) == word)
+        return "not valid JSON: " + std::string(word) + " is no number there";
+  return "not valid JSON";
+}
+
+/// Refuses the second key of a name in one object.
+class KeyWatch {
+ public:
+  explicit KeyWatch(Input& input) : input_(input) {}
+
+  bool operator()(int, nlohmann::json::parse_event_t event, const nlohmann::json& parsed) {
+    using Event = nlohmann::json::parse_event_t;
+    if (event == Event::object_start) keys_.emplace_back();
+    if (event == Event::object_end) keys_.pop_back();
+    if (event == Event::key && !keys_.back().insert(parsed.get<std::string>()).second)
+      input_.fail_at(0, "\"" + parsed.get<std::string>() + "\" stands there twice");
+    return true;
+  }
+
+ private:
+  Input& input_;
+  std::vector<std::set<std::string>> keys_;  // of the objects that are open
+};
+
+}  // namespace
+
+nlohmann::json read_json(Input& input, RepeatedKeys repeated) {
   if (input.remaining() > max_json_bytes)
     input.fail("JSON of " + std::to_string(input.remaining()) + " bytes, the limit is " +
                std::to_string(max_json_bytes));
   const auto bytes = input.read_rest();
   const auto* text = reinterpret_cast<const char*>(bytes.data());
   try {
+    if (repeated == RepeatedKeys::refused)
+      return nlohmann::json::parse(text, text + bytes.size(), KeyWatch(input));
     return nlohmann::json::parse(text, text + bytes.size());
   } catch (const nlohmann::json::parse_error& error) {
     // Its byte counts from 1, and is one past the end where the text is cut short.
-    input.fail_at(error.byte > 0 ? error.byte - 1 : 0, "not valid JSON");
+    const std::size_t byte = error.byte > 0 ? error.byte - 1 : 0;
+    input.fail_at(byte, what_is_wrong({text, bytes.size()}, byte));
   } catch (const nlohmann::json::exception& error) {
     input.fail_at(0, std::string("JSON that cannot be read: ") + error.what());
   }

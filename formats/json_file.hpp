@@ -12,8 +12,14 @@ namespace tureen {
 /// Files of more bytes are refused.
 inline constexpr std::uint64_t max_json_bytes = 16u << 20;
 
+/// What an object with the same key twice means. JSON leaves it open.
+enum class RepeatedKeys {
+  last_counts,  // as most readers have it
+  refused,      // for what people write by hand
+};
+
 /// Parses the whole input. Throws an InputError with the byte where the text is no JSON.
-nlohmann::json read_json(Input& input);
+nlohmann::json read_json(Input& input, RepeatedKeys repeated = RepeatedKeys::last_counts);
 
 /// A finite float; throws an InputError that names `what` otherwise.
 float json_float(const nlohmann::json& value, const std::string& file, const std::string& what);

@@ -24,10 +24,12 @@ constexpr const char* initialisations[] = {"automatic", "points", "random", "mes
 constexpr const char* precisions[] = {"float32", "float16"};
 
 // Whole numbers beyond these are typing errors rather than wishes.
-constexpr Range steps{1, 1e7, {}, "a run takes at least one step"};
-constexpr Range views{1, 1024, {}, "a step looks at one view or more"};
+constexpr Range steps{1, 1e7, {}, "a run takes at least one step", "it would take weeks"};
+constexpr Range views{
+    1, 1024, {}, "a step looks at one view or more", "a step holds all of its pictures in memory"};
 // The texels of so many faces at level 3, a byte a channel, come to 1.4 GB.
-constexpr Range faces{1, 4e6, {}, "more triangles than that are no longer a small soup"};
+constexpr Range faces{
+    1, 4e6, {}, "a soup has one triangle or more", "their textures would fill gigabytes"};
 constexpr Range levels{0, lattice::max_level, {}, "a lattice has these levels"};
 constexpr Range fraction{0, 1, {}, "it is a fraction"};
 constexpr Range share{0, 1, Range::Ends::high_open, "some must stay for others to be cut from"};
@@ -187,7 +189,8 @@ std::optional<std::string> range_defect(const Config& config, const ConfigField&
   for (const double value : numbers(config, field))
     if (!field.range.contains(value))
       return std::string(field.name) + ": " + value_text(config, field) + " is not " +
-             field.range.text() + " (" + field.range.reason + ")";
+             field.range.text() + " (" +
+             (value > field.range.high ? field.range.reason_above : field.range.reason) + ")";
   return std::nullopt;
 }
 

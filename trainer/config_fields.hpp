@@ -21,6 +21,7 @@ struct Range {
   double high = 0;
   Ends ends = Ends::closed;
   const char* reason = "";
+  const char* reason_above = reason;  // where numbers beyond `high` have a reason of their own
 
   bool contains(double value) const;
   /// "1..1024"; for an open end "more than 0, at most 1" or "from 0 to less than 1".

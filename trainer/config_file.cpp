@@ -53,6 +53,17 @@ std::vector<std::string> field_names() {
   return names;
 }
 
+/// Names all that are unknown at once: whoever mistyped one may have mistyped more.
+void require_known(const JsonView& root, const nlohmann::json& document,
+                   const std::vector<std::string>& names) {
+  std::string unknown;
+  for (const auto& [key, ignored] : document.items())
+    if (std::find(names.begin(), names.end(), key) == names.end())
+      unknown += (unknown.empty() ? "\"" : "; \"") + key + "\" is no constant of training" +
+                 did_you_mean(key, names);
+  if (!unknown.empty()) root.fail(unknown);
+}
+
 Preset preset_of(const JsonView& root, Preset otherwise) {
   const std::optional<JsonView> named = root.find("preset");
   return named ? Preset(named->one_of(preset_words())) : otherwise;
@@ -61,16 +72,15 @@ Preset preset_of(const JsonView& root, Preset otherwise) {
 }  // namespace
 
 Config read_config(Input& input, const ConfigDefaults& defaults) {
-  const nlohmann::json document = read_json(input);
+  const nlohmann::json document = read_json(input, RepeatedKeys::refused);
   const JsonView root(document, input.name());
   const Preset kind = preset_of(root, defaults.preset);
   Config config = defaults.published ? published(kind) : preset(kind);
 
   const std::vector<std::string> names = field_names();
+  require_known(root, document, names);
   for (const auto& [key, ignored] : document.items()) {
     const auto known = std::find(names.begin(), names.end(), key);
-    if (known == names.end())
-      root.fail("\"" + key + "\" is no constant of training" + did_you_mean(key, names));
     const ConfigField& field = config_fields()[std::size_t(known - names.begin())];
     std::visit(Assign{config, field, root[field.name]}, field.member);
   }

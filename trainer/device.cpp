@@ -17,13 +17,22 @@ bool has_cuda_backend() { return false; }
 
 namespace {
 
-std::unique_ptr<Backend> make_cuda_backend(std::span<const TrainingView>, const Config&) {
+void require_cuda() {
   throw ContextError("this build has no CUDA backend (nvcc was not there): use --device cpu");
+}
+
+std::unique_ptr<Backend> make_cuda_backend(std::span<const TrainingView>, const Config&) {
+  require_cuda();
+  return nullptr;
 }
 
 }  // namespace
 
 #endif
+
+void require_device(Device device) {
+  if (device == Device::cuda) require_cuda();
+}
 
 std::unique_ptr<Backend> make_backend(std::span<const TrainingView> views, const Config& config,
                                       Device device, int threads) {

@@ -17,6 +17,9 @@ enum class Device {
 /// Whether this build has the CUDA backend: it is built where nvcc is.
 bool has_cuda_backend();
 
+/// Throws the ContextError of make_backend, before there are views to make it for.
+void require_device(Device device);
+
 /// `threads` are the processor's, 0 for all cores. The views must outlive the backend. Throws
 /// ContextError for Device::cuda where this build has no CUDA backend or no GPU answers, and
 /// DeviceLimitError where the views do not fit into the GPU's memory; Device::automatic trains on

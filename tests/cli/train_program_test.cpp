@@ -284,10 +284,14 @@ TEST_F(Train, ExitCodesSayWhoIsToBlame) {
   expect(arguments("b.glb", {"--level", "9"}), 2, "max_level: 9 is not");
   expect(arguments("b.glb", {"--batch", "0"}), 2, "batch: 0 is not");
   expect(arguments("b.glb", {"--init", "points"}), 3, "no points to begin at");
+  expect(arguments("b.glb", {"--batch", "5000"}), 2, "batch: 5000 is not from 1 to 1024 (a step h");
+  expect(arguments("b.glb", {}, "99999999999"), 2, "is not from 1 to 10000000 (it would");
   expect(arguments("b.glb", {"--init", "none.off"}), 3, "none.off: there is no such file");
+  expect(arguments("b.glb", {"--init", "pionts"}), 3, "did you mean points?");
   expect(arguments("b.glb", {"--config", "none.json"}), 3, "none.json: there is no such file");
-  write("bad.json", R"({"stepz": 3})");
+  write("bad.json", R"({"stepz": 3, "sed": 1})");
   expect(arguments("b.glb", {"--config", "bad.json"}), 3, "did you mean steps?");
+  expect(arguments("b.glb", {"--config", "bad.json"}), 3, "did you mean seed?");
   write("mesh.json", R"({"initialisation": "mesh"})");
   expect(arguments("b.glb", {"--config", "mesh.json"}), 2, "--init FILE");
   write("scene.json", R"({"preset": "scene"})");
@@ -301,6 +305,34 @@ TEST_F(Train, ExitCodesSayWhoIsToBlame) {
   expect(arguments("b.glb"), 3, "r_3.png");
   expect({"train", "bal", "-o", "b.glb"}, 3, "did you mean ball?");
   EXPECT_THAT(files(), ElementsAre("bad.json", "mesh.json", "scene.json"));
+}
+
+TEST_F(Train, TwoRunsDoNotShareAnOutput) {
+  make_dataset();
+  test::Child first(arguments("ball.glb", {}, "100000"), folder);
+  while (first.running() && !exists("ball.jsonl"))
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  const ChildResult second = train("ball.glb");
+  EXPECT_EQ(second.exit_code, 2);
+  EXPECT_THAT(second.err, HasSubstr("another run is writing the files beside ball.lock"));
+  first.signal(SIGKILL);
+  first.wait();
+  EXPECT_TRUE(exists("ball.lock"));  // but nobody holds it
+  fs::remove(folder / "ball.checkpoint");
+  const ChildResult third = train("ball.glb");
+  EXPECT_EQ(third.exit_code, 0) << third.err;
+  EXPECT_THAT(files(), ElementsAre("ball.glb", "ball.jsonl", "ball.svg"));
+}
+
+TEST_F(Train, DoesNotReplaceWhatItBeginsWith) {
+  make_dataset();
+  ASSERT_EQ(train("ball.glb", {}, "2").exit_code, 0);
+  const std::string before = bytes("ball.glb");
+  const ChildResult refused = train("ball.glb", {"--init", "ball.glb"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("-o would replace ball.glb, from which --init begins"));
+  EXPECT_EQ(bytes("ball.glb"), before);
+  EXPECT_THAT(train("ball.glb", {}, "2").err, HasSubstr("ball.glb is there and will be replaced"));
 }
 
 }  // namespace

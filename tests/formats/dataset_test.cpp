@@ -362,7 +362,7 @@ TEST(Dataset, RefusesAnEmptySplit) {
               HasSubstr("transforms.json: there are no photographs to test"));
 
   write_text(folder / "transforms_train.json", transforms(intrinsics, {frame("images/0.png")}));
-  EXPECT_THAT(refusal(folder / ""), HasSubstr("transforms_test.json: no such file"));
+  EXPECT_THAT(refusal(folder / ""), HasSubstr("transforms_test.json: there is no such file, which the other half"));
   EXPECT_EQ(refusal(folder / "", {.part = DatasetPart::train}), "");
   write_text(folder / "transforms_test.json", transforms(intrinsics, {}));
   EXPECT_THAT(refusal(folder / ""), HasSubstr("no photographs to test: it has 1 to train on"));
@@ -376,6 +376,10 @@ TEST(Dataset, RefusesWhatIsNoDataset) {
   EXPECT_THAT(refusal(folder / ""), HasSubstr("there is no \"frames\""));
   write_text(folder / "transforms.json", "{\"frames\": [");
   EXPECT_THAT(refusal(folder / ""), HasSubstr("not valid JSON"));
+  for (const std::string word : {"NaN", "Infinity", "-Infinity"}) {
+    write_text(folder / "transforms.json", "{\"fl_x\": " + word + ", \"frames\": []}");
+    EXPECT_THAT(refusal(folder / ""), HasSubstr("not valid JSON: " + word + " is no number there"));
+  }
   write_text(folder / "transforms.json",
              transforms(intrinsics, {"{\"transform_matrix\": [[1,0,0,0],[0,1,0,0],[0,0,1,0]]}"}));
   EXPECT_THAT(refusal(folder / ""), HasSubstr("frame 0: file_path is missing"));

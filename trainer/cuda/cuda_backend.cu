@@ -4,6 +4,8 @@
 
 namespace tureen::trainer {
 
+void require_cuda() { cuda::CudaMachine(); }
+
 std::unique_ptr<Backend> make_cuda_backend(std::span<const TrainingView> views,
                                            const Config& config) {
   return std::make_unique<cuda::KernelBackend<cuda::CudaMachine>>(views, config);

@@ -8,6 +8,9 @@
 
 namespace tureen::trainer {
 
+/// Throws the ContextError of make_cuda_backend.
+void require_cuda();
+
 /// On the current device; CUDA_VISIBLE_DEVICES tells which that is. The views must outlive the
 /// backend. Throws ContextError where no GPU answers or this build has no code for it, and
 /// DeviceLimitError where its memory is too small for the views; upload() and step() throw the
