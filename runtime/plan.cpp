@@ -271,6 +271,9 @@ class Planner {
 
 RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
                      const PlanPreferences& preferences) {
+  if (preferences.preset && !is_faithful(*preferences.preset))
+    throw UsageError("this runtime does not draw with a preset yet: " +
+                     describe(*preferences.preset));
   return Planner(soup, limits, preferences).make();
 }
 

@@ -10,6 +10,7 @@
 
 #include "runtime/color_mlp_source.hpp"
 #include "runtime/draw_order.hpp"
+#include "soup/render_preset.hpp"
 #include "soup/triangle_soup.hpp"
 
 namespace tureen {
@@ -39,6 +40,8 @@ struct PlanPreferences {
   bool specialise = true;
   bool reversed_depth = true;            // where the device can
   std::optional<ShadingSite> site = {};  // the plan's own choice when absent
+  /// Knobs that trade error for time; none: faithful. Without a defect() for the soup.
+  std::optional<RenderPreset> preset = {};
 };
 
 /// How the texels of a lattice lie on the device.
@@ -77,7 +80,7 @@ struct RenderPlan {
 };
 
 /// The soup must have no defect(). Throws UsageError when the published pipeline is asked for and
-/// cannot draw this soup.
+/// cannot draw this soup, and for knobs that are not obeyed.
 RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
                      const PlanPreferences& preferences = {});
 
