@@ -1,0 +1,82 @@
+// How frames are timed: the one protocol behind every figure of ours.
+//
+// Entrants take turns frame by frame (A B C A B C ..), so that whatever else the machine does hits
+// them alike. Each is warmed up until it is stable. First of all the first entrant runs against
+// itself: the A/A spread is the difference that means nothing. A sample begins with an idle device
+// and ends when the device has finished; on fast devices it is several frames of one view, so that
+// waiting is not what is measured. The clock is the steady one of the processor.
+//
+// What it does not do: GL. Entrants are functions, so that a test can drive it with a clock of its
+// own, and a compute path or another renderer can enter.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/frame_statistics.hpp"
+#include "soup/camera.hpp"
+
+namespace tureen {
+
+/// What takes part. Its functions must draw what they always draw: no error queries, no reading
+/// back, no presentation belong in them.
+struct Entrant {
+  std::string name;
+  std::function<void(const Camera&)> draw;  // may return before the device has finished
+  std::function<void()> finish;             // waits for the device
+};
+
+struct BenchmarkOptions {
+  /// How often the cameras are gone through. At least 1.
+  int rounds = 5;
+  /// No round is begun that would end later than this, counted from the start and warm-up included;
+  /// one round is always made. 0: no limit.
+  double most_seconds = 0;
+
+  /// A sample lasts at least this long: the fastest entrant's frames are repeated within it, up to
+  /// `most_frames_per_sample`, and everybody else's as often. 0: a sample is a frame.
+  double least_sample_ms = 0;
+  int most_frames_per_sample = 100;
+
+  /// Warm-up: frames of the first camera, until the last three times lie within `stable_within` of
+  /// the smallest of them, but at least and at most this many; none is begun after
+  /// `most_warm_up_seconds` but for the least.
+  int least_warm_up_frames = 3;
+  int most_warm_up_frames = 100;
+  double most_warm_up_seconds = 2;
+  /// 5 %: far above the jitter of an idle machine, far below what compiling shaders costs.
+  double stable_within = 0.05;
+
+  /// Whether the first entrant is measured against itself first. Without it aa_spread is 0.
+  enum class SelfTest { run, leave_out };
+  SelfTest self_test = SelfTest::run;
+
+  /// Called after every sample with the fraction done; may throw to abandon.
+  std::function<void(double)> progress = nullptr;
+  /// Seconds of a clock that never goes back; the steady clock when empty.
+  std::function<double()> clock = nullptr;
+};
+
+struct EntrantResult {
+  std::string name;
+  FrameTimes times;  // milliseconds a frame; a sample's mean where it is several frames
+  int warm_up_frames = 0;
+  bool stable = false;  // whether the warm-up came to rest
+};
+
+struct BenchmarkResult {
+  std::vector<EntrantResult> entrants;  // in the order given
+  double aa_spread = 0;                 // series_spread of the first entrant against itself
+  int rounds = 0;                       // those that were made: as asked, or fewer for time
+  int frames_per_sample = 1;
+  double seconds = 0;  // all of it
+};
+
+/// Asserts that there are entrants, cameras and at least one round. Leaves no frame in flight. The
+/// last sample of each entrant showed the last camera.
+BenchmarkResult run_benchmark(std::span<const Entrant> entrants, std::span<const Camera> cameras,
+                              const BenchmarkOptions& options = {});
+
+}  // namespace tureen
