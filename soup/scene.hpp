@@ -27,7 +27,7 @@ struct Scene {
   std::vector<Camera> cameras;
   glm::dvec3 origin{0.0};  // world = origin + position
   SceneInfo info;
-  std::optional<RenderPreset> preset;  // without a defect(); nothing: draw faithfully
+  std::optional<RenderPreset> preset = {};  // without a defect(); nothing: draw faithfully
 };
 
 /// The soup to draw: the scene's own, or what becomes of its soft triangles (to_opaque), with a
