@@ -41,7 +41,7 @@ void require_comparable(const ImageF& a, const ImageF& b) {
 }
 
 /// The smallest value that at least 99.9 % of all are not above (nearest rank).
-double percentile_999(std::vector<float>& values) {
+double percentile_999(std::vector<float> values) {
   const std::size_t rank = (values.size() * 999 + 999) / 1000;  // rounded up, at least 1
   const auto nth = values.begin() + std::ptrdiff_t(rank - 1);
   std::nth_element(values.begin(), nth, values.end());
@@ -70,8 +70,6 @@ Metrics compare(const ImageF& a, const ImageF& b, const MetricOptions& options) 
   require_comparable(a, b);
   const std::size_t pixels = a.pixels.size();
   Metrics result;
-  std::vector<float> differences;
-  differences.reserve(3 * pixels);
   std::size_t mismatched = 0, failing = 0;
   double sum = 0, sum_of_squares = 0;
   for (std::size_t i = 0; i < pixels; ++i) {
@@ -80,7 +78,6 @@ Metrics compare(const ImageF& a, const ImageF& b, const MetricOptions& options) 
       const double d = difference(p, q, c);
       sum += d;
       sum_of_squares += d * d;
-      differences.push_back(float(d));
     }
     const double largest = largest_difference(p, q);
     result.max_abs = std::max(result.max_abs, largest);
@@ -91,12 +88,22 @@ Metrics compare(const ImageF& a, const ImageF& b, const MetricOptions& options) 
   result.mae = sum / (3.0 * double(pixels));
   result.mse = sum_of_squares / (3.0 * double(pixels));
   result.psnr_db = psnr_from_mse(result.mse);
-  result.p999_abs = percentile_999(differences);
+  result.p999_abs = percentile_999(channel_differences(a, b));
   result.coverage_mismatch = double(mismatched) / double(pixels);
   result.failing_fraction = double(failing) / double(pixels);
   result.ssim = ssim(a, b, options.ssim_border);
   if (options.with_flip) result.flip = flip(a, b).mean;
   return result;
+}
+
+std::vector<float> channel_differences(const ImageF& a, const ImageF& b) {
+  require_comparable(a, b);
+  std::vector<float> differences;
+  differences.reserve(3 * a.pixels.size());
+  for (std::size_t i = 0; i < a.pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+      differences.push_back(float(difference(a.pixels[i], b.pixels[i], c)));
+  return differences;
 }
 
 std::vector<float> difference_map(const ImageF& a, const ImageF& b) {

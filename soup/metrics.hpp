@@ -44,6 +44,9 @@ double mean_squared_error(const ImageF& a, const ImageF& b);
 /// window does not fit.
 Metrics compare(const ImageF& a, const ImageF& b, const MetricOptions& options = {});
 
+/// |a - b| of R, G and B of every pixel as in Metrics, row by row from the top, in [0, 1].
+std::vector<float> channel_differences(const ImageF& a, const ImageF& b);
+
 /// The largest difference in a channel, a pixel, row by row from the top.
 std::vector<float> difference_map(const ImageF& a, const ImageF& b);
 

@@ -1,0 +1,114 @@
+#include "runtime/tradeoff/experiment.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace tureen::tradeoff {
+
+namespace {
+
+void add(Design& design, Configuration configuration, const Refusal& refuse) {
+  if (const std::optional<std::string> reason = refuse(configuration))
+    design.skipped.push_back({std::move(configuration), *reason});
+  else
+    design.configurations.push_back(std::move(configuration));
+}
+
+/// The knob of a configuration of the star, none for the defaults.
+std::optional<std::size_t> turned_knob(const Configuration& configuration) {
+  for (std::size_t knob = 0; knob < configuration.size(); ++knob)
+    if (configuration[knob] != 0) return knob;
+  return {};
+}
+
+/// Combinations of these knobs that turn two of them or more: the others are in the star.
+double combinations(std::span<const int> settings, std::span<const KnobRange> knobs) {
+  double all = 1, single = 1;
+  for (const KnobRange& range : knobs) {
+    all *= settings[range.knob];
+    single += settings[range.knob] - 1;
+  }
+  return all - single;
+}
+
+}  // namespace
+
+int departures(const Configuration& configuration) {
+  return int(std::count_if(configuration.begin(), configuration.end(),
+                           [](int setting) { return setting != 0; }));
+}
+
+Design star(std::span<const int> settings, const Refusal& refuse) {
+  Design design;
+  const Configuration defaults(settings.size(), 0);
+  design.configurations.push_back(defaults);
+  for (std::size_t knob = 0; knob < settings.size(); ++knob)
+    for (int setting = 1; setting < settings[knob]; ++setting) {
+      Configuration configuration = defaults;
+      configuration[knob] = setting;
+      add(design, std::move(configuration), refuse);
+    }
+  return design;
+}
+
+std::vector<KnobRange> knob_ranges(std::span<const Configuration> star,
+                                   std::span<const Measured> measured, std::size_t knobs) {
+  assert(!star.empty() && star.size() == measured.size() && departures(star[0]) == 0);
+  std::vector<KnobRange> ranges(knobs);
+  for (std::size_t knob = 0; knob < knobs; ++knob) {
+    double fastest = measured[0].ms, slowest = measured[0].ms;
+    double best = measured[0].psnr_db, worst = measured[0].psnr_db;
+    for (std::size_t i = 1; i < star.size(); ++i) {
+      if (turned_knob(star[i]) != knob) continue;
+      if (!std::isnan(measured[i].ms)) {
+        fastest = std::min(fastest, measured[i].ms);
+        slowest = std::max(slowest, measured[i].ms);
+      }
+      best = std::max(best, measured[i].psnr_db);
+      worst = std::min(worst, measured[i].psnr_db);
+    }
+    ranges[knob] = {knob, slowest / fastest, best - worst};
+  }
+  return ranges;
+}
+
+Design factorial(std::span<const int> settings, std::span<const KnobRange> ranges,
+                 const Refusal& refuse, const FactorialLimits& limits) {
+  std::vector<KnobRange> chosen;
+  for (const KnobRange& range : ranges)
+    if (range.matters()) chosen.push_back(range);
+  std::stable_sort(chosen.begin(), chosen.end(), [](const KnobRange& a, const KnobRange& b) {
+    return std::log(a.time_ratio) * a.psnr_db > std::log(b.time_ratio) * b.psnr_db;
+  });
+  Design design;
+  if (chosen.size() > limits.most_knobs) {
+    design.notes.push_back(std::to_string(chosen.size()) + " knobs matter; the " +
+                           std::to_string(limits.most_knobs) +
+                           " that move time and error most are combined");
+    chosen.resize(limits.most_knobs);
+  }
+  const std::size_t wanted = chosen.size();
+  const double all = combinations(settings, chosen);
+  while (combinations(settings, chosen) > double(limits.most_configurations)) chosen.pop_back();
+  if (chosen.size() < wanted)
+    design.notes.push_back(
+        "all combinations of " + std::to_string(wanted) + " knobs are " +
+        std::to_string(std::size_t(all)) + " configurations, more than the limit of " +
+        std::to_string(limits.most_configurations) + ": " +
+        (chosen.size() < 2 ? std::string("none are measured")
+                           : "only those of the first " + std::to_string(chosen.size()) + " are"));
+
+  // Counts through the combinations as an odometer does, the last knob fastest.
+  Configuration configuration(settings.size(), 0);
+  for (;;) {
+    std::size_t at = chosen.size();
+    while (at > 0 && ++configuration[chosen[at - 1].knob] == settings[chosen[at - 1].knob])
+      configuration[chosen[--at].knob] = 0;
+    if (at == 0) break;
+    if (departures(configuration) >= 2) add(design, configuration, refuse);
+  }
+  return design;
+}
+
+}  // namespace tureen::tradeoff
