@@ -66,8 +66,7 @@ class Uploader {
 
   void add_mlp(const ColorMlp& mlp, const FeatureRanges& ranges) {
     if (!plan_.color_mlp) return;
-    result_.mlp = color_mlp_source(
-        mlp, plan_.weights_as_constants ? MlpWeights::constants : MlpWeights::uniforms, ranges);
+    result_.mlp = color_mlp_source(mlp, plan_.mlp_weights, ranges);
     if (mlp.encoding == DirectionEncoding::harmonics2) result_.constants["HARMONICS_DEGREE"] = "2";
     result_.glsl += result_.mlp.text;
   }

@@ -67,7 +67,7 @@ std::string epilogue(const ColorMlp& mlp, const std::string& sum) {
          ");\n}\n";
 }
 
-ColorMlpSource with_constants(const ColorMlp& mlp, const FeatureRanges& ranges) {
+ColorMlpSource with_constants(const ColorMlp& mlp, const FeatureRanges& ranges, bool pruned) {
   ColorMlpSource result;
   std::string body;
   std::vector<Input> inputs = network_inputs(mlp, ranges);
@@ -86,8 +86,8 @@ ColorMlpSource with_constants(const ColorMlp& mlp, const FeatureRanges& ranges) 
         low += std::min(a, b);
         high += std::max(a, b);
         magnitude += std::max(std::abs(a), std::abs(b));
-        if (inputs[i].low == 0.0f && inputs[i].high == 0.0f) continue;  // a dead input
-        if (weights[i] == 0.0f) {
+        if (pruned && inputs[i].low == 0.0f && inputs[i].high == 0.0f) continue;  // a dead input
+        if (pruned && weights[i] == 0.0f) {
           ++zeros;
           continue;
         }
@@ -96,7 +96,7 @@ ColorMlpSource with_constants(const ColorMlp& mlp, const FeatureRanges& ranges) 
       // The rounding on the device of a sum of at most max_width + 1 float products, and of the
       // features themselves: 64 * 2^-24 of the terms' magnitude, with room to spare.
       const double rounding = 1e-5 * magnitude;
-      const bool dead = !last && high <= -rounding;
+      const bool dead = pruned && !last && high <= -rounding;
       result.hidden_neurons += last ? 0 : 1;
       result.dead_neurons += dead ? 1 : 0;
       result.zero_weights += dead ? 0 : zeros;
@@ -157,7 +157,8 @@ ColorMlpSource with_uniforms(const ColorMlp& mlp) {
 }  // namespace
 
 ColorMlpSource color_mlp_source(const ColorMlp& mlp, MlpWeights kind, const FeatureRanges& ranges) {
-  return kind == MlpWeights::constants ? with_constants(mlp, ranges) : with_uniforms(mlp);
+  if (kind == MlpWeights::uniforms) return with_uniforms(mlp);
+  return with_constants(mlp, ranges, kind == MlpWeights::constants);
 }
 
 }  // namespace tureen

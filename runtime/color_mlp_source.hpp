@@ -19,7 +19,11 @@ using FeatureRanges = std::array<FeatureRange, 8>;
 
 /// How weights reach the shader. Measured on llvmpipe at 1280x720 over the full screen, DiffSoup's
 /// network: literal constants 15 ms, mat4 uniforms 97 ms.
-enum class MlpWeights { constants, uniforms };
+enum class MlpWeights {
+  uniforms,
+  constants,      // of the neurons that may fire, without weights of zero
+  all_constants,  // of every neuron
+};
 
 struct ColorMlpSource {
   /// Defines `vec3 color_mlp(vec4 features0, vec4 features1, vec3 to_eye)`; HARMONICS_DEGREE must

@@ -10,6 +10,7 @@
 
 #include "runtime/color_mlp_source.hpp"
 #include "runtime/draw_order.hpp"
+#include "runtime/leave_out.hpp"
 #include "soup/render_preset.hpp"
 #include "soup/triangle_soup.hpp"
 
@@ -38,6 +39,8 @@ struct PlanPreferences {
   /// Without it nothing is left out: every face is alpha-tested, every pixel shaded, network
   /// weights are uniforms.
   bool specialise = true;
+  /// What may be left out, where `specialise` is set.
+  LeaveOutSet leave_out = LeaveOutSet::all();
   bool reversed_depth = true;            // where the device can
   std::optional<ShadingSite> site = {};  // the plan's own choice when absent
   /// Knobs that trade error for time; none: faithful. Without a defect() for the soup.
@@ -68,12 +71,14 @@ struct RenderPlan {
 
   bool flat_colors = false;  // one colour a face says it all, whatever the soup stores
   bool color_mlp = false;    // the network runs
-  bool weights_as_constants = false;
+  MlpWeights mlp_weights = MlpWeights::uniforms;
   bool depth_rejects_background = false;
   int harmonics_degree = 0;
-  FeatureRanges feature_ranges;  // of what the network sees, for weights_as_constants
+  FeatureRanges feature_ranges;  // of what the network sees, for constant weights
   LatticePlan lattice;
 
+  /// What of LeaveOut this plan leaves out.
+  LeaveOutSet left_out;
   /// For people: how the scene is drawn, then a sentence for each thing left out, with the measured
   /// margin.
   std::vector<std::string> sentences;

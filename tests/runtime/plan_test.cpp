@@ -172,7 +172,8 @@ TEST(Plan, WithoutSpecialisationNothingIsLeftOut) {
   EXPECT_EQ(plan.faces.size(), soup.triangles.size());
   EXPECT_EQ(plan.opaque_count, 0u);
   EXPECT_TRUE(plan.color_mlp);
-  EXPECT_FALSE(plan.weights_as_constants);
+  EXPECT_EQ(plan.mlp_weights, MlpWeights::uniforms);
+  EXPECT_EQ(plan.left_out, LeaveOutSet());
   EXPECT_FALSE(plan.depth_rejects_background);
   EXPECT_THAT(plan.sentences, Not(Contains(HasSubstr("left out:"))));
 }

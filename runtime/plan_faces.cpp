@@ -1,0 +1,76 @@
+// The geometry's part of a plan: which faces are drawn, in which buckets, and in what order.
+#include <algorithm>
+
+#include "runtime/face_alpha.hpp"
+#include "runtime/plan_draft.hpp"
+
+namespace tureen {
+
+namespace {
+
+std::vector<std::uint32_t> drawable_faces(PlanDraft& draft) {
+  std::vector<std::uint32_t> faces;
+  for (std::uint32_t t = 0; t < draft.soup.triangles.size(); ++t)
+    if (drawable(draft.soup, t)) faces.push_back(t);
+  const std::size_t undrawable = draft.soup.triangles.size() - faces.size();
+  if (undrawable > 0)
+    draft.say(formatted("left out: %zu faces without area or with corners that are not finite",
+                        undrawable));
+  return faces;
+}
+
+/// Of coincident faces the lower index must win, so both kinds of them are drawn in one bucket.
+/// `faces` are sorted spatially.
+void draw_coincident_faces_alike(const TriangleSoup& soup, std::span<const std::uint32_t> faces,
+                                 std::vector<FaceAlpha>& alpha) {
+  for (std::size_t i = 0; i < faces.size();) {
+    std::size_t end = i + 1;
+    bool mixed = false;
+    for (; end < faces.size() && coincident(soup, faces[i], faces[end]); ++end)
+      mixed = mixed || alpha[faces[end]] != alpha[faces[i]];
+    for (std::size_t k = i; mixed && k < end; ++k) alpha[faces[k]] = FaceAlpha::cut_out;
+    i = end;
+  }
+}
+
+}  // namespace
+
+void plan_faces(PlanDraft& draft) {
+  const TriangleSoup& soup = draft.soup;
+  RenderPlan& plan = draft.plan;
+  std::vector<std::uint32_t> faces = drawable_faces(draft);
+
+  std::vector<FaceAlpha> alpha(soup.triangles.size(), FaceAlpha::cut_out);
+  if (draft.may(LeaveOut::alpha_test) || draft.may(LeaveOut::transparent_faces))
+    alpha = classify_alpha(soup);
+  if (draft.may(LeaveOut::transparent_faces)) {
+    const std::size_t before = faces.size();
+    std::erase_if(faces, [&](std::uint32_t t) { return alpha[t] == FaceAlpha::transparent; });
+    if (faces.size() < before)
+      draft.leave_out(LeaveOut::transparent_faces,
+                      formatted("%zu of %zu faces are transparent throughout (exact)",
+                                before - faces.size(), before));
+  }
+
+  sort_spatially(soup, faces);
+  if (!draft.may(LeaveOut::alpha_test)) std::fill(alpha.begin(), alpha.end(), FaceAlpha::cut_out);
+  draw_coincident_faces_alike(soup, faces, alpha);
+  const auto first_cut_out = std::stable_partition(
+      faces.begin(), faces.end(), [&](std::uint32_t t) { return alpha[t] == FaceAlpha::opaque; });
+  plan.opaque_count = std::size_t(first_cut_out - faces.begin());
+  plan.faces = std::move(faces);
+  if (plan.opaque_count == plan.faces.size() && !plan.faces.empty())
+    draft.leave_out(LeaveOut::alpha_test,
+                    "the alpha test, every face is opaque throughout (exact)");
+  else if (plan.opaque_count > 0)
+    draft.leave_out(LeaveOut::alpha_test,
+                    formatted("the alpha test of %zu of %zu faces, opaque throughout (exact)",
+                              plan.opaque_count, plan.faces.size()));
+
+  const auto opaque = std::uint32_t(plan.opaque_count), all = std::uint32_t(plan.faces.size());
+  const std::uint32_t size = cluster_size(plan.faces.size());
+  append_clusters(soup, plan.faces, 0, opaque, size, plan.clusters);
+  append_clusters(soup, plan.faces, opaque, all, size, plan.clusters);
+}
+
+}  // namespace tureen

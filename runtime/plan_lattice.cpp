@@ -1,0 +1,90 @@
+// The lattice's part of a plan: what the texels say about network, levels and table.
+#include <algorithm>
+
+#include "runtime/lattice_traits.hpp"
+#include "runtime/plan_draft.hpp"
+#include "soup/lattice.hpp"
+
+namespace tureen {
+
+namespace {
+
+/// Whether the network never blends in; says so.
+bool never_blends_in(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges& ranges) {
+  if (!mlp.blend_channel || !draft.may(LeaveOut::color_mlp)) return false;
+  const FeatureRange& range = ranges[std::size_t(*mlp.blend_channel)];
+  const float blend = std::max(range.high, -range.low);
+  if (blend > half_step) return false;
+  draft.leave_out(LeaveOut::color_mlp,
+                  formatted("the color MLP, its blend channel never exceeds %.5f (1/510 = 0.00196 "
+                            "allowed)",
+                            double(blend)));
+  return true;
+}
+
+/// Which faces are affine, and whether leaving their texels out is worth its while.
+/// `gain`: how much an error of the features may grow on its way to the colour.
+void leave_out_affine_texels(PlanDraft& draft, const LatticeTexture& texture,
+                             const LatticeTraits& traits, double gain) {
+  RenderPlan& plan = draft.plan;
+  const std::size_t count = plan.faces.size();
+  std::vector<std::uint8_t> levels(count);
+  std::size_t texels = 0, kept = 0, affine_faces = 0;
+  double largest_error = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const int level = int(texture.patches[plan.faces[i]].level);
+    const double error = gain * double(traits.affine_residual[i]);
+    const bool affine = error <= double(half_step);
+    levels[i] = affine ? std::uint8_t(0) : std::uint8_t(level);
+    texels += lattice::texel_count(level);
+    kept += lattice::texel_count(levels[i]);
+    affine_faces += affine ? 1 : 0;
+    if (affine) largest_error = std::max(largest_error, error);
+  }
+  const bool all_affine = affine_faces == count;
+  // Faces of unlike levels need a table read a fragment; a quarter of the texels saved pays for
+  // it, as does a scene that needs the table anyway.
+  const bool one_level = traits.lowest_level == traits.highest_level;
+  const bool worth_it = all_affine || !one_level || kept < texels - texels / 4;
+  if (kept == texels || !worth_it || traits.shares_texels) return;
+  plan.lattice.levels = std::move(levels);
+  if (all_affine && draft.may(LeaveOut::texel_table)) plan.lattice.uniform_level = 0;
+  draft.leave_out(
+      LeaveOut::affine_texels,
+      formatted("%zu of %zu texels, %zu faces are affine (%zu constant) and keep their "
+                "corners (no colour changes by more than %.5f, 1/510 = 0.00196 allowed)",
+                texels - kept, texels, affine_faces, traits.constant_faces, largest_error));
+}
+
+}  // namespace
+
+void plan_appearance(PlanDraft& draft, const LatticeTexture& texture) {
+  RenderPlan& plan = draft.plan;
+  plan.color_mlp = texture.mlp.has_value();
+  if (!draft.preferences.specialise) return;
+
+  const LatticeTraits traits = measure(texture, plan.faces);
+  if (plan.color_mlp && never_blends_in(draft, *texture.mlp, traits.ranges)) plan.color_mlp = false;
+  if (plan.color_mlp) plan_network(draft, *texture.mlp, traits.ranges);
+  if (plan.faces.empty()) return;
+
+  const bool opaque = plan.opaque_count == plan.faces.size();
+  if (!plan.color_mlp && traits.constant_faces == plan.faces.size() && opaque &&
+      draft.may(LeaveOut::constant_lattices)) {
+    plan.flat_colors = true;
+    draft.leave_out(LeaveOut::constant_lattices, "the lattice, every face has one colour (exact)");
+    return;
+  }
+  if (draft.may(LeaveOut::affine_texels))
+    leave_out_affine_texels(draft, texture, traits, plan.color_mlp ? color_gain(texture) : 1.0);
+  const bool one_level = traits.lowest_level == traits.highest_level;
+  if (plan.lattice.levels.empty() && one_level && !traits.shares_texels &&
+      draft.may(LeaveOut::texel_table))
+    plan.lattice.uniform_level = traits.highest_level;
+  if (plan.lattice.uniform_level >= 0)
+    draft.leave_out(LeaveOut::texel_table,
+                    formatted("the table of texels, every face has level %d (exact)",
+                              plan.lattice.uniform_level));
+}
+
+}  // namespace tureen
