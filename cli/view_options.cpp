@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <glm/geometric.hpp>
 
 #include "cli/values.hpp"
@@ -42,20 +41,11 @@ struct CameraArgument {
   }
 };
 
-/// The first byte that is no white space is a brace: a camera file, not a scene.
-bool looks_like_json(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  char c = 0;
-  while (stream.get(c) && std::isspace(static_cast<unsigned char>(c))) {
-  }
-  return c == '{' || c == '[';
-}
-
 CameraFile cameras_in(const fs::path& file, const Scene& scene, const std::string& scene_path) {
   std::error_code error;
   if (!fs::exists(file, error)) throw InputError({file.string(), {}, {}}, why_missing(file));
   if (fs::equivalent(file, scene_path, error)) return {scene.cameras, {}};
-  if (!fs::is_directory(file, error) && looks_like_json(file)) return read_cameras(file);
+  if (is_camera_file(file)) return read_cameras(file);
   return {read_scene(file).cameras, {}};
 }
 
@@ -85,7 +75,8 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
       command
           .add_option("--camera", options.camera,
                       "camera N (from 0) of a file, or all: our JSON of cameras, NeRF's "
-                      "transforms.json, or a scene that has cameras, such as SCENE itself")
+                      "transforms.json, cameras.json of 3D Gaussian Splatting, the folder of a "
+                      "COLMAP model, or a scene that has cameras, such as SCENE itself")
           ->option_text("FILE[:N|:all]");
   auto* eye = command
                   .add_option("--eye", options.eye,

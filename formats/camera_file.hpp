@@ -1,4 +1,5 @@
-// Cameras in JSON: our own file, which keeps every digit, and NeRF's transforms.json.
+// Cameras of all kinds, told by content: our own JSON, which keeps every digit; NeRF's
+// transforms.json; cameras.json of 3D Gaussian Splatting; a model by COLMAP, binary or text.
 //
 // Ours, version 1 (the "cameras" that `tureen info --json` prints are read as well):
 //   { "tureen_cameras": 1,
@@ -24,13 +25,23 @@ struct CameraFile {
   std::vector<std::string> notes;  // what reading assumed or lost, a sentence each
 };
 
+/// Whether read_cameras(path) is the door to knock at: a file that begins as JSON does, or COLMAP's
+/// model. Not for scenes, which may have cameras, too.
+bool is_camera_file(const std::filesystem::path& path);
+
 /// transforms.json holds camera-to-world matrices in the OpenGL convention, and either fl_x, fl_y,
 /// cx, cy, w, h or only camera_angle_x, for all frames or frame by frame. Without an image size
 /// 800 x 800 is assumed, NeRF's synthetic scenes, and a note says so; lens distortion is left out
 /// with a note. The name of a camera is its image's path as the file spells it.
+/// cameras.json of 3D Gaussian Splatting: formats/gaussian_cameras.hpp.
 /// Throws InputError with the file and what is wrong: JSON that does not parse (with the byte), a
 /// number missing or out of range, a matrix that is no rotation to three digits.
 CameraFile read_cameras(Input& input);
+
+/// The same from a file; or COLMAP's model, named by its folder, by one of its files of cameras or
+/// images, or by the folder of a dataset that has it in sparse/0, sparse or colmap/sparse/0. Its
+/// cameras come in the order of their images' names, as those of a dataset do
+/// (formats/dataset.hpp); distortion is left out with a note. In a browser there is no COLMAP.
 CameraFile read_cameras(const std::filesystem::path& path);
 
 /// Our own file; reading it back gives the same bits.

@@ -1,6 +1,7 @@
 #include "formats/camera_json.hpp"
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "formats/png.hpp"
@@ -80,24 +81,67 @@ bool CameraJson::truth(const char* key) const {
   return value->is_number() && value->get<double>() != 0;
 }
 
-glm::dmat4 CameraJson::rigid(const char* key) const {
+const json& CameraJson::list(const char* key) const {
   const auto found = source_.object.find(key);
   if (found == source_.object.end() || !found->is_array()) fail(std::string(key) + " is no list");
-  const json& rows = *found;
-  if (rows.size() != 3 && rows.size() != 4) fail(std::string(key) + " has not 3 or 4 rows");
-  glm::dmat4 result(1.0);
-  for (int row = 0; row < 3; ++row) {
-    if (!rows[std::size_t(row)].is_array() || rows[std::size_t(row)].size() != 4)
-      fail(std::string(key) + " has a row that is not 4 numbers");
-    for (int column = 0; column < 4; ++column) {
-      const json& value = rows[std::size_t(row)][std::size_t(column)];
-      if (!value.is_number()) fail(std::string(key) + " holds what is no number");
-      result[column][row] = value.get<double>();
-    }
+  return *found;
+}
+
+double CameraJson::element(const char* key, const json& value) const {
+  if (!value.is_number()) fail(std::string(key) + " holds what is no number");
+  return value.get<double>();
+}
+
+/// All rows of a list of them; numbers past `columns` are 0.
+std::vector<glm::dvec4> CameraJson::rows(const char* key, int columns) const {
+  std::vector<glm::dvec4> result;
+  for (const json& row : list(key)) {
+    if (!row.is_array() || row.size() != std::size_t(columns))
+      fail(std::string(key) + " has a row that is not " + std::to_string(columns) + " numbers");
+    glm::dvec4& numbers = result.emplace_back(0.0);
+    for (int column = 0; column < columns; ++column)
+      numbers[column] = element(key, row[std::size_t(column)]);
   }
+  return result;
+}
+
+glm::dmat4 CameraJson::rigid(const char* key) const {
+  if (const std::size_t count = list(key).size(); count != 3 && count != 4)
+    fail(std::string(key) + " has not 3 or 4 rows");
+  glm::dmat4 transposed(1.0);
+  const std::vector<glm::dvec4> found = rows(key, 4);
+  for (int row = 0; row < 3; ++row) transposed[row] = found[std::size_t(row)];
+  const glm::dmat4 result = glm::transpose(transposed);
   if (const char* defect = rotation_defect(glm::dmat3(result)))
     fail(std::string(key) + " " + defect);
   return result;
+}
+
+glm::dmat3 CameraJson::rotation(const char* key) const {
+  if (list(key).size() != 3) fail(std::string(key) + " has not 3 rows");
+  const std::vector<glm::dvec4> found = rows(key, 3);
+  const glm::dmat3 result =
+      glm::transpose(glm::dmat3(glm::dvec3(found[0]), glm::dvec3(found[1]), glm::dvec3(found[2])));
+  if (const char* defect = rotation_defect(result)) fail(std::string(key) + " " + defect);
+  return result;
+}
+
+glm::dvec3 CameraJson::vector(const char* key) const {
+  const json& numbers = list(key);
+  if (numbers.size() != 3) fail(std::string(key) + " is not 3 numbers");
+  glm::dvec3 result;
+  for (int i = 0; i < 3; ++i) result[i] = element(key, numbers[std::size_t(i)]);
+  return result;
+}
+
+glm::dmat4 rigid_inverse(const glm::dmat4& pose) {
+  const glm::dvec3 backward = glm::normalize(glm::dvec3(pose[2]));
+  const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(pose[1]), backward));
+  const glm::dvec3 up = glm::cross(backward, right);
+  const glm::dmat3 rotation = glm::transpose(glm::dmat3(right, up, backward));
+  glm::dmat4 inverse(rotation);
+  inverse[3] = glm::dvec4(-(rotation * glm::dvec3(pose[3])), 1.0);
+  return inverse;
 }
 
 const json& json_list(const json& root, const char* key, const std::string& file) {

@@ -116,15 +116,18 @@ std::optional<std::filesystem::path> colmap_folder(const std::filesystem::path& 
   return {};
 }
 
-ColmapModel read_colmap(const std::filesystem::path& folder) {
-  const auto open = [&](const ModelFile& file) { return Input::open(file.path); };
+bool is_colmap_model(const std::filesystem::path& folder) {
+  return model_file(folder, "cameras").exists && model_file(folder, "images").exists;
+}
+
+ColmapModel read_colmap_poses(const std::filesystem::path& folder) {
   ColmapModel model;
   const ModelFile cameras = model_file(folder, "cameras");
-  Input camera_input = open(cameras);
+  Input camera_input = Input::open(cameras.path);
   model.cameras = cameras.binary ? read_colmap_cameras_binary(camera_input)
                                  : read_colmap_cameras_text(camera_input);
   const ModelFile images = model_file(folder, "images");
-  Input image_input = open(images);
+  Input image_input = Input::open(images.path);
   model.images =
       images.binary ? read_colmap_images_binary(image_input) : read_colmap_images_text(image_input);
   for (const ColmapImage& image : model.images)
@@ -133,8 +136,13 @@ ColmapModel read_colmap(const std::filesystem::path& folder) {
                                                          " was taken by camera " +
                                                          std::to_string(image.camera) + ", which " +
                                                          camera_input.name() + " does not have");
+  return model;
+}
+
+ColmapModel read_colmap(const std::filesystem::path& folder) {
+  ColmapModel model = read_colmap_poses(folder);
   if (const ModelFile points = model_file(folder, "points3D"); points.exists) {
-    Input input = open(points);
+    Input input = Input::open(points.path);
     model.points =
         points.binary ? read_colmap_points_binary(input) : read_colmap_points_text(input);
   }

@@ -41,11 +41,17 @@ struct ColmapModel {
 /// nothing where none of them holds a file of cameras.
 std::optional<std::filesystem::path> colmap_folder(const std::filesystem::path& dataset);
 
+/// Whether `folder` itself holds a model: files of cameras and of images.
+bool is_colmap_model(const std::filesystem::path& folder);
+
 /// Reads cameras, images and points3D from `folder`, binary where there are both. Throws InputError
 /// with the file and the byte or line: a camera model that is none of SIMPLE_PINHOLE, PINHOLE,
 /// SIMPLE_RADIAL, RADIAL and OPENCV, by its name; a pose that is no rotation; counts that do not
 /// fit the bytes; an image of a camera that is not there.
 ColmapModel read_colmap(const std::filesystem::path& folder);
+
+/// The same without the points, of which there may be millions.
+ColmapModel read_colmap_poses(const std::filesystem::path& folder);
 
 // The files one by one, from untrusted bytes.
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
 #include "formats/camera_json.hpp"
@@ -25,18 +23,6 @@ std::optional<double> angle(const CameraJson& json, const char* key) {
   const std::optional<double> value = json.maybe_number(key);
   if (value && !(*value > 0 && *value < 3.1415)) json.fail(std::string(key) + " is outside 0..pi");
   return value;
-}
-
-/// The inverse of a pose whose axes, printed with six digits, are a little off: squared up, so
-/// that the inverse is the transpose.
-glm::dmat4 squared_up_inverse(const glm::dmat4& world_from_view) {
-  const glm::dvec3 backward = glm::normalize(glm::dvec3(world_from_view[2]));
-  const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(world_from_view[1]), backward));
-  const glm::dvec3 up = glm::cross(backward, right);
-  const glm::dmat3 rotation = glm::transpose(glm::dmat3(right, up, backward));
-  glm::dmat4 view_from_world(rotation);
-  view_from_world[3] = glm::dvec4(-(rotation * glm::dvec3(world_from_view[3])), 1.0);
-  return view_from_world;
 }
 
 /// Models that Lens describes, as nerfstudio names them.
@@ -74,7 +60,7 @@ TransformsFrame read_frame(const CameraJson& json) {
                 .p1 = coefficient("p1"),
                 .p2 = coefficient("p2")};
   frame.other_lens = other_lens(json);
-  frame.view_from_world = squared_up_inverse(json.rigid("transform_matrix"));
+  frame.view_from_world = rigid_inverse(json.rigid("transform_matrix"));
   return frame;
 }
 

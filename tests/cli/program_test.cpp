@@ -269,6 +269,24 @@ TEST_F(Program, RenderTakesCamerasFromAFile) {
   EXPECT_THAT(beyond.err, HasSubstr("cameras are numbered from 0 to 1"));
 }
 
+TEST_F(Program, RenderTakesCamerasOfOtherPrograms) {
+  write_scene();
+  // The same view as 3D Gaussian Splatting and COLMAP write it: at (0, -5, 0), along +y, z up.
+  write("cameras.json",
+        R"([{"img_name": "a", "width": 32, "height": 24, "position": [0, -5, 0],
+             "rotation": [[1, 0, 0], [0, 0, 1], [0, -1, 0]], "fx": 33, "fy": 33}])");
+  std::filesystem::create_directories(folder / "model");
+  write("model/cameras.txt", "1 PINHOLE 32 24 33 33 16 12\n");
+  write("model/images.txt", "1 0.70710678118654752 0.70710678118654752 0 0 0 0 5 1 a.png\n\n");
+  for (const std::string cameras : {"cameras.json", "model", "model/images.txt:0"}) {
+    const ChildResult result =
+        run({"render", "scene.off", "--camera", cameras, "-o", "out.png", "--context", "osmesa"});
+    EXPECT_EQ(result.exit_code, 0) << cameras << ": " << result.err;
+    EXPECT_EQ(read_png("out.png").at(16, 12), glm::u8vec4(255, 0, 0, 255)) << cameras;
+    std::filesystem::remove(folder / "out.png");
+  }
+}
+
 TEST_F(Program, NothingIsLeftWhereAPictureCannotBeWritten) {
   write_scene();
   const ChildResult result =

@@ -8,6 +8,8 @@
 #include <glm/matrix.hpp>
 #include <random>
 
+#include "formats/dataset_fixture.hpp"
+#include "formats/format_testing.hpp"
 #include "formats/truncation.hpp"
 
 namespace tureen {
@@ -119,7 +121,7 @@ TEST(CameraFile, RefusesWithTheFileTheCameraAndTheReason) {
   const std::string good = "[[1,0,0,0],[0,1,0,0],[0,0,1,0]]";
   EXPECT_THAT(failure("{\"frames\": [}"), HasSubstr("cameras.json: byte 12: not valid JSON"));
   EXPECT_THAT(failure("{\"frames\": [1e999]}"), HasSubstr("JSON that cannot be read"));
-  EXPECT_THAT(failure("[]"), HasSubstr("no JSON object"));
+  EXPECT_THAT(failure("7"), HasSubstr("no JSON object or list"));
   EXPECT_THAT(failure("{}"), HasSubstr("no camera file that we know"));
   EXPECT_THAT(failure("{\"frames\": 3}"), HasSubstr("frames is no list"));
   EXPECT_THAT(failure(frame("", good)), HasSubstr("frame 0: neither fl_x nor camera_angle_x"));
@@ -136,6 +138,124 @@ TEST(CameraFile, RefusesWithTheFileTheCameraAndTheReason) {
   EXPECT_THAT(failure("{\"tureen_cameras\": 2, \"cameras\": []}"), HasSubstr("version 1"));
   EXPECT_THAT(failure("{\"cameras\": [{}]}"), HasSubstr("camera 0: width is missing"));
   EXPECT_THAT(failure("{\"cameras\": [7]}"), HasSubstr("camera 0: it is no object"));
+}
+
+/// As 3D Gaussian Splatting writes it: at (1, 2, 3), looking along +y with z up.
+const std::string gaussian =
+    "[{\"id\": 0, \"img_name\": \"0001\", \"width\": 640, \"height\": 360, \"position\": [1, 2, "
+    "3], "
+    "\"rotation\": [[1, 0, 0], [0, 0, 1], [0, -1, 0]], \"fy\": 490.5, \"fx\": 500}]";
+
+/// `gaussian` with `part` replaced.
+std::string gaussian_with(const std::string& part, const std::string& replacement) {
+  std::string text = gaussian;
+  return text.replace(text.find(part), part.size(), replacement);
+}
+
+TEST(CameraFile, ReadsCamerasOfGaussianSplatting) {
+  const CameraFile file = read(gaussian);
+  ASSERT_EQ(file.cameras.size(), 1u);
+  const Camera& camera = file.cameras[0];
+  EXPECT_EQ(camera.name, "0001");
+  EXPECT_EQ(camera.width, 640);
+  EXPECT_EQ(camera.height, 360);
+  EXPECT_EQ(camera.fx, 500);
+  EXPECT_EQ(camera.fy, 490.5);
+  EXPECT_EQ(camera.cx, 320);
+  EXPECT_EQ(camera.cy, 180);
+  EXPECT_LT(glm::length(camera.eye() - glm::dvec3(1, 2, 3)), 1e-12);
+  const glm::dmat3 axes = camera.world_from_view_rotation();
+  EXPECT_LT(glm::length(axes[0] - glm::dvec3(1, 0, 0)), 1e-12);
+  EXPECT_LT(glm::length(axes[1] - glm::dvec3(0, 0, 1)), 1e-12);
+  EXPECT_LT(glm::length(-axes[2] - glm::dvec3(0, 1, 0)), 1e-12);
+  EXPECT_THAT(file.notes, IsEmpty());
+  // What some descendants add.
+  EXPECT_EQ(read(gaussian_with("\"id\": 0", "\"cx\": 301.5")).cameras[0].cx, 301.5);
+  EXPECT_THAT(read("[]").cameras, IsEmpty());
+}
+
+TEST(CameraFile, RefusesCamerasOfGaussianSplattingWithTheReason) {
+  const auto expect = [](const char* part, const char* replacement, const char* reason) {
+    EXPECT_THAT(failure(gaussian_with(part, replacement)), HasSubstr(reason));
+  };
+  expect("640", "0", "camera 0: width is no whole number");
+  expect("500", "-500", "camera 0: a focal length is not positive");
+  expect("\"fx\"", "\"f\"", "camera 0: fx is missing");
+  expect("[1, 2, 3]", "[1, 2]", "camera 0: position is not 3 numbers");
+  expect("[1, 2, 3]", "[1, null, 3]", "camera 0: position holds what is no number");
+  expect("\"position\"", "\"p\"", "camera 0: position is no list");
+  expect("[1, 0, 0]", "[2, 0, 0]", "camera 0: rotation is no rotation");
+  expect("[1, 0, 0]", "[-1, 0, 0]", "camera 0: rotation mirrors");
+  expect("[1, 0, 0]", "[1, 0, 0, 0]", "camera 0: rotation has a row that is not 3 numbers");
+  expect("[1, 0, 0], ", "", "camera 0: rotation has not 3 rows");
+  EXPECT_THAT(failure("[7]"), HasSubstr("camera 0: it is no object"));
+}
+
+TEST(CameraFile, CamerasOfGaussianSplattingSurviveDamage) {
+  const auto read_bytes = [](std::span<const std::byte> bytes) {
+    Input input = Input::memory("cameras.json", bytes);
+    read_cameras(input);
+  };
+  const auto whole = std::as_bytes(std::span(gaussian));
+  EXPECT_GT(testing::survive_damage(whole, read_bytes).refused, 0u);
+  EXPECT_EQ(testing::survive_truncation(whole, read_bytes).read, 0u);
+}
+
+/// Three images in another order than that of their names, by two cameras, one with distortion.
+testing::ColmapFixture colmap_fixture() {
+  testing::ColmapFixture model = testing::upright_colmap(3);
+  std::swap(model.images[0], model.images[2]);
+  model.cameras.push_back({2, 2, "SIMPLE_RADIAL", 641, 480, {502, 320, 240, 0.125}});
+  model.images[1].camera = 2;
+  return model;
+}
+
+TEST(CameraFile, ReadsAModelByColmapInBothForms) {
+  const testing::TemporaryFolder folder;
+  testing::write_binary(folder / "binary", colmap_fixture());
+  testing::write_text(folder / "dataset/sparse/0", colmap_fixture());
+  for (const char* name : {"binary", "binary/images.bin", "binary/cameras.bin", "dataset",
+                           "dataset/sparse/0", "dataset/sparse/0/images.txt"}) {
+    SCOPED_TRACE(name);
+    EXPECT_TRUE(is_camera_file(folder / name));
+    const CameraFile file = read_cameras(folder / name);
+    ASSERT_EQ(file.cameras.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Camera& camera = file.cameras[i];
+      EXPECT_EQ(camera.name, std::string(1, char('a' + i)) + ".png");
+      EXPECT_EQ(camera.width, i == 1 ? 641 : 8);
+      EXPECT_EQ(camera.fx, i == 1 ? 502 : 10);
+      EXPECT_EQ(camera.cy, i == 1 ? 240 : 2.5);
+      // An upright camera with the translation (x, 0.5, 3) stands at its negative; y is down there.
+      EXPECT_LT(glm::length(camera.eye() - glm::dvec3(-0.25 * double(i), -0.5, -3)), 1e-12);
+      EXPECT_EQ(camera.view_from_world * glm::dvec4(0, 0, 0, 1),
+                glm::dvec4(0.25 * double(i), -0.5, -3, 1));
+    }
+    EXPECT_THAT(file.notes, ElementsAre(HasSubstr("lens distortion")));
+  }
+}
+
+TEST(CameraFile, OtherFilesAndFoldersAreNoCameraFiles) {
+  const testing::TemporaryFolder folder;
+  testing::write_text(folder / "cameras.txt", "1 PINHOLE 8 6 10 9 4 3");  // without images
+  testing::write_text(folder / "scene.off", "OFF\n0 0 0\n");
+  testing::write_text(folder / "cameras.json", " \n[");
+  EXPECT_FALSE(is_camera_file(folder / ""));
+  EXPECT_FALSE(is_camera_file(folder / "cameras.txt"));
+  EXPECT_FALSE(is_camera_file(folder / "scene.off"));
+  EXPECT_FALSE(is_camera_file(folder / "none.json"));
+  EXPECT_TRUE(is_camera_file(folder / "cameras.json"));
+  EXPECT_THAT(testing::input_error([&] { read_cameras(folder / "cameras.json"); }),
+              HasSubstr("not valid JSON"));
+}
+
+TEST(CameraFile, AModelByColmapIsRefusedWithItsFile) {
+  const testing::TemporaryFolder folder;
+  testing::ColmapFixture model = colmap_fixture();
+  model.images[0].camera = 9;
+  testing::write_text(folder / "model", model);
+  EXPECT_THAT(testing::input_error([&] { read_cameras(folder / "model"); }),
+              AllOf(HasSubstr("images.txt"), HasSubstr("camera 9")));
 }
 
 TEST(CameraFile, TransformsSurviveDamage) {
