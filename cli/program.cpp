@@ -8,6 +8,7 @@
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/report.hpp"
+#include "cli/version.hpp"
 #include "formats/suggestion.hpp"
 #include "soup/error.hpp"
 
@@ -94,7 +95,7 @@ bool is_unknown_command(const CLI::App& program, int argc, char** argv) {
 int run_program(int argc, char** argv) {
   catch_interrupts();
   CLI::App program("Draws trained triangle soups.", "tureen");
-  program.set_version_flag("--version", "tureen " TUREEN_VERSION);
+  program.set_version_flag("--version", std::string("tureen ") + program_version());
   program.require_subcommand(1);
   const auto formatter = std::make_shared<HelpFormatter>();
   formatter->column_width(26);

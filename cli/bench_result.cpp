@@ -1,0 +1,219 @@
+#include "cli/bench_result.hpp"
+
+#include "formats/json_view.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+constexpr const char* format_name = "tureen bench";
+
+Json to_json(const FrameStatistics& ms) {
+  return {{"mean", ms.mean}, {"median", ms.median}, {"p95", ms.p95},
+          {"p99", ms.p99},   {"spread", ms.spread}, {"min_of_medians", ms.min_of_medians}};
+}
+
+Json to_json(const BenchConfiguration& configuration) {
+  return {{"name", configuration.name},           {"options", configuration.options},
+          {"plan", configuration.plan},           {"plan_ms", configuration.plan_ms},
+          {"upload_ms", configuration.upload_ms}, {"device_mib", configuration.device_mib}};
+}
+
+Json to_json(const BenchMeasurement& measurement) {
+  Json passes = nullptr;
+  // A list, so that the order of the frame survives every JSON library.
+  for (const auto& [name, ms] : measurement.passes_ms)
+    passes.push_back({{"pass", name}, {"ms", ms}});
+  return {{"configuration", measurement.configuration},
+          {"camera_set", measurement.camera_set},
+          {"size", measurement.size},
+          {"width", measurement.width},
+          {"height", measurement.height},
+          {"views", measurement.views},
+          {"rounds", measurement.rounds},
+          {"frames_per_sample", measurement.frames_per_sample},
+          {"frames", measurement.frames},
+          {"frame_ms", to_json(measurement.frame_ms)},
+          {"fps", measurement.fps},
+          {"low_1_percent_fps", measurement.frame_ms.low_1_percent_fps},
+          {"aa_spread", measurement.aa_spread},
+          {"stable", measurement.stable},
+          {"passes_ms", passes},
+          {"passes_reason", measurement.passes_reason},
+          {"gpu_ms", measurement.gpu_ms ? Json(*measurement.gpu_ms) : Json(nullptr)},
+          {"views_ms", measurement.views_ms},
+          {"pixels_hash", measurement.pixels_hash},
+          {"picture", measurement.picture ? Json(*measurement.picture) : Json(nullptr)}};
+}
+
+// Reading. Counts are bounded by what an int holds; all else by the JSON itself.
+
+int integer(const JsonView& view) {
+  return int(view.natural(std::uint64_t(std::numeric_limits<int>::max())));
+}
+
+bool boolean(const JsonView& view) {
+  if (!view.value().is_boolean()) view.fail("expected true or false");
+  return view.value().get<bool>();
+}
+
+template <class Read>
+auto list(const JsonView& view, Read read) {
+  std::vector<decltype(read(view))> result;
+  for (std::size_t i = 0; i < view.size(); ++i) result.push_back(read(view.at(i)));
+  return result;
+}
+
+std::vector<std::string> texts(const JsonView& view) {
+  return list(view, [](const JsonView& each) { return each.text(); });
+}
+
+template <class Read>
+auto unless_null(const JsonView& view, Read read) {
+  return view.value().is_null() ? std::nullopt : std::optional(read(view));
+}
+
+FrameStatistics frame_statistics(const JsonView& view, const JsonView& low_1_percent_fps) {
+  return {.mean = view["mean"].number(),
+          .median = view["median"].number(),
+          .p95 = view["p95"].number(),
+          .p99 = view["p99"].number(),
+          .min_of_medians = view["min_of_medians"].number(),
+          .spread = view["spread"].number(),
+          .low_1_percent_fps = low_1_percent_fps.number()};
+}
+
+BenchConfiguration configuration(const JsonView& view) {
+  return {.name = view["name"].text(),
+          .options = texts(view["options"]),
+          .plan = texts(view["plan"]),
+          .plan_ms = view["plan_ms"].number(),
+          .upload_ms = view["upload_ms"].number(),
+          .device_mib = view["device_mib"].number()};
+}
+
+std::vector<std::pair<std::string, double>> passes(const JsonView& view) {
+  if (view.value().is_null()) return {};
+  return list(view, [](const JsonView& each) {
+    return std::pair<std::string, double>(each["pass"].text(), each["ms"].number());
+  });
+}
+
+BenchMeasurement measurement(const JsonView& view) {
+  const auto text = [](const JsonView& each) { return each.text(); };
+  const auto number = [](const JsonView& each) { return each.number(); };
+  return {.configuration = view["configuration"].text(),
+          .camera_set = view["camera_set"].text(),
+          .size = view["size"].text(),
+          .width = integer(view["width"]),
+          .height = integer(view["height"]),
+          .views = integer(view["views"]),
+          .rounds = integer(view["rounds"]),
+          .frames_per_sample = integer(view["frames_per_sample"]),
+          .frames = integer(view["frames"]),
+          .frame_ms = frame_statistics(view["frame_ms"], view["low_1_percent_fps"]),
+          .fps = view["fps"].number(),
+          .aa_spread = view["aa_spread"].number(),
+          .stable = boolean(view["stable"]),
+          .passes_ms = passes(view["passes_ms"]),
+          .passes_reason = view["passes_reason"].text(),
+          .gpu_ms = unless_null(view["gpu_ms"], number),
+          .views_ms = list(view["views_ms"], number),
+          .pixels_hash = view["pixels_hash"].text(),
+          .picture = unless_null(view["picture"], text)};
+}
+
+void require_our_format(const JsonView& root) {
+  const std::optional<JsonView> format = root.find("format");
+  if (!format || !format->value().is_string() || format->text() != format_name)
+    root.fail("this is no result of tureen bench");
+  if (const int version = integer(root["version"]); version > bench_result_version)
+    root["version"].fail("version " + std::to_string(version) + " is newer than this program");
+}
+
+}  // namespace
+
+Json to_json(const BenchResult& result) {
+  Json configurations = Json::array(), measurements = Json::array();
+  for (const BenchConfiguration& each : result.configurations)
+    configurations.push_back(to_json(each));
+  for (const BenchMeasurement& each : result.measurements) measurements.push_back(to_json(each));
+  return {{"format", format_name},
+          {"version", bench_result_version},
+          {"date", result.date},
+          {"program",
+           {{"version", result.program.version},
+            {"commit", result.program.commit},
+            {"arguments", result.program.arguments}}},
+          {"scene",
+           {{"name", result.scene.name},
+            {"path", result.scene.path},
+            {"triangles", result.scene.triangles},
+            {"appearance", result.scene.appearance}}},
+          {"machine",
+           {{"cpu", result.machine.cpu},
+            {"cores", result.machine.cores},
+            {"memory_mib", result.machine.memory_mib}}},
+          {"device",
+           {{"context", result.device.context},
+            {"renderer", result.device.renderer},
+            {"vendor", result.device.vendor},
+            {"version", result.device.version},
+            {"software", result.device.software}}},
+          {"protocol",
+           {{"clock", result.protocol.clock},
+            {"rounds", result.protocol.rounds},
+            {"aa_spread", result.protocol.aa_spread}}},
+          {"load",
+           {{"read_ms", result.load.read_ms},
+            {"plan_ms", result.load.plan_ms},
+            {"upload_ms", result.load.upload_ms},
+            {"peak_mib", result.load.peak_mib},
+            {"device_mib", result.load.device_mib}}},
+          {"configurations", configurations},
+          {"measurements", measurements},
+          {"notes", result.notes}};
+}
+
+BenchResult bench_result_from_json(const std::string& text, const std::string& file) {
+  const nlohmann::json document = parse_json(text, file);
+  const JsonView root(document, file);
+  require_our_format(root);
+  const JsonView program = root["program"], scene = root["scene"], machine = root["machine"],
+                 device = root["device"], protocol = root["protocol"], load = root["load"];
+  return {.date = root["date"].text(),
+          .program = {.version = program["version"].text(),
+                      .commit = program["commit"].text(),
+                      .arguments = texts(program["arguments"])},
+          .scene = {.name = scene["name"].text(),
+                    .path = scene["path"].text(),
+                    .triangles = scene["triangles"].natural(),
+                    .appearance = scene["appearance"].text()},
+          .machine = {.cpu = machine["cpu"].text(),
+                      .cores = integer(machine["cores"]),
+                      .memory_mib = machine["memory_mib"].number()},
+          .device = {.context = device["context"].text(),
+                     .renderer = device["renderer"].text(),
+                     .vendor = device["vendor"].text(),
+                     .version = device["version"].text(),
+                     .software = boolean(device["software"])},
+          .protocol = {.clock = protocol["clock"].text(),
+                       .rounds = integer(protocol["rounds"]),
+                       .aa_spread = protocol["aa_spread"].number()},
+          .load = {.read_ms = load["read_ms"].number(),
+                   .plan_ms = load["plan_ms"].number(),
+                   .upload_ms = load["upload_ms"].number(),
+                   .peak_mib = load["peak_mib"].number(),
+                   .device_mib = load["device_mib"].number()},
+          .configurations = list(root["configurations"], configuration),
+          .measurements = list(root["measurements"], measurement),
+          .notes = texts(root["notes"])};
+}
+
+const BenchConfiguration* find_configuration(const BenchResult& result, const std::string& name) {
+  for (const BenchConfiguration& each : result.configurations)
+    if (each.name == name) return &each;
+  return nullptr;
+}
+
+}  // namespace tureen::cli

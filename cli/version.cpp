@@ -1,0 +1,11 @@
+#include "cli/version.hpp"
+
+#include "tureen_commit.hpp"  // of this build: cmake/commit.cmake
+
+namespace tureen::cli {
+
+const char* program_version() { return TUREEN_VERSION; }
+
+const char* program_commit() { return TUREEN_COMMIT; }
+
+}  // namespace tureen::cli

@@ -1,0 +1,170 @@
+// The file of `tureen bench`: written, read back, held against its schema, and refused when bad.
+#include "cli/bench_result.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "soup/error.hpp"
+#include "support/schema.hpp"
+
+namespace tureen::cli {
+namespace {
+
+using testing::HasSubstr;
+
+/// Every field set, to values that no other field has.
+BenchResult example() {
+  BenchMeasurement hardware{.configuration = "tureen",
+                            .camera_set = "hemisphere:3",
+                            .size = "640x360",
+                            .width = 640,
+                            .height = 360,
+                            .views = 3,
+                            .rounds = 5,
+                            .frames_per_sample = 7,
+                            .frames = 105,
+                            .frame_ms = {.mean = 0.1,
+                                         .median = 0.2,
+                                         .p95 = 0.3,
+                                         .p99 = 1.0 / 3,
+                                         .min_of_medians = 0.15,
+                                         .spread = 0.01,
+                                         .low_1_percent_fps = 2999.5},
+                            .fps = 10000,
+                            .aa_spread = 0.004,
+                            .stable = true,
+                            .passes_ms = {{"visibility", 0.04}, {"shading", 0.05}, {"blit", 0.001}},
+                            .passes_reason = "",
+                            .gpu_ms = 0.091,
+                            .views_ms = {0.1, 0.2, 0.3},
+                            .pixels_hash = "0123456789abcdef",
+                            .picture = "out/tureen_640x360.png"};
+  BenchMeasurement software = hardware;
+  software.configuration = "published";
+  software.stable = false;
+  software.passes_ms.clear();
+  software.passes_reason = "timers mislead on llvmpipe";
+  software.gpu_ms.reset();
+  software.picture.reset();
+  return {.date = "2026-01-02T03:04:05Z",
+          .program = {.version = "0.1.0", .commit = "abc1234", .arguments = {"bench", "a.glb"}},
+          .scene = {.name = "a", .path = "x/a.glb", .triangles = 15000, .appearance = "lattice"},
+          .machine = {.cpu = "Some CPU", .cores = 2, .memory_mib = 4096.5},
+          .device = {.context = "EGL, OpenGL 4.5 core",
+                     .renderer = "llvmpipe",
+                     .vendor = "Mesa",
+                     .version = "4.5",
+                     .software = true},
+          .protocol = {.clock = "steady", .rounds = 5, .aa_spread = 0.02},
+          .load = {.read_ms = 1, .plan_ms = 2, .upload_ms = 3, .peak_mib = 4, .device_mib = 5},
+          .configurations = {{.name = "tureen",
+                              .options = {},
+                              .plan = {"M1: no network"},
+                              .plan_ms = 2,
+                              .upload_ms = 3,
+                              .device_mib = 5},
+                             {.name = "published",
+                              .options = {"--pipeline", "published"},
+                              .plan = {},
+                              .plan_ms = 0.5,
+                              .upload_ms = 6,
+                              .device_mib = 7}},
+          .measurements = {hardware, software},
+          .notes = {"a note"}};
+}
+
+TEST(BenchResult, ComesBackFromJsonAsItWas) {
+  const Json written = to_json(example());
+  const BenchResult read = bench_result_from_json(written.dump(), "bench.json");
+  EXPECT_EQ(to_json(read), written);
+  // The order of passes is that of the frame.
+  ASSERT_EQ(read.measurements[0].passes_ms.size(), 3u);
+  EXPECT_EQ(read.measurements[0].passes_ms[0].first, "visibility");
+  EXPECT_EQ(read.measurements[0].frame_ms.p99, 1.0 / 3);
+  EXPECT_EQ(read.measurements[0].gpu_ms, 0.091);
+  EXPECT_FALSE(read.measurements[1].gpu_ms);
+  EXPECT_TRUE(read.measurements[1].passes_ms.empty());
+  EXPECT_EQ(read.configurations[1].options[1], "published");
+}
+
+TEST(BenchResult, FollowsItsSchema) {
+  EXPECT_EQ(test::schema_violations(to_json(example()), "bench.schema.json"), "");
+}
+
+/// Every key that stands in the document, as "measurements/0/frame_ms/mean".
+std::vector<nlohmann::json::json_pointer> all_keys(const nlohmann::json& document) {
+  std::vector<nlohmann::json::json_pointer> result;
+  const nlohmann::json flat = document.flatten();
+  for (const auto& [path, value] : flat.items()) {
+    nlohmann::json::json_pointer pointer(path);
+    for (; !pointer.empty(); pointer.pop_back())
+      if (document.at(pointer.parent_pointer()).is_object()) result.push_back(pointer);
+  }
+  return result;
+}
+
+TEST(BenchResult, SchemaAndReaderMissEveryKey) {
+  const nlohmann::json complete = to_json(example());
+  const auto keys = all_keys(complete);
+  ASSERT_GT(keys.size(), 60u);
+  for (const auto& key : keys) {
+    nlohmann::json document = complete;
+    document.at(key.parent_pointer()).erase(key.back());
+    SCOPED_TRACE(key.to_string());
+    EXPECT_NE(test::schema_violations(document, "bench.schema.json"), "");
+    EXPECT_THROW(bench_result_from_json(document.dump(), "bench.json"), InputError);
+  }
+}
+
+TEST(BenchResult, SchemaAndReaderRefuseAnotherKind) {
+  const nlohmann::json complete = to_json(example());
+  for (const auto& key : all_keys(complete)) {
+    nlohmann::json document = complete;
+    document.at(key) =
+        document.at(key).is_boolean() ? nlohmann::json("text") : nlohmann::json(true);
+    SCOPED_TRACE(key.to_string());
+    EXPECT_NE(test::schema_violations(document, "bench.schema.json"), "");
+    EXPECT_THROW(bench_result_from_json(document.dump(), "bench.json"), InputError);
+  }
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    bench_result_from_json(text, "bench.json");
+    return "read";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+TEST(BenchResult, SaysWhatIsWrong) {
+  EXPECT_THAT(refusal("{"), HasSubstr("bench.json: byte 1"));
+  EXPECT_THAT(refusal("[]"), HasSubstr("bench.json: expected an object"));
+  EXPECT_THAT(refusal("{\"frames\": []}"), HasSubstr("this is no result of tureen bench"));
+  nlohmann::json document = to_json(example());
+  document["version"] = 2;
+  EXPECT_THAT(refusal(document.dump()), HasSubstr("version: version 2 is newer"));
+  document = to_json(example());
+  document["measurements"][1]["frame_ms"]["p95"] = "fast";
+  EXPECT_THAT(refusal(document.dump()), HasSubstr("measurements[1].frame_ms.p95"));
+}
+
+TEST(BenchResult, FindsAConfiguration) {
+  const BenchResult result = example();
+  ASSERT_TRUE(find_configuration(result, "published"));
+  EXPECT_EQ(find_configuration(result, "published")->upload_ms, 6);
+  EXPECT_FALSE(find_configuration(result, "publish"));
+}
+
+TEST(Machine, IsKnownAndTakesMemory) {
+  const Machine machine = this_machine();
+  EXPECT_GE(machine.cores, 1);
+#ifdef __linux__
+  EXPECT_NE(machine.cpu, "");
+  EXPECT_GT(machine.memory_mib, peak_mib());
+  EXPECT_GT(peak_mib(), 1);  // of this test, GoogleTest and all
+#endif
+}
+
+}  // namespace
+}  // namespace tureen::cli
