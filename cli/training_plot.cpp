@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cli/html_page.hpp"
 #include "cli/plot_axis.hpp"
 
 namespace tureen::cli {
@@ -71,28 +72,10 @@ std::string style_sheet() {
          ".dot{stroke:var(--page);stroke-width:1}\n</style>\n";
 }
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      // XML has no other control characters than these, not even escaped.
-      result += static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' ? '?' : c;
-  }
-  return result;
-}
-
 std::string text_at(double x, double y, const char* classes, const char* anchor,
                     const std::string& text) {
   return fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n",
-                     classes, x, y, anchor, escaped(text));
+                     classes, x, y, anchor, html_escaped(text));
 }
 
 /// What a run shows in a panel.
@@ -250,7 +233,7 @@ std::string drawn(const Panel& panel, const Curves& curves, std::size_t run) {
     svg += fmt::format(
         "<circle class=\"dot\" style=\"fill:var(--run{})\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.6\">"
         "<title>{}</title></circle>\n",
-        run % paints.size(), at.x, at.y, escaped(curves.tips[i]));
+        run % paints.size(), at.x, at.y, html_escaped(curves.tips[i]));
   }
   return svg;
 }

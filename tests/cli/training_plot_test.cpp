@@ -7,6 +7,8 @@
 #include <limits>
 #include <regex>
 
+#include "support/markup.hpp"
+
 namespace tureen::cli {
 namespace {
 
@@ -28,23 +30,6 @@ TrainingRun run_of(const std::string& name, int steps, double final_psnr) {
     run.records.push_back(record);
   }
   return run;
-}
-
-/// Elements are closed in the order in which they were opened, attributes are quoted.
-void expect_balanced(const std::string& svg) {
-  static const std::regex tag("<(/?)([a-zA-Z]+)((?: [a-zA-Z-]+=\"[^\"<&]*\")*)(/?)>");
-  std::vector<std::string> open;
-  std::size_t tags = 0;
-  for (std::sregex_iterator it(svg.begin(), svg.end(), tag), end; it != end; ++it, ++tags) {
-    if ((*it)[1].length() == 0 && (*it)[4].length() == 0) open.push_back((*it)[2]);
-    if ((*it)[1].length() > 0) {
-      ASSERT_FALSE(open.empty()) << it->str();
-      ASSERT_EQ(open.back(), (*it)[2].str());
-      open.pop_back();
-    }
-  }
-  EXPECT_TRUE(open.empty());
-  EXPECT_EQ(std::ptrdiff_t(tags), std::count(svg.begin(), svg.end(), '<')) << "a tag malformed";
 }
 
 struct Dot {
@@ -77,7 +62,7 @@ TEST(Smoothed, IsAMeanThatBeginsWithoutBias) {
 TEST(TrainingPlot, IsOneWholeSvg) {
   const std::vector<TrainingRun> runs{run_of("ours", 5000, 29), run_of("a <b> & \"c\"", 2500, 27)};
   const std::string svg = training_plot(runs);
-  expect_balanced(svg);
+  EXPECT_EQ(test::check_markup(svg).defect, "");
   EXPECT_THAT(svg, HasSubstr("a &lt;b&gt; &amp; &quot;c&quot;"));
   EXPECT_THAT(svg, HasSubstr("prefers-color-scheme:dark"));
   EXPECT_THAT(svg, Not(HasSubstr("http://www.w3.org/1999/xlink")));
@@ -117,7 +102,7 @@ TEST(TrainingPlot, SurvivesRunsThatWentWrong) {
   for (const std::vector<TrainingRun>& runs :
        {std::vector{run}, std::vector{hopeless}, std::vector{hopeless, run}}) {
     const std::string svg = training_plot(runs);
-    expect_balanced(svg);
+    EXPECT_EQ(test::check_markup(svg).defect, "");
     EXPECT_FALSE(std::regex_search(svg, std::regex("[\"ML ](-?nan|-?inf)"))) << svg;
   }
 }
