@@ -145,25 +145,12 @@ std::string dark_rules() {
   return rules + "}</style>\n";
 }
 
-/// Lower-case letters, digits and '-'.
-std::string identifier(const std::string& text) {
-  std::string result = "plot";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x80 && std::isalnum(byte))
-      result += static_cast<char>(std::tolower(byte));
-    else if (result.back() != '-')
-      result += '-';
-  }
-  return result;
-}
-
 std::string for_pages(const std::string& drawn, const std::string& title) {
   std::string svg = drawn.substr(std::min(drawn.find("<svg"), drawn.size()));
   svg = replaced(svg, "<title>[^<]*</title>|<desc>[^<]*</desc>", "");
   svg = with_hexadecimal_colors(svg);
   // A filter or a use finds its definition by "#name".
-  const std::string own = identifier(title) + "-";
+  const std::string own = "plot-" + plot_identifier(title) + "-";
   svg = replaced(svg, "( id=['\"])", "$1" + own);
   svg = replaced(svg, "(href='#|url\\(#)", "$1" + own);
   const std::size_t head = svg.find('>');
@@ -214,6 +201,19 @@ std::string plot_text(const std::string& text) {
       result += c;
   }
   return result + "\"";
+}
+
+std::string plot_identifier(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80 && std::isalnum(byte))
+      result += static_cast<char>(std::tolower(byte));
+    else if (!result.empty() && result.back() != '-')
+      result += '-';
+  }
+  if (!result.empty() && result.back() == '-') result.pop_back();
+  return result.empty() ? "plot" : result;
 }
 
 std::string plot_data(const std::string& name, const std::vector<std::vector<double>>& rows) {

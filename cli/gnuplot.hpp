@@ -37,6 +37,9 @@ bool write_plot(const Plot& plot, const std::filesystem::path& path);
 /// `text` as a word of gnuplot's language: quoted so that nothing in it is a command.
 std::string plot_text(const std::string& text);
 
+/// Lower-case letters and digits of `text` with '-' between them: for files.
+std::string plot_identifier(const std::string& text);
+
 /// The lines that define the data $NAME: a row a line, numbers with all digits; what is not finite
 /// is missing. An empty row, a break in a line of the plot, stays. `name` is a word of letters,
 /// digits and '_'.

@@ -1,0 +1,111 @@
+#include "cli/bench_comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tureen::cli {
+
+namespace {
+
+bool same_place(const BenchMeasurement& a, const BenchMeasurement& b) {
+  return a.configuration == b.configuration && a.camera_set == b.camera_set && a.size == b.size &&
+         a.width == b.width && a.height == b.height;
+}
+
+const BenchMeasurement* find(const BenchResult& result, const BenchMeasurement& like) {
+  const auto found =
+      std::find_if(result.measurements.begin(), result.measurements.end(),
+                   [&](const BenchMeasurement& each) { return same_place(each, like); });
+  return found == result.measurements.end() ? nullptr : &*found;
+}
+
+std::string described(const BenchMeasurement& m) {
+  return fmt::format("{}, {}, {} ({}x{})", m.configuration, m.camera_set, m.size, m.width,
+                     m.height);
+}
+
+BenchRatio ratio_of(const BenchMeasurement& now, const BenchMeasurement& then) {
+  BenchRatio result{.configuration = now.configuration,
+                    .camera_set = now.camera_set,
+                    .size = now.size,
+                    .then_ms = then.frame_ms.min_of_medians,
+                    .now_ms = now.frame_ms.min_of_medians};
+  result.ratio = result.then_ms > 0 ? result.now_ms / result.then_ms : 1;
+  result.spread =
+      std::max({now.aa_spread, then.aa_spread, now.frame_ms.spread, then.frame_ms.spread});
+  result.differs =
+      result.now_ms != result.then_ms && differ(result.now_ms, result.then_ms, result.spread);
+  result.same_pixels = now.pixels_hash == then.pixels_hash;
+  return result;
+}
+
+std::vector<std::string> circumstances_of(const BenchResult& now, const BenchResult& then) {
+  std::vector<std::string> result;
+  const auto compare = [&](const char* what, const std::string& a, const std::string& b) {
+    if (a != b) result.push_back(fmt::format("{}: {}, then {}", what, a, b));
+  };
+  const auto scene = [](const BenchResult& r) {
+    return fmt::format("{}, {} triangles, {}", r.scene.name, counted(r.scene.triangles),
+                       r.scene.appearance);
+  };
+  const auto machine = [](const BenchResult& r) {
+    return fmt::format("{}, {} cores", r.machine.cpu, r.machine.cores);
+  };
+  const auto driver = [](const BenchResult& r) {
+    return r.device.renderer + ", " + r.device.version;
+  };
+  compare("another scene", scene(now), scene(then));
+  compare("another machine", machine(now), machine(then));
+  compare("another driver", driver(now), driver(then));
+  compare("another context", now.device.context, then.device.context);
+  compare("another commit", now.program.commit, then.program.commit);
+  compare("another clock", now.protocol.clock, then.protocol.clock);
+  return result;
+}
+
+}  // namespace
+
+BenchComparison compare_benches(const BenchResult& now, const BenchResult& then) {
+  BenchComparison result;
+  result.circumstances = circumstances_of(now, then);
+  for (const BenchMeasurement& measurement : now.measurements)
+    if (const BenchMeasurement* other = find(then, measurement))
+      result.ratios.push_back(ratio_of(measurement, *other));
+    else
+      result.unmatched.push_back("only now: " + described(measurement));
+  for (const BenchMeasurement& measurement : then.measurements)
+    if (!find(now, measurement)) result.unmatched.push_back("only then: " + described(measurement));
+  return result;
+}
+
+std::vector<BenchRatio> slower_than(const BenchComparison& comparison, double percent) {
+  std::vector<BenchRatio> result;
+  for (const BenchRatio& ratio : comparison.ratios)
+    if (ratio.differs && ratio.ratio > 1 + percent / 100) result.push_back(ratio);
+  return result;
+}
+
+const char* verdict(const BenchRatio& ratio) {
+  return !ratio.differs ? "equal" : ratio.ratio > 1 ? "slower" : "faster";
+}
+
+std::vector<std::string> comparison_lines(const BenchComparison& comparison) {
+  std::vector<std::string> lines;
+  std::size_t name_width = 0;
+  const auto name = [](const BenchRatio& r) {
+    return r.configuration + ", " + r.camera_set + ", " + r.size;
+  };
+  for (const BenchRatio& ratio : comparison.ratios)
+    name_width = std::max(name_width, name(ratio).size());
+  for (const BenchRatio& ratio : comparison.ratios)
+    lines.push_back(fmt::format(
+        "{:<{}}  {:9.3f} ms then, {:9.3f} ms now, {:.3f} times as long: {} (spread {:.1f} %){}",
+        name(ratio), name_width, ratio.then_ms, ratio.now_ms, ratio.ratio, verdict(ratio),
+        100 * ratio.spread, ratio.same_pixels ? "" : "; another picture"));
+  lines.insert(lines.end(), comparison.circumstances.begin(), comparison.circumstances.end());
+  lines.insert(lines.end(), comparison.unmatched.begin(), comparison.unmatched.end());
+  return lines;
+}
+
+}  // namespace tureen::cli

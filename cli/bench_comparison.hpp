@@ -1,0 +1,44 @@
+// Two results of `tureen bench` side by side: what became faster or slower, and whether the two can
+// be compared at all.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cli/bench_result.hpp"
+
+namespace tureen::cli {
+
+/// What both results measured: one configuration with one set of cameras at one size.
+struct BenchRatio {
+  std::string configuration, camera_set, size;
+  double then_ms = 0, now_ms = 0;  // min_of_medians
+  double ratio = 1;                // now / then: above 1 is slower
+  /// What the same thing measured twice may differ by: the largest of the A/A spreads and of the
+  /// spreads of the rounds, of both results.
+  double spread = 0;
+  bool differs = false;      // by twice the spread at least
+  bool same_pixels = false;  // the two drew the same picture, bit for bit
+};
+
+struct BenchComparison {
+  std::vector<BenchRatio> ratios;  // in the order of the new result
+  /// Sentences on what else than the program changed or may have: scene, machine, driver, commit.
+  std::vector<std::string> circumstances;
+  /// What only one of the two measured, a line each.
+  std::vector<std::string> unmatched;
+};
+
+BenchComparison compare_benches(const BenchResult& now, const BenchResult& then);
+
+/// Those that are slower by more than `percent`, and by more than their spread explains.
+std::vector<BenchRatio> slower_than(const BenchComparison& comparison, double percent);
+
+/// Lines of text, a table first; for a terminal.
+std::vector<std::string> comparison_lines(const BenchComparison& comparison);
+
+/// "faster", "slower", "equal": what a ratio means.
+const char* verdict(const BenchRatio& ratio);
+
+}  // namespace tureen::cli

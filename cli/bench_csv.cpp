@@ -1,0 +1,95 @@
+#include "cli/bench_csv.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <vector>
+
+namespace tureen::cli {
+
+namespace {
+
+struct Column {
+  const char* name;
+  std::function<std::string(const BenchResult&, const BenchMeasurement&)> value;
+};
+
+/// All digits: reading the text gives the same number.
+template <class Number>
+std::string number(Number value) {
+  return fmt::format("{}", value);
+}
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"') result += '"';
+    result += c;
+  }
+  return result + "\"";
+}
+
+/// A column of the measurement, or of what all measurements have in common.
+template <class Get>
+Column of(const char* name, Get get) {
+  return {name, [get](const BenchResult&, const BenchMeasurement& m) { return get(m); }};
+}
+template <class Get>
+Column of_all(const char* name, Get get) {
+  return {name, [get](const BenchResult& r, const BenchMeasurement&) { return get(r); }};
+}
+
+const std::vector<Column>& columns() {
+  using M = const BenchMeasurement&;
+  using R = const BenchResult&;
+  static const std::vector<Column> all{
+      of("configuration", [](M m) { return m.configuration; }),
+      of("camera_set", [](M m) { return m.camera_set; }),
+      of("size", [](M m) { return m.size; }),
+      of("width", [](M m) { return number(m.width); }),
+      of("height", [](M m) { return number(m.height); }),
+      of("views", [](M m) { return number(m.views); }),
+      of("rounds", [](M m) { return number(m.rounds); }),
+      of("frames", [](M m) { return number(m.frames); }),
+      of("mean_ms", [](M m) { return number(m.frame_ms.mean); }),
+      of("median_ms", [](M m) { return number(m.frame_ms.median); }),
+      of("p95_ms", [](M m) { return number(m.frame_ms.p95); }),
+      of("p99_ms", [](M m) { return number(m.frame_ms.p99); }),
+      of("min_of_medians_ms", [](M m) { return number(m.frame_ms.min_of_medians); }),
+      of("spread", [](M m) { return number(m.frame_ms.spread); }),
+      of("aa_spread", [](M m) { return number(m.aa_spread); }),
+      of("fps", [](M m) { return number(m.fps); }),
+      of("low_1_percent_fps", [](M m) { return number(m.frame_ms.low_1_percent_fps); }),
+      of("stable", [](M m) { return std::string(m.stable ? "true" : "false"); }),
+      of("gpu_ms", [](M m) { return m.gpu_ms ? number(*m.gpu_ms) : std::string(); }),
+      of("pixels_hash", [](M m) { return m.pixels_hash; }),
+      of_all("scene", [](R r) { return r.scene.name; }),
+      of_all("triangles", [](R r) { return number(r.scene.triangles); }),
+      of_all("renderer", [](R r) { return r.device.renderer; }),
+      of_all("cpu", [](R r) { return r.machine.cpu; }),
+      of_all("commit", [](R r) { return r.program.commit; }),
+      of_all("date", [](R r) { return r.date; }),
+  };
+  return all;
+}
+
+}  // namespace
+
+std::string bench_csv(const BenchResult& result) {
+  std::string text;
+  const auto line = [&](const auto& cell) {
+    bool first = true;
+    for (const Column& column : columns()) {
+      text += (first ? "" : ",") + quoted(cell(column));
+      first = false;
+    }
+    text += '\n';
+  };
+  line([](const Column& column) { return std::string(column.name); });
+  for (const BenchMeasurement& measurement : result.measurements)
+    line([&](const Column& column) { return column.value(result, measurement); });
+  return text;
+}
+
+}  // namespace tureen::cli

@@ -1,0 +1,158 @@
+#include "cli/bench_reports.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "cli/bench_comparison.hpp"
+#include "cli/bench_csv.hpp"
+#include "cli/bench_page.hpp"
+#include "cli/bench_plots.hpp"
+#include "formats/input.hpp"
+#include "formats/output.hpp"
+#include "formats/suggestion.hpp"
+#include "soup/error.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Larger pictures would make a page that nobody wants to open.
+constexpr std::uintmax_t most_picture_bytes = 1u << 20;
+constexpr std::size_t most_pictures = 8;
+
+void write_text(const fs::path& path, const std::string& text) {
+  Output output(path);
+  output.write(text);
+  output.commit();
+  say("wrote " + path.string());
+}
+
+void make_folder(const std::string& folder) {
+  if (folder.empty()) return;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder, error))
+    throw OutputError({folder, {}, {}}, "no folder can be made there");
+}
+
+std::vector<std::byte> bytes_of(const fs::path& path) {
+  Input input = Input::open(path);
+  return input.read_rest();
+}
+
+/// Pictures of timed frames that lie where the result says, the first ones of moderate size.
+std::vector<BenchPage::Picture> pictures_of(const BenchResult& result) {
+  std::vector<BenchPage::Picture> pictures;
+  for (const BenchMeasurement& m : result.measurements) {
+    std::error_code error;
+    if (!m.picture || pictures.size() == most_pictures) continue;
+    const std::uintmax_t size = fs::file_size(*m.picture, error);
+    if (error || size > most_picture_bytes) continue;
+    pictures.push_back(
+        {bytes_of(*m.picture),
+         fmt::format("{}, {} at {}x{}: the last frame that was timed, pixels {}", m.configuration,
+                     m.camera_set, m.width, m.height, m.pixels_hash)});
+  }
+  return pictures;
+}
+
+/// Draws all plots into `folder`, as SVG for pages and PNG for slides, and returns the SVGs; none
+/// where gnuplot is missing.
+std::vector<BenchPage::Drawing> write_plots(const BenchResult& result, const fs::path& folder) {
+  std::vector<BenchPage::Drawing> drawings;
+  for (const BenchPlot& each : bench_plots(result)) {
+    const std::optional<std::string> svg = draw_plot(each.plot, PlotFormat::svg);
+    if (!svg) return {};
+    Output output(folder / (each.file + ".svg"));
+    output.write(*svg);
+    output.commit();
+    write_plot(each.plot, folder / (each.file + ".png"));
+    drawings.push_back({*svg, each.caption});
+  }
+  if (!drawings.empty()) say(fmt::format("wrote {} plots to {}", drawings.size(), folder.string()));
+  return drawings;
+}
+
+void say_comparison(const BenchComparison& comparison, const std::string& file) {
+  say_list("against " + file + ":", comparison_lines(comparison));
+  if (comparison.ratios.empty()) say("nothing was measured in both");
+}
+
+}  // namespace
+
+void add_bench_report_options(CLI::App& command, BenchReportOptions& options) {
+  command
+      .add_option("-o,--output", options.folder,
+                  "a folder for bench.json, bench.csv, bench.html and the plots as SVG and PNG")
+      ->option_text("FOLDER");
+  command.add_option("--csv", options.csv, "the table as CSV")->option_text("FILE");
+  command
+      .add_option("--plots", options.plots,
+                  "a folder for the plots alone; gnuplot draws them, where it is installed")
+      ->option_text("FOLDER");
+  auto* against = command
+                      .add_option("--against", options.against,
+                                  "an earlier bench.json: says what became faster or slower, and "
+                                  "what differs by more than twice the spread")
+                      ->option_text("OLD.json");
+  command
+      .add_option("--fail-slower", options.fail_slower,
+                  "exit code 1 where something is slower than before by more than so many percent "
+                  "and by more than twice the spread")
+      ->option_text("PERCENT")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(against);
+}
+
+std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& options) {
+  std::optional<BenchResult> then;
+  if (!options.against.empty()) {
+    std::error_code error;
+    if (!fs::exists(options.against, error))
+      throw InputError({options.against, {}, {}}, why_missing(options.against));
+    const std::vector<std::byte> bytes = bytes_of(options.against);
+    then = bench_result_from_json(
+        std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), options.against);
+  }
+  make_folder(options.folder);
+  make_folder(options.plots);
+  return then;
+}
+
+ExitCode report_bench(const BenchReportOptions& options, const BenchResult& now,
+                      const std::optional<BenchResult>& then) {
+  std::optional<BenchComparison> comparison;
+  if (then) comparison = compare_benches(now, *then);
+  if (comparison) say_comparison(*comparison, options.against);
+
+  if (!options.csv.empty()) write_text(options.csv, bench_csv(now));
+  if (!options.plots.empty() && write_plots(now, options.plots).empty()) say(gnuplot_missing);
+  if (!options.folder.empty()) {
+    const fs::path folder = options.folder;
+    write_text(folder / "bench.json",
+               to_json(now).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    write_text(folder / "bench.csv", bench_csv(now));
+    BenchPage page{.drawings = write_plots(now, folder),
+                   .pictures = pictures_of(now),
+                   .compared_with = options.against,
+                   .comparison = comparison ? &*comparison : nullptr,
+                   .missing = {}};
+    if (page.drawings.empty()) {
+      page.missing = gnuplot_missing;
+      say(gnuplot_missing);
+    }
+    write_text(folder / "bench.html", bench_page(now, page));
+  }
+
+  if (!options.fail_slower || !comparison) return ExitCode::done;
+  const std::vector<BenchRatio> slower = slower_than(*comparison, *options.fail_slower);
+  for (const BenchRatio& ratio : slower)
+    say(fmt::format("slower than allowed: {}, {}, {}: {:.3f} times as long", ratio.configuration,
+                    ratio.camera_set, ratio.size, ratio.ratio));
+  return slower.empty() ? ExitCode::done : ExitCode::check_failed;
+}
+
+}  // namespace tureen::cli

@@ -1,0 +1,35 @@
+// The files that `tureen bench` leaves beside its table, and what it says of an earlier result.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <optional>
+#include <string>
+
+#include "cli/bench_result.hpp"
+#include "cli/exit_code.hpp"
+
+namespace tureen::cli {
+
+/// As typed; empty where not given.
+struct BenchReportOptions {
+  std::string folder;   // bench.json, bench.csv, bench.html and all plots
+  std::string csv;      // a file
+  std::string plots;    // a folder
+  std::string against;  // an earlier bench.json
+  std::optional<double> fail_slower;
+};
+
+/// --output, --csv, --plots, --against and --fail-slower.
+void add_bench_report_options(CLI::App& command, BenchReportOptions& options);
+
+/// To be called before anything is measured: reads what --against names, so that a bad file is
+/// refused at once, and makes the folders. Throws InputError, UsageError and OutputError.
+std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& options);
+
+/// Writes the files, each whole or not at all, says where they are, and what changed since `then`.
+/// ExitCode::check_failed only where --fail-slower was given and something is slower than that.
+/// Throws OutputError.
+ExitCode report_bench(const BenchReportOptions& options, const BenchResult& now,
+                      const std::optional<BenchResult>& then);
+
+}  // namespace tureen::cli

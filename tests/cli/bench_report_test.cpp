@@ -1,0 +1,299 @@
+// What is made of a result of `tureen bench`: CSV, plots, the page, the comparison.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <sstream>
+
+#include "cli/bench_comparison.hpp"
+#include "cli/bench_csv.hpp"
+#include "cli/bench_page.hpp"
+#include "cli/bench_plots.hpp"
+#include "cli/bench_reports.hpp"
+#include "formats/format_testing.hpp"
+#include "formats/output.hpp"
+#include "soup/error.hpp"
+#include "support/markup.hpp"
+
+namespace tureen::cli {
+namespace {
+
+using test::check_markup;
+using test::Markup;
+using ::testing::Contains;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+using tureen::testing::TemporaryFolder;
+
+/// Names that try to leave the place where they belong.
+const std::string awkward = "a,\"b\" <i>`c` 'd'\\";
+
+BenchMeasurement measurement(const std::string& configuration, const std::string& cameras,
+                             int width, double ms) {
+  return {.configuration = configuration,
+          .camera_set = cameras,
+          .size = std::to_string(width) + "x360",
+          .width = width,
+          .height = 360,
+          .views = 3,
+          .rounds = 5,
+          .frames_per_sample = 1,
+          .frames = 15,
+          .frame_ms = {.mean = 1.02 * ms,
+                       .median = 1.01 * ms,
+                       .p95 = 1.2 * ms,
+                       .p99 = 1.3 * ms,
+                       .min_of_medians = ms,
+                       .spread = 0.01,
+                       .low_1_percent_fps = 1000 / (1.3 * ms)},
+          .fps = 1000 / (1.02 * ms),
+          .aa_spread = 0.02,
+          .stable = true,
+          .passes_ms = {},
+          .passes_reason = "timers mislead <here>",
+          .gpu_ms = {},
+          .views_ms = {0.9 * ms, ms, 1.1 * ms},
+          .pixels_hash = "0123456789abcdef",
+          .picture = {}};
+}
+
+BenchResult result() {
+  BenchResult result;
+  result.date = "2026-01-02T03:04:05Z";
+  result.program = {"0.1.0", "abc1234", {"bench", "it's a scene.glb", "--sweep"}};
+  result.scene = {awkward, awkward, 15000, "lattice"};
+  result.machine = {"Some CPU & more", 2, 4096};
+  result.device = {"EGL", "llvmpipe <256 bits>", "Mesa", "4.5 driver 9", true};
+  result.protocol = {"steady", 5, 0.02};
+  result.load = {1, 2, 3, 4, 5};
+  result.configurations = {{"tureen", {}, {"M1: no <network>"}, 2, 3, 5},
+                           {"published", {"--pipeline", "published"}, {}, 0, 6, 7}};
+  for (const std::string& cameras : {std::string("hemisphere:3"), awkward})
+    for (const int width : {640, 1280}) {
+      result.measurements.push_back(measurement("tureen", cameras, width, width / 64.0));
+      result.measurements.push_back(measurement("published", cameras, width, width / 16.0));
+    }
+  result.measurements[0].gpu_ms = 7.25;
+  result.measurements[0].passes_ms = {{"visibility", 4}, {"shading", 3}};
+  return result;
+}
+
+// ---- CSV ----------------------------------------------------------------------------------------
+
+/// Fields of RFC 4180, line by line.
+std::vector<std::vector<std::string>> parse_csv(const std::string& text) {
+  std::vector<std::vector<std::string>> lines(1, {""});
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted && c == '"' && i + 1 < text.size() && text[i + 1] == '"')
+      lines.back().back() += text[++i];
+    else if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
+      lines.back().emplace_back();
+    else if (c == '\n' && !quoted)
+      lines.push_back({""});
+    else
+      lines.back().back() += c;
+  }
+  lines.pop_back();
+  return lines;
+}
+
+TEST(BenchCsv, HasTheseColumns) {
+  const auto lines = parse_csv(bench_csv(result()));
+  EXPECT_THAT(lines[0], ElementsAre("configuration", "camera_set", "size", "width", "height",
+                                    "views", "rounds", "frames", "mean_ms", "median_ms", "p95_ms",
+                                    "p99_ms", "min_of_medians_ms", "spread", "aa_spread", "fps",
+                                    "low_1_percent_fps", "stable", "gpu_ms", "pixels_hash", "scene",
+                                    "triangles", "renderer", "cpu", "commit", "date"));
+  ASSERT_EQ(lines.size(), 9u);
+  for (const auto& line : lines) EXPECT_EQ(line.size(), lines[0].size());
+  EXPECT_THAT(std::vector(lines[1].begin(), lines[1].begin() + 8),
+              ElementsAre("tureen", "hemisphere:3", "640x360", "640", "360", "3", "5", "15"));
+}
+
+TEST(BenchCsv, KeepsDigitsAndAwkwardNames) {
+  BenchResult changed = result();
+  changed.measurements[0].frame_ms.median = 1.0 / 3;
+  const auto lines = parse_csv(bench_csv(changed));
+  EXPECT_EQ(std::stod(lines[1][9]), 1.0 / 3);
+  EXPECT_EQ(lines[1][18], "7.25");
+  EXPECT_EQ(lines[2][18], "") << "not measured";
+  EXPECT_EQ(lines[1][20], awkward);
+  EXPECT_EQ(lines[5][1], awkward);
+}
+
+// ---- Plots --------------------------------------------------------------------------------------
+
+TEST(BenchPlots, AreAllThereUnderNamesOfTheirOwn) {
+  std::vector<std::string> files;
+  for (const BenchPlot& plot : bench_plots(result())) files.push_back(plot.file);
+  EXPECT_THAT(files, ElementsAre("pixels-hemisphere-3", "views-hemisphere-3", "pixels-a-b-i-c-d",
+                                 "views-a-b-i-c-d", "ratios"));
+  BenchResult twins = result();
+  for (std::size_t i = 4; i < 8; ++i) twins.measurements[i].camera_set = "hemisphere/3";
+  std::set<std::string> distinct;
+  for (const BenchPlot& plot : bench_plots(twins)) distinct.insert(plot.file);
+  EXPECT_EQ(distinct.size(), 5u);
+}
+
+TEST(BenchPlots, OneViewAndOneConfigurationNeedFewer) {
+  BenchResult small = result();
+  small.measurements.resize(1);
+  small.measurements[0].views_ms = {1};
+  EXPECT_EQ(bench_plots(small).size(), 1u);
+  small.measurements.clear();
+  EXPECT_THAT(bench_plots(small), IsEmpty());
+}
+
+TEST(BenchPlots, RatiosReferToThePublishedPipeline) {
+  const BenchResult all = result();
+  EXPECT_EQ(reference_configuration(all), "published");
+  EXPECT_DOUBLE_EQ(times_as_fast(all, all.measurements[0]), 4);
+  EXPECT_DOUBLE_EQ(times_as_fast(all, all.measurements[1]), 1);
+  BenchResult alone = all;
+  alone.measurements.resize(1);
+  EXPECT_EQ(reference_configuration(alone), "tureen");
+}
+
+TEST(BenchPlots, GnuplotDrawsThemAll) {
+  for (const BenchPlot& each : bench_plots(result())) {
+    const std::optional<std::string> svg = draw_plot(each.plot, PlotFormat::svg);
+    if (!svg) GTEST_SKIP() << gnuplot_missing;
+    const Markup markup = check_markup(*svg);
+    EXPECT_EQ(markup.defect, "") << each.file;
+    EXPECT_THAT(markup.text, HasSubstr("published")) << each.file;
+  }
+}
+
+// ---- Comparison ---------------------------------------------------------------------------------
+
+TEST(BenchComparison, SaysWhatDiffersByMoreThanTwiceTheSpread) {
+  const BenchResult then = result();
+  BenchResult now = then;
+  // The spread is 2 %, the larger of the two kinds.
+  now.measurements[0].frame_ms.min_of_medians *= 1.035;
+  now.measurements[1].frame_ms.min_of_medians *= 1.045;
+  now.measurements[2].frame_ms.min_of_medians /= 1.2;
+  now.measurements[3].frame_ms.min_of_medians *= 1.2;
+  now.measurements[3].frame_ms.spread = 0.3;
+  now.measurements[4].pixels_hash = "fedcba9876543210";
+  const BenchComparison comparison = compare_benches(now, then);
+  ASSERT_EQ(comparison.ratios.size(), 8u);
+  std::vector<std::string> verdicts;
+  for (const BenchRatio& ratio : comparison.ratios) verdicts.push_back(verdict(ratio));
+  EXPECT_THAT(verdicts, ElementsAre("equal", "slower", "faster", "equal", "equal", "equal", "equal",
+                                    "equal"));
+  EXPECT_NEAR(comparison.ratios[1].ratio, 1.045, 1e-12);
+  EXPECT_EQ(comparison.ratios[3].spread, 0.3);
+  EXPECT_TRUE(comparison.ratios[0].same_pixels);
+  EXPECT_FALSE(comparison.ratios[4].same_pixels);
+  EXPECT_THAT(comparison.circumstances, IsEmpty());
+  EXPECT_THAT(comparison.unmatched, IsEmpty());
+  EXPECT_EQ(slower_than(comparison, 4).size(), 1u);
+  EXPECT_EQ(slower_than(comparison, 5).size(), 0u) << "20 % with a spread of 30 % proves nothing";
+}
+
+TEST(BenchComparison, SaysWhatElseChanged) {
+  const BenchResult then = result();
+  BenchResult now = then;
+  now.scene.triangles = 14000;
+  now.machine.cores = 4;
+  now.device.version = "another";
+  now.program.commit = "def5678";
+  EXPECT_THAT(
+      compare_benches(now, then).circumstances,
+      ElementsAre(HasSubstr("another scene"), HasSubstr("another machine"),
+                  HasSubstr("another driver"), HasSubstr("another commit: def5678, then abc1234")));
+}
+
+TEST(BenchComparison, DoesNotPairWhatIsNotTheSame) {
+  const BenchResult then = result();
+  BenchResult now = then;
+  now.measurements[0].width = 641;  // under the same name, as "full" of other cameras would be
+  now.measurements[1].configuration = "generic";
+  const BenchComparison comparison = compare_benches(now, then);
+  EXPECT_EQ(comparison.ratios.size(), 6u);
+  EXPECT_THAT(comparison.unmatched,
+              ElementsAre(StartsWith("only now: tureen"), StartsWith("only now: generic"),
+                          StartsWith("only then: tureen"), StartsWith("only then: published")));
+}
+
+// ---- The page and the files ---------------------------------------------------------------------
+
+TEST(BenchPage, HoldsAllThatTheFiguresDependOn) {
+  const BenchResult all = result();
+  BenchResult then = all;
+  then.program.commit = "older";
+  const BenchComparison comparison = compare_benches(all, then);
+  const std::string html = bench_page(all, {.drawings = {{"<svg></svg>", awkward}},
+                                            .pictures = {{{std::byte{1}}, awkward}},
+                                            .compared_with = awkward,
+                                            .comparison = &comparison,
+                                            .missing = {}});
+  const Markup markup = check_markup(html);
+  EXPECT_EQ(markup.defect, "");
+  EXPECT_THAT(markup.links, Each(StartsWith("data:")));
+  EXPECT_THAT(html, Not(HasSubstr("http://")));
+  EXPECT_THAT(html, Not(HasSubstr("https://")));
+  for (const char* part : {"Some CPU &amp; more", "llvmpipe &lt;256 bits&gt;", "4.5 driver 9",
+                           "abc1234", "M1: no &lt;network&gt;", "2026-01-02T03:04:05Z", "15,000",
+                           "software rasteriser", "timers mislead &lt;here&gt;", "another commit",
+                           "tureen bench &#39;it&#39;\\&#39;&#39;s a scene.glb&#39; --sweep"})
+    EXPECT_THAT(html, HasSubstr(part));
+}
+
+TEST(BenchReports, WritesTheFolderAndFailsOnlyWhereAsked) {
+  const TemporaryFolder folder;
+  BenchResult then = result();
+  Output old(folder / "old.json");
+  old.write(to_json(then).dump());
+  old.commit();
+  BenchResult now = then;
+  for (BenchMeasurement& m : now.measurements) m.frame_ms.min_of_medians *= 1.5;
+  BenchReportOptions options{.folder = (folder / "new/out").string(),
+                             .csv = (folder / "table.csv").string(),
+                             .plots = {},
+                             .against = (folder / "old.json").string(),
+                             .fail_slower = {}};
+  const auto before = prepare_bench_reports(options);
+  ASSERT_TRUE(before);
+  EXPECT_EQ(report_bench(options, now, before), ExitCode::done);
+  for (const char* name :
+       {"new/out/bench.json", "new/out/bench.csv", "new/out/bench.html", "table.csv"})
+    EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+  if (draw_plot({.title = "a", .script = "plot 1"}, PlotFormat::svg)) {
+    EXPECT_TRUE(std::filesystem::exists(folder / "new/out/ratios.svg"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "new/out/ratios.png"));
+  }
+  options.folder.clear();
+  options.csv.clear();
+  options.fail_slower = 60;
+  EXPECT_EQ(report_bench(options, now, before), ExitCode::done);
+  options.fail_slower = 40;
+  EXPECT_EQ(report_bench(options, now, before), ExitCode::check_failed);
+}
+
+TEST(BenchReports, ABadFileIsRefusedBeforeAnythingIsMeasured) {
+  const TemporaryFolder folder;
+  Output bad(folder / "bad.json");
+  bad.write("{\"format\": \"something else\"}");
+  bad.commit();
+  const auto prepare = [&](const char* name) {
+    BenchReportOptions options;
+    options.against = (folder / name).string();
+    prepare_bench_reports(options);
+  };
+  EXPECT_THAT(tureen::testing::input_error([&] { prepare("bad.json"); }),
+              HasSubstr("no result of tureen bench"));
+  EXPECT_THAT(tureen::testing::input_error([&] { prepare("none.json"); }), HasSubstr("none.json"));
+}
+
+}  // namespace
+}  // namespace tureen::cli
