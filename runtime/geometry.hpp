@@ -10,10 +10,16 @@ namespace tureen {
 
 class Geometry {
  public:
+  /// `parts` are what is drawn of the last parts.size() of the faces; those before are drawn whole.
   /// Throws DeviceLimitError.
-  Geometry(const TriangleSoup& soup, std::span<const std::uint32_t> faces);
+  Geometry(const TriangleSoup& soup, std::span<const std::uint32_t> faces,
+           std::span<const FacePart> parts = {});
 
+  /// For faces that are drawn whole: vertex 3 i is the first of slot i.
   void bind() const { glBindVertexArray(vertex_array_.id()); }
+  /// For parts: vertex 3 i is the first of slot first_part() + i, and attribute 1 its barycentrics.
+  void bind_parts() const { glBindVertexArray(part_array_.id()); }
+  std::uint32_t first_part() const { return first_part_; }
   std::size_t device_bytes() const { return device_bytes_; }
 
   /// Sets the camera of `program`, in use. `clip_from_view` is one of soup/camera.hpp's.
@@ -21,8 +27,11 @@ class Geometry {
                          const glm::dmat4& clip_from_view);
 
  private:
-  gl::VertexArray vertex_array_;
-  gl::Buffer positions_;
+  void upload_barycentrics(std::span<const glm::vec2> barycentrics);
+
+  gl::VertexArray vertex_array_, part_array_;
+  gl::Buffer positions_, barycentrics_;
+  std::uint32_t first_part_ = 0;
   std::size_t device_bytes_ = 0;
 };
 

@@ -9,6 +9,7 @@ namespace {
 constexpr LeaveOutName names[] = {
     {LeaveOut::alpha_test, "alpha-test", "the alpha test of opaque faces"},
     {LeaveOut::transparent_faces, "transparent-faces", "faces that are transparent throughout"},
+    {LeaveOut::transparent_rims, "transparent-rims", "rims of cut-out faces where nothing exists"},
     {LeaveOut::shading_pass, "shading-pass", "the shading pass of cheap colours"},
     {LeaveOut::background, "background", "shading of background pixels"},
     {LeaveOut::interpolation, "interpolation", "interpolation of equal vertex colours"},

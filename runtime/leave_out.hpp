@@ -13,6 +13,7 @@ namespace tureen {
 enum class LeaveOut : std::uint8_t {
   alpha_test,         // of faces that are opaque throughout
   transparent_faces,  // faces that are transparent throughout
+  transparent_rims,   // of cut-out faces: what lies around all that exists of them
   shading_pass,       // where a colour is cheap enough to write at once
   background,         // shading of pixels that no face covers
   interpolation,      // of vertex colours that are equal

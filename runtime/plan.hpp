@@ -3,7 +3,9 @@
 // plan made with `specialise = false`.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -57,6 +59,9 @@ struct LatticePlan {
   std::vector<std::uint8_t> levels;
 };
 
+/// A triangle within a face, its corners in barycentrics (weights of the face's vertices 0 and 1).
+using FacePart = std::array<glm::dvec2, 3>;
+
 struct RenderPlan {
   PipelineKind pipeline = PipelineKind::tureen;
   ShadingSite site = ShadingSite::deferred;
@@ -68,6 +73,9 @@ struct RenderPlan {
   std::size_t opaque_count = 0;
   /// Runs of slots that are drawn together; none straddles opaque_count.
   std::vector<Cluster> clusters;
+
+  /// What is drawn of each cut-out face, from slot opaque_count on. Empty: whole faces.
+  std::vector<FacePart> parts;
 
   bool flat_colors = false;  // one colour a face says it all, whatever the soup stores
   bool color_mlp = false;    // the network runs

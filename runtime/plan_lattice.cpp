@@ -67,6 +67,7 @@ void plan_appearance(PlanDraft& draft, const LatticeTexture& texture) {
   if (plan.color_mlp && never_blends_in(draft, *texture.mlp, traits.ranges)) plan.color_mlp = false;
   if (plan.color_mlp) plan_network(draft, *texture.mlp, traits.ranges);
   if (plan.faces.empty()) return;
+  plan_rims(draft, texture);
 
   const bool opaque = plan.opaque_count == plan.faces.size();
   if (!plan.color_mlp && traits.constant_faces == plan.faces.size() && opaque &&

@@ -21,15 +21,17 @@ class TureenPipeline final : public Pipeline {
         api_(capabilities.api),
         multi_draw_(capabilities.multi_draw),
         appearance_(upload_appearance(soup, plan, TexelLayout::of(limits))),
-        geometry_(soup, plan.faces),
+        geometry_(soup, plan.faces, plan.parts),
         nothing_(gl::VertexArray::create()) {
     const bool forward = plan.site == ShadingSite::forward;
     const char* fragment = forward ? "forward.frag" : "visibility.frag";
     const std::size_t cut_out = plan.faces.size() - plan.opaque_count;
     if (plan.opaque_count > 0)
-      opaque_ = program(capabilities.api, "geometry.vert", fragment, {{"ALPHA_TEST", "0"}});
+      opaque_ = program(capabilities.api, "geometry.vert", fragment,
+                        {{"ALPHA_TEST", "0"}, {"PARTS", "0"}});
     if (cut_out > 0)
-      cut_out_ = program(capabilities.api, "geometry.vert", fragment, {{"ALPHA_TEST", "1"}});
+      cut_out_ = program(capabilities.api, "geometry.vert", fragment,
+                         {{"ALPHA_TEST", "1"}, {"PARTS", plan.parts.empty() ? "0" : "1"}});
     if (!forward)
       shading_ = program(capabilities.api, "full_screen.vert", "shading.frag",
                          {{"NO_FACE", "0xffffffffu"},
@@ -77,7 +79,8 @@ class TureenPipeline final : public Pipeline {
                         .constants = appearance_.constants,
                         .generated = {{"appearance.glsl", appearance_.glsl}}};
     source.constants.insert(constants.begin(), constants.end());
-    return gl::Program(assemble({.file = vertex}, api), assemble(source, api));
+    return gl::Program(assemble({.file = vertex, .constants = constants, .generated = {}}, api),
+                       assemble(source, api));
   }
 
   void set_clip_control(bool zero_to_one) const {
@@ -116,7 +119,6 @@ class TureenPipeline final : public Pipeline {
 
   /// Opaque faces first: they are cheap and hide the others.
   void draw_geometry(const FrameCamera& frame) {
-    geometry_.bind();
     const auto& clusters = plan_.clusters;
     std::size_t opaque_clusters = 0;
     while (opaque_clusters < clusters.size() &&
@@ -132,13 +134,21 @@ class TureenPipeline final : public Pipeline {
                      const FrameCamera& frame) {
     program.use();
     appearance_.bind(program);
+    const bool parts = &program == &cut_out_ && !plan_.parts.empty();
+    const std::uint32_t first_slot = parts ? geometry_.first_part() : 0;
+    if (parts) {
+      geometry_.bind_parts();
+      program.set("first_part", static_cast<int>(first_slot));
+    } else {
+      geometry_.bind();
+    }
     Geometry::set_camera(program, frame,
                          plan_.reversed_depth
                              ? clip_from_view_reversed(frame.camera, frame.range.near)
                              : clip_from_view(frame.camera, frame.range.near, frame.range.far));
     set_rays(program, frame);
     const glm::dvec3 forward = -frame.camera.world_from_view_rotation()[2];
-    order_.sort(clusters, glm::vec3(frame.eye), glm::vec3(forward));
+    order_.sort(clusters, glm::vec3(frame.eye), glm::vec3(forward), first_slot);
     const auto first = order_.first_vertices(), count = order_.vertex_counts();
 #ifndef __EMSCRIPTEN__
     if (multi_draw_) {
