@@ -6,6 +6,7 @@
 
 #include "runtime/gl/state.hpp"
 #include "runtime/lattice_upload.hpp"
+#include "runtime/view_dependence.hpp"
 #include "soup/lattice.hpp"
 #include "soup/spherical_harmonics.hpp"
 
@@ -66,7 +67,8 @@ class Uploader {
 
   void add_mlp(const ColorMlp& mlp, const FeatureRanges& ranges) {
     if (!plan_.color_mlp) return;
-    result_.mlp = color_mlp_source(mlp, plan_.mlp_weights, ranges);
+    result_.mlp = color_mlp_source(plan_.view_direction ? mlp : without_direction(mlp),
+                                   plan_.mlp_weights, ranges);
     if (mlp.encoding == DirectionEncoding::harmonics2) result_.constants["HARMONICS_DEGREE"] = "2";
     result_.glsl += result_.mlp.text;
   }
@@ -144,7 +146,8 @@ class Uploader {
     include("appearance_lattice.glsl");
     result_.constants["LATTICE_LEVEL"] = std::to_string(plan_.lattice.uniform_level);
     add("features0", std::move(stores.features0));
-    if (plan_.color_mlp) add("features1", std::move(stores.features1));
+    result_.constants["LATENT_FEATURES"] = plan_.latent_features ? "1" : "0";
+    if (plan_.latent_features) add("features1", std::move(stores.features1));
     if (plan_.opaque_count < plan_.faces.size()) add("alpha_cells", std::move(stores.alpha_cells));
     if (plan_.lattice.uniform_level < 0) add("patches", std::move(stores.patches));
     if (texture.mlp) add_mlp(*texture.mlp, plan_.feature_ranges);
@@ -208,7 +211,8 @@ class Uploader {
       table.insert(table.end(), {entry, factor, threshold});
     }
     add("texels0", image_store(firsts, starts, texels));
-    if (textures.mlp) add("texels1", image_store(seconds, starts, texels));
+    result_.constants["LATENT_FEATURES"] = plan_.latent_features ? "1" : "0";
+    if (plan_.latent_features) add("texels1", image_store(seconds, starts, texels));
     add("materials", TexelStore::from(layout_, texel_formats::rgba32ui,
                                       std::span<const glm::uvec4>(table), "materials"));
   }

@@ -59,12 +59,24 @@ std::string signature(const ColorMlp& mlp) {
   return text;
 }
 
-/// `sum` is an expression for the three outputs before the sigmoid.
-std::string epilogue(const ColorMlp& mlp, const std::string& sum) {
-  std::string text = "  vec3 predicted = 1.0 / (1.0 + exp(-" + sum + "));\n";
-  if (!mlp.blend_channel) return text + "  return predicted;\n}\n";
-  return text + "  return mix(features0.rgb, predicted, " + feature_name(*mlp.blend_channel) +
-         ");\n}\n";
+/// `sum` is an expression for the three outputs before the sigmoid, `blend` one for the blend
+/// channel's value; empty for a network that replaces the base colour.
+std::string epilogue(const std::string& sum, const std::string& blend) {
+  const std::string text = "  vec3 predicted = 1.0 / (1.0 + exp(-" + sum + "));\n";
+  if (blend.empty()) return text + "  return predicted;\n}\n";
+  return text + "  return mix(features0.rgb, predicted, " + blend + ");\n}\n";
+}
+
+std::string blend_expression(const ColorMlp& mlp) {
+  return mlp.blend_channel ? feature_name(*mlp.blend_channel) : std::string();
+}
+
+/// The same where the values that never change are known.
+std::string blend_expression(const ColorMlp& mlp, const FeatureRanges& ranges) {
+  if (!mlp.blend_channel) return {};
+  const FeatureRange& range = ranges[std::size_t(*mlp.blend_channel)];
+  if (range.low != range.high) return blend_expression(mlp);
+  return range.low == 1.0f ? std::string() : literal(range.low);
 }
 
 ColorMlpSource with_constants(const ColorMlp& mlp, const FeatureRanges& ranges, bool pruned) {
@@ -77,7 +89,8 @@ ColorMlpSource with_constants(const ColorMlp& mlp, const FeatureRanges& ranges, 
     std::vector<Input> outputs;
     for (int o = 0; o < layer.outputs; ++o) {
       const float* weights = &layer.weights[std::size_t(o) * layer.inputs];
-      std::string sum = literal(layer.biases[o]);
+      std::string terms;
+      double bias = layer.biases[o];
       double low = layer.biases[o], high = layer.biases[o], magnitude = std::abs(high);
       int zeros = 0;
       for (int i = 0; i < layer.inputs; ++i) {
@@ -86,13 +99,17 @@ ColorMlpSource with_constants(const ColorMlp& mlp, const FeatureRanges& ranges, 
         low += std::min(a, b);
         high += std::max(a, b);
         magnitude += std::max(std::abs(a), std::abs(b));
-        if (pruned && inputs[i].low == 0.0f && inputs[i].high == 0.0f) continue;  // a dead input
+        if (pruned && inputs[i].low == inputs[i].high) {
+          bias += a;
+          continue;
+        }
         if (pruned && weights[i] == 0.0f) {
           ++zeros;
           continue;
         }
-        sum += " + " + literal(weights[i]) + " * " + inputs[i].name;
+        terms += " + " + literal(weights[i]) + " * " + inputs[i].name;
       }
+      const std::string sum = literal(float(bias)) + terms;
       // The rounding on the device of a sum of at most max_width + 1 float products, and of the
       // features themselves: 64 * 2^-24 of the terms' magnitude, with room to spare.
       const double rounding = 1e-5 * magnitude;
@@ -108,9 +125,11 @@ ColorMlpSource with_constants(const ColorMlp& mlp, const FeatureRanges& ranges, 
     }
     inputs = std::move(outputs);
   }
-  result.text =
-      prologue(mlp) + signature(mlp) + body +
-      epilogue(mlp, "vec3(" + inputs[0].name + ", " + inputs[1].name + ", " + inputs[2].name + ")");
+  const std::string sum =
+      "vec3(" + inputs[0].name + ", " + inputs[1].name + ", " + inputs[2].name + ")";
+  body += epilogue(sum, pruned ? blend_expression(mlp, ranges) : blend_expression(mlp));
+  result.reads_features1 = body.find("features1.") != std::string::npos;
+  result.text = prologue(mlp) + signature(mlp) + body;
   return result;
 }
 
@@ -150,7 +169,7 @@ ColorMlpSource with_uniforms(const ColorMlp& mlp) {
   result.text = prologue(mlp) + "uniform mat4 mlp_weights[" +
                 std::to_string(result.weights.size()) + "];\nuniform vec4 mlp_biases[" +
                 std::to_string(result.biases.size()) + "];\n" + signature(mlp) + body +
-                epilogue(mlp, "x" + std::to_string(mlp.layers.size()) + "_0.xyz");
+                epilogue("x" + std::to_string(mlp.layers.size()) + "_0.xyz", blend_expression(mlp));
   return result;
 }
 

@@ -21,8 +21,10 @@ using FeatureRanges = std::array<FeatureRange, 8>;
 /// network: literal constants 15 ms, mat4 uniforms 97 ms.
 enum class MlpWeights {
   uniforms,
-  constants,      // of the neurons that may fire, without weights of zero
-  all_constants,  // of every neuron
+  /// Of the neurons that may fire, without weights of zero; inputs whose range is a single value
+  /// become part of the bias.
+  constants,
+  all_constants,  // of every neuron and input
 };
 
 struct ColorMlpSource {
@@ -35,6 +37,7 @@ struct ColorMlpSource {
   int hidden_neurons = 0;
   int dead_neurons = 0;  // left out: their input is at most 0 over all features and directions
   int zero_weights = 0;  // left out among the neurons that live
+  bool reads_features1 = true;  // whether color_mlp() looks at its second argument
 };
 
 ColorMlpSource color_mlp_source(const ColorMlp& mlp, MlpWeights kind,

@@ -81,7 +81,7 @@ class Forecaster {
     const std::uint64_t texels = lattice_texels(texture);
     const std::uint64_t four_channels = texture.is_float() ? 16 : 4;
     add("lattice texels", texels, four_channels);
-    if (plan_.color_mlp) add("lattice texels", texels, four_channels);
+    if (plan_.latent_features) add("lattice texels", texels, four_channels);
     if (plan_.opaque_count < plan_.faces.size())
       add("lattice alpha", alpha_cells(texture), four_channels);
     if (plan_.lattice.uniform_level < 0) add("lattice patches", slots(), 16);
@@ -120,7 +120,7 @@ class Forecaster {
     for (const UvMaterial& material : textures.materials)
       if (!material.images.empty() && known.insert(material.images).second)
         texels += textures.images[material.images[0]].pixels.size();
-    for (int i = 0; i < (textures.mlp ? 2 : 1); ++i) add("texture images", texels, 4);
+    for (int i = 0; i < (plan_.latent_features ? 2 : 1); ++i) add("texture images", texels, 4);
     add("materials", 3 * textures.materials.size(), 16);
     add("texture coordinates", 3 * slots(), 8);
     if (!textures.vertex_rgba.empty())

@@ -196,7 +196,8 @@ LatticeStores upload_lattice(const LatticeTexture& texture, const RenderPlan& pl
   std::visit(
       [&](const auto& values) {
         stores.features0 = feature_store(values, placement, layout, format, 0);
-        if (plan.color_mlp) stores.features1 = feature_store(values, placement, layout, format, 4);
+        if (plan.latent_features)
+          stores.features1 = feature_store(values, placement, layout, format, 4);
         if (plan.opaque_count < plan.faces.size())
           stores.alpha_cells = alpha_cell_store(values, placement, layout, format);
       },

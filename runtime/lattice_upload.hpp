@@ -16,8 +16,8 @@ struct LatticeStores {
   TexelStore patches;  // (first texel, level, first cell, 0) a slot
 };
 
-/// Makes only the stores that the plan reads: features1 with a network, alpha_cells with cut-outs,
-/// patches without a uniform level. Throws DeviceLimitError.
+/// Makes only the stores that the plan reads: features1 where the network sees it, alpha_cells with
+/// cut-outs, patches without a uniform level. Throws DeviceLimitError.
 LatticeStores upload_lattice(const LatticeTexture& texture, const RenderPlan& plan,
                              const TexelLayout& layout);
 

@@ -62,22 +62,6 @@ void plan_appearance(PlanDraft& draft, const UvTextures& textures) {
   if (draft.plan.color_mlp) plan_network(draft, *textures.mlp, {});
 }
 
-void plan_network(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges& ranges) {
-  RenderPlan& plan = draft.plan;
-  if (!draft.may(LeaveOut::weight_uniforms)) return;
-  plan.mlp_weights =
-      draft.may(LeaveOut::dead_neurons) ? MlpWeights::constants : MlpWeights::all_constants;
-  plan.feature_ranges = ranges;
-  draft.leave_out(LeaveOut::weight_uniforms,
-                  "uniforms, the network's weights are compiled in as constants");
-  const ColorMlpSource source = color_mlp_source(mlp, plan.mlp_weights, ranges);
-  if (source.dead_neurons > 0 || source.zero_weights > 0)
-    draft.leave_out(
-        LeaveOut::dead_neurons,
-        formatted("%d of %d hidden neurons that never fire and %d weights of zero (exact)",
-                  source.dead_neurons, source.hidden_neurons, source.zero_weights));
-}
-
 RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
                      const PlanPreferences& preferences) {
   if (preferences.preset && !is_faithful(*preferences.preset))

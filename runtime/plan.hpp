@@ -80,6 +80,8 @@ struct RenderPlan {
   bool flat_colors = false;  // one colour a face says it all, whatever the soup stores
   bool color_mlp = false;    // the network runs
   MlpWeights mlp_weights = MlpWeights::uniforms;
+  bool view_direction = false;   // the network sees it
+  bool latent_features = false;  // the network sees features 4 and above
   bool depth_rejects_background = false;
   int harmonics_degree = 0;
   FeatureRanges feature_ranges;  // of what the network sees, for constant weights

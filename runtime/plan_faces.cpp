@@ -19,6 +19,24 @@ std::vector<std::uint32_t> drawable_faces(PlanDraft& draft) {
   return faces;
 }
 
+/// Of faces with the same corners the lowest index wins wherever it is opaque: those behind one
+/// that is so throughout never show. `faces` are sorted spatially.
+void leave_out_coincident_faces(PlanDraft& draft, const std::vector<FaceAlpha>& alpha,
+                                std::vector<std::uint32_t>& faces) {
+  std::vector<std::uint32_t> kept;
+  kept.reserve(faces.size());
+  for (const std::uint32_t face : faces)
+    if (kept.empty() || alpha[kept.back()] != FaceAlpha::opaque ||
+        !coincident(draft.soup, kept.back(), face))
+      kept.push_back(face);
+  if (kept.size() == faces.size()) return;
+  draft.leave_out(
+      LeaveOut::coincident_faces,
+      formatted("%zu of %zu faces lie behind an opaque one with the same corners (exact)",
+                faces.size() - kept.size(), faces.size()));
+  faces = std::move(kept);
+}
+
 /// Of coincident faces the lower index must win, so both kinds of them are drawn in one bucket.
 /// `faces` are sorted spatially.
 void draw_coincident_faces_alike(const TriangleSoup& soup, std::span<const std::uint32_t> faces,
@@ -41,8 +59,7 @@ void plan_faces(PlanDraft& draft) {
   std::vector<std::uint32_t> faces = drawable_faces(draft);
 
   std::vector<FaceAlpha> alpha(soup.triangles.size(), FaceAlpha::cut_out);
-  if (draft.may(LeaveOut::alpha_test) || draft.may(LeaveOut::transparent_faces))
-    alpha = classify_alpha(soup);
+  if (draft.preferences.specialise) alpha = classify_alpha(soup);
   if (draft.may(LeaveOut::transparent_faces)) {
     const std::size_t before = faces.size();
     std::erase_if(faces, [&](std::uint32_t t) { return alpha[t] == FaceAlpha::transparent; });
@@ -53,6 +70,7 @@ void plan_faces(PlanDraft& draft) {
   }
 
   sort_spatially(soup, faces);
+  if (draft.may(LeaveOut::coincident_faces)) leave_out_coincident_faces(draft, alpha, faces);
   if (!draft.may(LeaveOut::alpha_test)) std::fill(alpha.begin(), alpha.end(), FaceAlpha::cut_out);
   draw_coincident_faces_alike(soup, faces, alpha);
   const auto first_cut_out = std::stable_partition(

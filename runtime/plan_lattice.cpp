@@ -61,7 +61,10 @@ void leave_out_affine_texels(PlanDraft& draft, const LatticeTexture& texture,
 void plan_appearance(PlanDraft& draft, const LatticeTexture& texture) {
   RenderPlan& plan = draft.plan;
   plan.color_mlp = texture.mlp.has_value();
-  if (!draft.preferences.specialise) return;
+  if (!draft.preferences.specialise) {
+    if (plan.color_mlp) plan_network(draft, *texture.mlp, {});
+    return;
+  }
 
   const LatticeTraits traits = measure(texture, plan.faces);
   if (plan.color_mlp && never_blends_in(draft, *texture.mlp, traits.ranges)) plan.color_mlp = false;

@@ -4,7 +4,9 @@
 #include "texel_store.glsl"
 
 uniform sampler2DArray features0;  // f0..f3
+#if LATENT_FEATURES
 uniform sampler2DArray features1;  // f4..f6
+#endif
 // Alpha at the four corners of each lattice cell: (x+1, y), (x, y+1), (x, y), (x+1, y+1). The cells
 // of a face follow each other as the texels of a lattice one row smaller do. A cut-out costs one read.
 uniform sampler2DArray alpha_cells;
@@ -56,7 +58,11 @@ vec3 fragment_color(uint face, vec2 b, vec3 to_eye) {
   at.texels += of_face.first_texel;
   vec4 f = lattice_sample(features0, at);
 #if COLOR_MLP
+#if LATENT_FEATURES
   return color_mlp(f, lattice_sample(features1, at), to_eye);
+#else
+  return color_mlp(f, vec4(0.0), to_eye);
+#endif
 #else
   return f.rgb;
 #endif

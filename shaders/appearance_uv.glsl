@@ -3,8 +3,10 @@
 #include "texel_store.glsl"
 
 uniform sampler2DArray texels0;  // colour, or the first four features
-#if COLOR_MLP
+#if LATENT_FEATURES
 uniform sampler2DArray texels1;  // the last four features
+#endif
+#if COLOR_MLP
 vec3 color_mlp(vec4 features0, vec4 features1, vec3 to_eye);
 #endif
 uniform sampler2DArray coordinates;  // (u, v) of a corner, three texels a face
@@ -104,9 +106,11 @@ bool fragment_exists(uint face, vec2 b) {
 vec3 fragment_color(uint face, vec2 b, vec3 to_eye) {
   Material material = material_of(face);
   vec4 first = first_sample(material, face, b);
-#if COLOR_MLP
+#if LATENT_FEATURES
   return color_mlp(first, image_sample(texels1, material.image, corner_mix(coordinates, face, b).xy),
                    to_eye);
+#elif COLOR_MLP
+  return color_mlp(first, vec4(0.0), to_eye);
 #else
   return min(first.rgb, 1.0);
 #endif

@@ -1,0 +1,79 @@
+// The color MLP's part of a plan: which of its inputs and neurons a scene can do without.
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/plan_draft.hpp"
+#include "runtime/view_dependence.hpp"
+
+namespace tureen {
+
+namespace {
+
+double largest_blend(const ColorMlp& mlp, const FeatureRanges& ranges) {
+  if (!mlp.blend_channel) return 1.0;
+  const FeatureRange& range = ranges[std::size_t(*mlp.blend_channel)];
+  return std::max(std::abs(double(range.low)), std::abs(double(range.high)));
+}
+
+void leave_out_view_direction(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges& ranges) {
+  if (!draft.may(LeaveOut::view_direction) || mlp.encoding == DirectionEncoding::none) return;
+  const double moves = view_dependence(mlp) * largest_blend(mlp, ranges);
+  if (moves > double(half_step)) return;
+  draft.plan.view_direction = false;
+  draft.leave_out(LeaveOut::view_direction,
+                  formatted("the view direction, it moves no colour by more than %.5f (1/510 = "
+                            "0.00196 allowed)",
+                            moves));
+}
+
+/// A range that is a single value makes the network's source use that value: widened where the
+/// caller wants to keep what that would leave out.
+void keep_reading(FeatureRange& range) {
+  if (range.low == range.high) range.low = std::nextafter(range.low, -1.0f);
+}
+
+/// Where the network takes over altogether, the base colour need not be blended in.
+void leave_out_base_color(PlanDraft& draft, const ColorMlp& mlp, FeatureRanges& ranges) {
+  if (!mlp.blend_channel) return;
+  FeatureRange& range = ranges[std::size_t(*mlp.blend_channel)];
+  const bool replaces = range.low >= 1.0f - half_step && range.high <= 1.0f + half_step;
+  if (!replaces || !draft.may(LeaveOut::base_color)) return keep_reading(range);
+  draft.leave_out(LeaveOut::base_color,
+                  formatted("blending with the base colour, the blend channel is never below %.5f "
+                            "(1 - 1/510 = 0.99804 allowed)",
+                            double(range.low)));
+  range = {1.0f, 1.0f};
+}
+
+}  // namespace
+
+void plan_network(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges& measured) {
+  RenderPlan& plan = draft.plan;
+  plan.view_direction = mlp.encoding != DirectionEncoding::none;
+  plan.latent_features = true;
+  plan.feature_ranges = measured;
+  leave_out_view_direction(draft, mlp, measured);
+  if (!draft.may(LeaveOut::weight_uniforms)) return;
+  plan.mlp_weights =
+      draft.may(LeaveOut::dead_neurons) ? MlpWeights::constants : MlpWeights::all_constants;
+  draft.leave_out(LeaveOut::weight_uniforms,
+                  "uniforms, the network's weights are compiled in as constants");
+  if (plan.mlp_weights == MlpWeights::all_constants) return;
+  leave_out_base_color(draft, mlp, plan.feature_ranges);
+  if (!draft.may(LeaveOut::latent_features))
+    for (std::size_t i = 4; i < plan.feature_ranges.size(); ++i)
+      keep_reading(plan.feature_ranges[i]);
+  const ColorMlpSource source = color_mlp_source(plan.view_direction ? mlp : without_direction(mlp),
+                                                 plan.mlp_weights, plan.feature_ranges);
+  if (source.dead_neurons + source.zero_weights > 0)
+    draft.leave_out(
+        LeaveOut::dead_neurons,
+        formatted("%d of %d hidden neurons that never fire and %d weights of zero (exact)",
+                  source.dead_neurons, source.hidden_neurons, source.zero_weights));
+  if (source.reads_features1 || !draft.may(LeaveOut::latent_features)) return;
+  plan.latent_features = false;
+  draft.leave_out(LeaveOut::latent_features,
+                  "features 4 and above, each is the same everywhere or has no weight (exact)");
+}
+
+}  // namespace tureen

@@ -1,0 +1,190 @@
+// Each thing that a plan leaves out, alone: a soup that has its trait loses nothing, one that lacks
+// it keeps it. docs/leaving-out.md names these tests as its proofs.
+#include "runtime/leave_out.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "runtime/renderer.hpp"
+#include "support/contexts.hpp"
+#include "support/trait_soups.hpp"
+
+namespace tureen::test {
+namespace {
+
+using testing::Contains;
+using testing::Not;
+using testing::StartsWith;
+
+constexpr int width = 320, height = 240;
+
+RenderPlan plan_of(const TriangleSoup& soup, LeaveOutSet leave_out = LeaveOutSet::all()) {
+  return make_plan(soup, DeviceLimits{}, {.leave_out = leave_out});
+}
+
+Image8 picture(const TriangleSoup& soup, const Camera& camera, const PlanPreferences& plan) {
+  static const gl::Context context = gl::Context::create(osmesa);
+  Renderer renderer(context, soup, glm::dvec3(0.0), {.plan = plan, .background = glm::vec4(1.0f)});
+  renderer.draw(camera);
+  return renderer.read_color();
+}
+
+struct Difference {
+  int largest = 0;           // steps of 8 bits
+  std::size_t channels = 0;  // that differ at all
+  std::size_t pixels = 0;    // of the first picture that are not background
+};
+
+Difference difference(const Image8& a, const Image8& b) {
+  Difference result;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    result.pixels += a.pixels[i] != glm::u8vec4(255) ? 1 : 0;
+    for (int c = 0; c < 4; ++c) {
+      const int steps = std::abs(int(a.pixels[i][c]) - int(b.pixels[i][c]));
+      result.largest = std::max(result.largest, steps);
+      result.channels += steps > 0 ? 1 : 0;
+    }
+  }
+  return result;
+}
+
+/// How far a picture may move.
+struct Tolerance {
+  int steps;
+  std::size_t channels;  // that may move
+};
+
+/// Exact is exact, but that a network whose sums are taken in another order may round one channel
+/// in 100,000 otherwise, and that a shading pass knows barycentrics in 16 bits only. What has a
+/// bound of half a step can turn into a whole one by rounding, anywhere.
+Tolerance tolerance_of(LeaveOut what) {
+  constexpr std::size_t every_channel = std::size_t(width) * height * 4;
+  switch (what) {
+    case LeaveOut::shading_pass:
+      return {1, every_channel / 1000};
+    case LeaveOut::harmonics_bands:
+    case LeaveOut::color_mlp:
+    case LeaveOut::base_color:
+    case LeaveOut::view_direction:
+    case LeaveOut::affine_texels:
+      return {1, every_channel};
+    default:
+      return kind_of_trait(what) == Kind::lattice_mlp ? Tolerance{1, every_channel / 100000}
+                                                      : Tolerance{0, 0};
+  }
+}
+
+struct Case {
+  LeaveOut what;
+  std::uint64_t seed;
+};
+
+class LeavingOut : public testing::TestWithParam<Case> {
+ protected:
+  LeaveOut what() const { return GetParam().what; }
+  std::uint64_t seed() const { return GetParam().seed; }
+  TriangleSoup soup_with_trait() const {
+    TriangleSoup soup =
+        random_soup(seed(), {.kind = kind_of_trait(what()), .faces = 300, .level = 3, .degree = 4});
+    give_trait(what(), soup);
+    return soup;
+  }
+};
+
+TEST_P(LeavingOut, IsPlannedAndSaidWhereTheSceneHasTheTrait) {
+  const TriangleSoup soup = soup_with_trait();
+  ASSERT_EQ(defect(soup), std::nullopt);
+  const RenderPlan with = plan_of(soup);
+  const RenderPlan without = plan_of(soup, LeaveOutSet::all().without(what()));
+  EXPECT_TRUE(with.left_out.has(what()));
+  EXPECT_FALSE(without.left_out.has(what()));
+  const auto is_said_alone = [&](const std::string& sentence) {
+    return sentence.starts_with("left out: ") &&
+           std::find(without.sentences.begin(), without.sentences.end(), sentence) ==
+               without.sentences.end();
+  };
+  EXPECT_TRUE(std::any_of(with.sentences.begin(), with.sentences.end(), is_said_alone));
+}
+
+class LeavingOutPicture : public LeavingOut {};
+
+// Against nothing left out, with everything and with this alone (which shows what depends on
+// something else being left out); and everything but this.
+TEST_P(LeavingOutPicture, LosesNothing) {
+  const TriangleSoup soup = soup_with_trait();
+  Random random(seed());
+  const Camera camera = random_camera(random, width, height);
+  const Image8 generic = picture(soup, camera, {.specialise = false});
+  const auto [steps, channels] = tolerance_of(what());
+  const LeaveOutSet all = LeaveOutSet::all().without(LeaveOut::transparent_rims);
+  const std::pair<const char*, LeaveOutSet> sets[] = {
+      {"all", all}, {"alone", LeaveOutSet::only(what())}, {"all but this", all.without(what())}};
+  for (const auto& [name, leave_out] : sets) {
+    const Difference found = difference(picture(soup, camera, {.leave_out = leave_out}), generic);
+    EXPECT_LE(found.largest, steps) << name;
+    EXPECT_LE(found.channels, channels) << name;
+    EXPECT_GT(found.pixels, std::size_t(width * height / 20)) << "there is nothing to compare";
+  }
+}
+
+TEST_P(LeavingOut, DoesNotHappenWhereTheSceneLacksTheTrait) {
+  const TriangleSoup soup = soup_without_trait(what(), seed());
+  const RenderPlan with = plan_of(soup);
+  EXPECT_FALSE(with.left_out.has(what()));
+  EXPECT_EQ(with.sentences, plan_of(soup, LeaveOutSet::all().without(what())).sentences);
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const LeaveOutName& known : leave_out_names())
+    for (const std::uint64_t seed : {1, 2}) all.push_back({known.what, seed});
+  return all;
+}
+
+/// "alpha-test" as a test's name: "AlphaTest".
+std::string test_name(LeaveOut what) {
+  std::string name;
+  bool begins = true;
+  for (const char c : std::string(name_of(what))) {
+    if (c != '-') name += begins ? char(std::toupper(c)) : c;
+    begins = c == '-';
+  }
+  return name;
+}
+
+std::string case_name(const testing::TestParamInfo<Case>& test) {
+  return test_name(test.param.what) + "_seed" + std::to_string(test.param.seed);
+}
+
+/// Rims move depths by their rounding: which face wins differs in a pixel of 10^5, and
+/// face_part_test.cpp counts them by the faces' names.
+std::vector<Case> cases_without_rims() {
+  std::vector<Case> all = cases();
+  std::erase_if(all, [](const Case& c) { return c.what == LeaveOut::transparent_rims; });
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, LeavingOut, testing::ValuesIn(cases()), case_name);
+INSTANTIATE_TEST_SUITE_P(All, LeavingOutPicture, testing::ValuesIn(cases_without_rims()),
+                         case_name);
+
+TEST(LeaveOutNames, AreFoundAgain) {
+  for (const LeaveOutName& known : leave_out_names()) {
+    EXPECT_STREQ(name_of(known.what), known.name);
+    EXPECT_EQ(leave_out_named(known.name), known.what);
+  }
+  EXPECT_EQ(leave_out_named("everything"), std::nullopt);
+}
+
+TEST(LeaveOutNames, OnlyWhatIsAskedForIsLeftOut) {
+  const TriangleSoup soup = random_soup(1, {.kind = Kind::lattice_mlp, .level = 3});
+  EXPECT_THAT(plan_of(soup, LeaveOutSet()).sentences, Not(Contains(StartsWith("left out"))));
+  const RenderPlan plan = plan_of(soup, LeaveOutSet::only(LeaveOut::background));
+  EXPECT_EQ(plan.left_out, LeaveOutSet::only(LeaveOut::background));
+}
+
+}  // namespace
+}  // namespace tureen::test

@@ -1,0 +1,199 @@
+#include "support/trait_soups.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "soup/lattice.hpp"
+#include "soup/spherical_harmonics.hpp"
+
+namespace tureen::test {
+
+namespace {
+
+constexpr int channels = LatticeTexture::channels;
+
+LatticeTexture& lattice_of(TriangleSoup& soup) { return std::get<LatticeTexture>(soup.appearance); }
+
+std::vector<std::uint8_t>& bytes_of(TriangleSoup& soup) {
+  return std::get<std::vector<std::uint8_t>>(lattice_of(soup).texels);
+}
+
+/// Calls change(face, x, y, values) for every texel of every face.
+template <class Change>
+void for_each_texel(TriangleSoup& soup, const Change& change) {
+  const LatticeTexture& texture = lattice_of(soup);
+  for (std::size_t t = 0; t < texture.patches.size(); ++t) {
+    const LatticePatch& patch = texture.patches[t];
+    for (std::uint32_t k = 0; k < lattice::texel_count(int(patch.level)); ++k) {
+      const auto [x, y] = lattice::texel_coordinates(k);
+      change(t, x, y, &bytes_of(soup)[(std::size_t(patch.first_texel) + k) * channels]);
+    }
+  }
+}
+
+/// Every face gets texels of its own at the level of the first one, copied from those it had where
+/// there are as many.
+void unshare_texels(TriangleSoup& soup) {
+  LatticeTexture& texture = lattice_of(soup);
+  const std::uint32_t level = texture.patches.front().level;
+  const std::size_t each = std::size_t(lattice::texel_count(int(level))) * channels;
+  std::vector<std::uint8_t> texels;
+  for (LatticePatch& patch : texture.patches) {
+    const auto first = bytes_of(soup).begin() + std::ptrdiff_t(patch.first_texel) * channels;
+    const auto had = std::size_t(lattice::texel_count(int(patch.level))) * channels;
+    patch = {std::uint32_t(texels.size() / channels), level};
+    texels.insert(texels.end(), first, first + std::ptrdiff_t(std::min(had, each)));
+    texels.resize(std::size_t(patch.first_texel) * channels + each, 255);
+  }
+  texture.texels = std::move(texels);
+}
+
+void make_opaque(TriangleSoup& soup) {
+  for_each_texel(soup, [](std::size_t, int, int, std::uint8_t* texel) { texel[7] = 255; });
+}
+
+/// Three values a channel that no two faces need share, for faces that are constant or affine.
+std::uint8_t face_value(std::size_t face, int channel) {
+  return std::uint8_t((face * 37 + std::size_t(channel) * 59) % 100);
+}
+
+}  // namespace
+
+Kind kind_of_trait(LeaveOut what) {
+  switch (what) {
+    case LeaveOut::coincident_faces:
+      return Kind::face_colors;
+    case LeaveOut::shading_pass:
+    case LeaveOut::interpolation:
+      return Kind::vertex_colors;
+    case LeaveOut::harmonics_bands:
+      return Kind::face_harmonics;
+    case LeaveOut::constant_lattices:
+    case LeaveOut::affine_texels:
+      return Kind::lattice;
+    default:
+      return Kind::lattice_mlp;
+  }
+}
+
+void give_trait(LeaveOut what, TriangleSoup& soup) {
+  switch (what) {
+    case LeaveOut::alpha_test:
+      return make_opaque(soup);
+    case LeaveOut::transparent_faces:
+      return for_each_texel(soup, [](std::size_t face, int, int, std::uint8_t* texel) {
+        if (face % 2 == 1) texel[7] = std::min<std::uint8_t>(texel[7], 127);
+      });
+    case LeaveOut::transparent_rims:
+      return for_each_texel(soup, [&](std::size_t face, int x, int y, std::uint8_t* texel) {
+        const int n = lattice::resolution(int(lattice_of(soup).patches[face].level));
+        texel[7] = x > 1 && y > 1 && x + y + 1 < n ? 255 : 0;
+      });
+    case LeaveOut::coincident_faces: {
+      auto& rgba = std::get<FaceColors>(soup.appearance).rgba;
+      const std::size_t faces = soup.triangles.size();
+      for (glm::vec4& color : rgba) color.a = 1.0f;
+      for (std::size_t t = 0; t < faces; ++t) {
+        soup.triangles.push_back(glm::uvec3(soup.triangles[t]));
+        rgba.emplace_back(glm::vec3(rgba[faces - 1 - t]), 1.0f);
+      }
+      return;
+    }
+    case LeaveOut::interpolation: {
+      auto& rgba = std::get<VertexColors>(soup.appearance).rgba;
+      for (const glm::uvec3& t : soup.triangles) {
+        rgba[t.x].a = 1.0f;
+        rgba[t.y] = rgba[t.z] = rgba[t.x];
+      }
+      return;
+    }
+    case LeaveOut::harmonics_bands: {
+      auto& sh = std::get<Harmonics>(soup.appearance);
+      const auto count = std::size_t(harmonics::count(sh.degree));
+      // Bands 2, 3 and 4 can together move a channel by (5 + 7 + 9) / sqrt(4 pi) * 1e-4 < 1/510.
+      for (std::size_t i = 0; i < sh.coefficients.size(); ++i)
+        if (i % count >= 4) sh.coefficients[i] = glm::vec3(i % 2 == 0 ? 1e-4f : -1e-4f);
+      return;
+    }
+    case LeaveOut::color_mlp:
+      return for_each_texel(soup, [](std::size_t, int, int, std::uint8_t* texel) { texel[3] = 0; });
+    case LeaveOut::base_color:
+      return for_each_texel(soup,
+                            [](std::size_t, int, int, std::uint8_t* texel) { texel[3] = 255; });
+    case LeaveOut::view_direction: {
+      DenseLayer& first = lattice_of(soup).mlp->layers.front();
+      for (std::size_t i = 0; i < first.weights.size(); ++i)
+        if (i % 16 > 7) first.weights[i] *= 1e-6f;
+      return;
+    }
+    case LeaveOut::latent_features:
+      return for_each_texel(soup, [](std::size_t, int, int, std::uint8_t* texel) {
+        std::fill(texel + 4, texel + 7, std::uint8_t(100));
+      });
+    case LeaveOut::dead_neurons: {
+      ColorMlp& mlp = *lattice_of(soup).mlp;
+      for (std::size_t l = 0; l + 1 < mlp.layers.size(); ++l)
+        for (std::size_t o = 0; o < mlp.layers[l].biases.size(); o += 2)
+          mlp.layers[l].biases[o] = -100.0f;
+      return;
+    }
+    case LeaveOut::constant_lattices:
+      unshare_texels(soup);
+      make_opaque(soup);
+      return for_each_texel(soup, [](std::size_t face, int, int, std::uint8_t* texel) {
+        for (int c = 0; c < LatticeTexture::features; ++c) texel[c] = face_value(face, c);
+      });
+    case LeaveOut::affine_texels: {
+      unshare_texels(soup);
+      make_opaque(soup);
+      // Steps of whole bytes are affine without rounding; 2^level (1 + 2) of them fit below 155.
+      const int level = int(lattice_of(soup).patches.front().level);
+      const int step = std::max(1, 50 >> level);
+      return for_each_texel(soup, [step](std::size_t face, int x, int y, std::uint8_t* texel) {
+        for (int c = 0; c < LatticeTexture::features; ++c)
+          texel[c] = std::uint8_t((face_value(face, c) + step * x * (1 + c % 2) + step * y) % 256);
+      });
+    }
+    case LeaveOut::texel_table:
+      return unshare_texels(soup);
+    case LeaveOut::shading_pass:
+    case LeaveOut::background:
+    case LeaveOut::weight_uniforms:
+      return;  // their kind is enough
+  }
+  assert(!"a trait without a soup");
+}
+
+TriangleSoup soup_without_trait(LeaveOut what, std::uint64_t seed) {
+  SoupOptions options{.kind = kind_of_trait(what), .faces = 300, .level = 3};
+  switch (what) {
+    case LeaveOut::shading_pass:
+      options.kind = Kind::face_harmonics;
+      break;
+    case LeaveOut::background:
+      options.kind = Kind::face_colors;  // drawn forward
+      break;
+    case LeaveOut::weight_uniforms:
+      options.kind = Kind::lattice;
+      break;
+    case LeaveOut::texel_table:
+      options.level = -1;
+      break;
+    default:
+      break;
+  }
+  TriangleSoup soup = random_soup(seed, options);
+  if (what == LeaveOut::alpha_test || what == LeaveOut::transparent_faces ||
+      what == LeaveOut::transparent_rims)
+    // A hole in one corner of each face, the other two at its very edge.
+    for_each_texel(soup, [](std::size_t, int x, int y, std::uint8_t* texel) {
+      texel[7] = x == 0 && y == 0 ? 0 : 255;
+    });
+  if (what == LeaveOut::affine_texels || what == LeaveOut::constant_lattices)
+    for_each_texel(soup, [](std::size_t, int x, int y, std::uint8_t* texel) {
+      texel[0] = (x + y) % 2 == 0 ? 40 : 200;
+    });
+  return soup;
+}
+
+}  // namespace tureen::test
