@@ -27,6 +27,7 @@
 #include "trainer/device.hpp"
 #include "trainer/initialise.hpp"
 #include "trainer/kernels/projection.hpp"
+#include "trainer/near_zone.hpp"
 #include "trainer/training_views.hpp"
 
 namespace tureen::cli {
@@ -302,7 +303,9 @@ ExitCode train(const Options& options) {
   if (checkpoint)
     if (const auto reason = difference(run.views, checkpoint->views))
       throw UsageError("--resume cannot go on with another dataset: " + *reason);
-  const Config scaled = trainer::scaled_to(config, trainer::region_of_interest(dataset).half_side);
+  const trainer::Region region = trainer::region_of_interest(dataset);
+  const Config scaled =
+      trainer::with_empty_near_zone(trainer::scaled_to(config, region.half_side), dataset, region);
   run.state = checkpoint ? std::move(checkpoint->state) : first_state(dataset, scaled, mesh);
   const std::vector<trainer::TrainingView> views =
       trainer::take_training_views(dataset.train, scaled);

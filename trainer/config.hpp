@@ -48,6 +48,9 @@ struct Config {
   float box = 0.0f;  // half side of the box for random points in world units; 0: from the cameras
   float far_points = 0.0f;  // the fraction of random points that lies around the box, out to
   float far_extent = 8.0f;  // so many of its half sides
+  /// At points: so many of all lie around the box all the same, for what structure from motion
+  /// did not find; published: 0.
+  float around_points = 0.0f;
 
   // --- The texture
   int coarse_level = 0;   // the one level until lift_step
@@ -87,10 +90,19 @@ struct Config {
   bool split_by_error = true;    // published: false. Splits what errs most, not what is longest
   float split_fraction = 0.2f;   // of the picture's height: longer projected edges are split
   int split_views = 20;          // at most so many views choose edges
+  /// Published for scenes: true. Edges longer than split_fraction are all split, and the next
+  /// pruning brings the faces back to the budget, whereas otherwise only pruning makes room.
+  bool split_beyond_budget = false;
+  /// Published: 1. Faces that fewer training pictures show are removed; no more are asked for than
+  /// one and a twentieth of all.
+  int least_views = 1;
 
   // --- The picture
   float near = 0.01f;
   float far = 100.0f;
+  /// Published: false. Faces of which a part is in a training picture and before its near plane
+  /// are removed, so that the runtime, whose near plane is closer, shows what was trained.
+  bool clear_near = false;
   float background[3] = {1, 1, 1};
 };
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numeric>
+#include <tuple>
 
 #include "soup/error.hpp"
 #include "trainer/mlp_parameters.hpp"
@@ -21,6 +23,23 @@ double mean(std::span<const double> values) {
   double sum = 0;
   for (const double value : values) sum += value;
   return values.empty() ? 0 : sum / double(values.size());
+}
+
+/// Positions in their order; of those that coincide, the first.
+std::vector<glm::dvec3> once_each(const std::vector<glm::dvec3>& points) {
+  std::vector<std::uint32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto key = [&points](std::uint32_t i) {
+    return std::tuple(points[i].x, points[i].y, points[i].z, i);
+  };
+  std::ranges::sort(order, {}, key);
+  std::vector<bool> repeated(points.size(), false);
+  for (std::size_t i = 1; i < order.size(); ++i)
+    repeated[order[i]] = points[order[i]] == points[order[i - 1]];
+  std::vector<glm::dvec3> kept;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!repeated[i]) kept.push_back(points[i]);
+  return kept;
 }
 
 /// The positions without those that are likely mistakes: see seeds_at_points.
@@ -44,13 +63,14 @@ std::vector<glm::dvec3> plausible(std::span<const DatasetPoint> points) {
   std::vector<glm::dvec3> kept;
   for (const DatasetPoint& point : points)
     if (glm::distance(point.position, centre) <= farthest) kept.push_back(point.position);
-  return kept;
+  return once_each(kept);
 }
 
 /// All points, and others beside them.
 std::vector<glm::dvec3> extended(const std::vector<glm::dvec3>& points, std::size_t count,
-                                 Random& random) {
-  const std::vector<double> distances = nearest_distances(points);
+                                 double lone_spacing, Random& random) {
+  std::vector<double> distances = nearest_distances(points);
+  if (points.size() == 1) distances[0] = lone_spacing;
   std::vector<glm::dvec3> all = points;
   while (all.size() < count) {
     const std::size_t beside = random.below(points.size());
@@ -119,6 +139,24 @@ Model from_mesh(const Scene& mesh, const Config& config) {
   return split(model, splits, ChildTexture::resampled).model;
 }
 
+/// Those of the seeds that do not lie around the region are put at points instead.
+void put_at_points(const Dataset& dataset, const Region& region, const Config& config, double far,
+                   Seeds& seeds, Random& random) {
+  const auto count = std::size_t(config.initial_triangles);
+  const std::size_t at = count - std::size_t(std::llround(far * double(count)));
+  seeds.centres.resize(count);
+  seeds.radii.resize(count);
+  if (at == 0) return;
+  const Seeds points = seeds_at_points(dataset.points,
+                                       {.count = at,
+                                        .radius = config.initial_radius,
+                                        .local = config.local_radius,
+                                        .lone_spacing = region.half_side},
+                                       random);
+  std::ranges::copy(points.centres, seeds.centres.begin());
+  std::ranges::copy(points.radii, seeds.radii.begin());
+}
+
 }  // namespace
 
 Seeds seeds_at_points(std::span<const DatasetPoint> points, const PointSeeds& options,
@@ -126,10 +164,12 @@ Seeds seeds_at_points(std::span<const DatasetPoint> points, const PointSeeds& op
   assert(!points.empty());
   const std::vector<glm::dvec3> kept = plausible(points);
   Seeds seeds;
-  seeds.centres = kept.size() < options.count ? extended(kept, options.count, random)
-                                              : thinned(kept, options.count, random);
+  seeds.centres = kept.size() < options.count
+                      ? extended(kept, options.count, options.lone_spacing, random)
+                      : thinned(kept, options.count, random);
   seeds.radii = nearest_distances(seeds.centres);
-  const double mean_distance = mean(seeds.radii);
+  double mean_distance = mean(seeds.radii);
+  if (!(mean_distance > 0)) mean_distance = options.lone_spacing;
   for (double& radius : seeds.radii)
     radius =
         options.radius * (options.local ? std::max(radius, 0.1 * mean_distance) : mean_distance);
@@ -189,20 +229,18 @@ Model initial_model(const Dataset& dataset, const Config& config, const Scene* m
   const auto count = std::size_t(config.initial_triangles);
   Region region = region_of_interest(dataset);
   Random random(config.seed, random_stream);
+  const bool at_points = has_points && config.initialisation != Initialisation::random;
+  if (config.box > 0 && !at_points) region.half_side = config.box;
+  const double far = at_points ? config.around_points : config.far_points;
   Seeds seeds;
-  if (has_points && config.initialisation != Initialisation::random) {
-    seeds = seeds_at_points(
-        dataset.points,
-        {.count = count, .radius = config.initial_radius, .local = config.local_radius}, random);
-  } else {
-    if (config.box > 0) region.half_side = config.box;
+  if (!at_points || far > 0)
     seeds = random_seeds(region, dataset.train,
                          {.count = count,
                           .radius = config.initial_radius,
-                          .far = config.far_points,
+                          .far = far,
                           .far_extent = config.far_extent},
                          random);
-  }
+  if (at_points) put_at_points(dataset, region, config, far, seeds, random);
   return grey_model(config, region.centre, equilateral_triangles(seeds, region.centre, random));
 }
 

@@ -38,12 +38,17 @@ struct Seeds {
 /// percent is left out where it is twice as far from the median as the rest: mistakes of
 /// structure from motion that farthest-point sampling would find first.
 ///
+/// Of points that coincide one is taken. Where there is but one, the others lie within
+/// `lone_spacing` of it, and a lone triangle's neighbour is taken to be as far away.
+///
 /// A circumradius is `radius` times the distance to the nearest other centre: its mean, or
-/// (`local`) that of the centre itself, but at least a tenth of the mean, as points may coincide.
+/// (`local`) that of the centre itself, but at least a tenth of the mean, as
+/// points may nearly coincide.
 struct PointSeeds {
   std::size_t count;
   double radius;
   bool local = false;
+  double lone_spacing = 1.0;
 };
 Seeds seeds_at_points(std::span<const DatasetPoint> points, const PointSeeds& options,
                       Random& random);

@@ -4,19 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "trainer/kernels/scalar.hpp"
 #include "trainer/levels.hpp"
 #include "trainer/mlp_parameters.hpp"
 
 namespace tureen::trainer {
 
 namespace {
-
-/// On its own side of one half: 1 / (1 + exp(1e-9)) would round to it.
-float sigmoid(float logit) {
-  const auto value = static_cast<float>(1.0 / (1.0 + std::exp(-double(logit))));
-  constexpr float below_half = 0.5f - std::numeric_limits<float>::epsilon() / 4;
-  return logit < 0 && value >= 0.5f ? below_half : value;
-}
 
 void zero_alpha(std::span<float> logits) {
   for (std::size_t i = alpha_channel; i < logits.size(); i += channels) logits[i] = 0.0f;
@@ -66,7 +60,7 @@ Model lifted(const Model& from, int min_level, int max_level, LiftedOpacity opac
 void fine_texture(const Model& model, std::size_t face, std::vector<float>& out) {
   out.resize(std::size_t(lattice::texel_count(model.max_level)) * channels);
   fine_logits(model, face, out);
-  for (float& value : out) value = sigmoid(value);
+  for (float& value : out) value = kernels::sigmoid(value);
 }
 
 Scene to_scene(const Model& model) {

@@ -55,8 +55,10 @@ enum class LiftedOpacity {
 /// Where max_level is below the old one, finer detail is lost. Positions and MLP stay.
 Model lifted(const Model& from, int min_level, int max_level, LiftedOpacity opacity);
 
-/// The fine texture of one face: texel_count(max_level) x channels values in [0, 1]. Alpha is at
-/// least alpha_threshold exactly where its logit is at least 0.
+/// The fine texture of one face: texel_count(max_level) x channels values in [0, 1]. They are
+/// what the backends draw, to the bit, so that alpha is on the same side of alpha_threshold: at
+/// least 1/2 where its logit is at least 0, below where it is less than -2e-7; in between floats
+/// round 1 + exp(-logit) to 2.
 void fine_texture(const Model& model, std::size_t face, std::vector<float>& out);
 
 /// The soup that `tureen render` draws: float texels at max_level with the color MLP. Cameras and

@@ -159,7 +159,10 @@ std::vector<Split> greatest_errors(const Model& model, std::span<const float> er
         else if (!faces.splits.empty() && faces.splits.back().face == face)
           error[face] *= 0.5;
         Candidate candidate = faces.longest_edge(face);
-        candidate.priority = error[face];
+        // Halves of no error have none either: among those the longest edge comes first, or one
+        // face would take all that is left of the budget. Edges of no length come last.
+        const double length = std::max(candidate.priority, 1e-30);
+        candidate.priority = error[face] > 0 ? error[face] : -1 / length;
         return std::optional(candidate);
       });
   return std::move(faces.splits);

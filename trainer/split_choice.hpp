@@ -18,7 +18,8 @@ namespace tureen::trainer {
 std::vector<Split> longest_edges(const Model& model, std::size_t budget);
 
 /// Bisects the face of the greatest error, again and again, at its longest edge, until there are
-/// `budget` faces; each child has half of its parent's error. `errors` has one number a face.
+/// `budget` faces; each child has half of its parent's error. `errors` has one number a face; faces
+/// without error come after all others, the longest edge first.
 /// Triangles go where the picture needs them, which a length alone does not tell.
 std::vector<Split> greatest_errors(const Model& model, std::span<const float> errors,
                                    std::size_t budget);

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "trainer/near_zone.hpp"
 #include "trainer/random.hpp"
 #include "trainer/split_choice.hpp"
 #include "trainer/topology.hpp"
@@ -17,6 +18,14 @@ namespace {
 // Streams of random numbers, one a purpose.
 constexpr std::uint64_t epoch_stream = std::uint64_t(1) << 32;
 constexpr std::uint64_t split_stream = std::uint64_t(2) << 32;
+
+/// Config::least_views rises by one for so many training pictures at most.
+constexpr std::size_t pictures_a_view = 20;
+
+/// Splits beyond the budget end at so many times the budget. A view has room for about 25 edges of
+/// a fifth of its height side by side, so twenty views come nowhere near it: this bounds memory
+/// where a threshold is tiny.
+constexpr std::size_t most_beyond = 8;
 
 std::vector<std::uint32_t> shuffled(std::size_t count, Random random) {
   std::vector<std::uint32_t> order(count);
@@ -48,6 +57,38 @@ Moments carried(const Moments& from, const Resampled& resampled) {
   }
   return to;
 }
+
+/// Changes a state's faces, and knows where each came from.
+class Renewal {
+ public:
+  /// `errors`: one a face of the state as it is now.
+  Renewal(TrainingState& state, std::vector<float> errors)
+      : state_(state), errors_(std::move(errors)), origin_(state.model.faces()) {
+    std::iota(origin_.begin(), origin_.end(), 0u);
+  }
+
+  void apply(Resampled&& resampled) {
+    std::vector<std::uint32_t> from;
+    from.reserve(resampled.origin.size());
+    for (const std::uint32_t face : resampled.origin) from.push_back(origin_[face]);
+    origin_ = std::move(from);
+    state_.moments = carried(state_.moments, resampled);
+    state_.model = std::move(resampled.model);
+  }
+
+  /// Of the faces that are there now.
+  std::vector<float> errors() const {
+    std::vector<float> ordered;
+    ordered.reserve(origin_.size());
+    for (const std::uint32_t face : origin_) ordered.push_back(errors_[face]);
+    return ordered;
+  }
+
+ private:
+  TrainingState& state_;
+  std::vector<float> errors_;
+  std::vector<std::uint32_t> origin_;
+};
 
 Camera half_size(const Camera& camera) {
   Camera half = camera;
@@ -120,26 +161,19 @@ void Trainer::lift() {
 
 void Trainer::resample() {
   TrainingState state = this->state();
-  const std::vector<float> errors = std::exchange(state.errors, {});
-  std::vector<std::uint32_t> origin(state.model.faces());
-  std::iota(origin.begin(), origin.end(), 0u);
-  const auto apply = [&](Resampled&& resampled) {
-    std::vector<std::uint32_t> from;
-    for (const std::uint32_t face : resampled.origin) from.push_back(origin[face]);
-    origin = std::move(from);
-    state.moments = carried(state.moments, resampled);
-    state.model = std::move(resampled.model);
-  };
+  Renewal renewal(state, std::exchange(state.errors, {}));
   const std::size_t before = state.model.faces(), budget = std::size_t(config_.triangles);
+  const bool last = step_ == last_resample_step();
+  const bool beyond = config_.split_beyond_budget && !config_.split_by_error;
   std::vector<Camera> cameras;
   for (const TrainingView& view : views_) cameras.push_back(half_size(view.camera));
-  std::vector<std::uint64_t> pixels = backend_->visible_pixels(cameras);
+  std::vector<std::uint64_t> pixels = evident_pixels(state.model, cameras);
   // Where nothing is seen (yet), there is nothing to go by; in the end the budget is met all the
   // same.
   const bool seen = std::any_of(pixels.begin(), pixels.end(), [](auto count) { return count > 0; });
-  if (!seen && step_ != last_resample_step()) return;
-  if (seen) {
-    apply(prune_unseen(state.model, pixels));
+  if (!seen && !last) return;
+  if (seen && !beyond) {  // published: only the budget removes faces of scenes
+    renewal.apply(prune_unseen(state.model, pixels));
     std::erase(pixels, 0u);  // in the order of the faces that are left
   }
   last_resample_ = {.unseen = before - state.model.faces()};
@@ -148,31 +182,61 @@ void Trainer::resample() {
       budget - (renews ? std::size_t(double(config_.turnover) * double(budget)) : 0);
   if (state.model.faces() > kept) {
     last_resample_.pruned = state.model.faces() - kept;
-    apply(prune(state.model, pixels, kept));
+    renewal.apply(prune(state.model, pixels, kept));
   }
-  std::vector<float> ordered;
-  for (const std::uint32_t face : origin) ordered.push_back(errors[face]);
-  const std::vector<Split> splits = config_.split_by_error
-                                        ? greatest_errors(state.model, ordered, budget)
-                                        : choose_splits(state, cameras);
   const auto cut = [&](const std::vector<Split>& edges) {
     last_resample_.split += edges.size();
     if (!edges.empty())
-      apply(split(state.model, edges,
-                  config_.resample_textures ? ChildTexture::resampled : ChildTexture::copied));
+      renewal.apply(
+          split(state.model, edges,
+                config_.resample_textures ? ChildTexture::resampled : ChildTexture::copied));
   };
-  cut(splits);
+  // What is split beyond the budget needs a pruning after it.
+  if (!(last && beyond))
+    cut(config_.split_by_error ? greatest_errors(state.model, renewal.errors(), budget)
+                               : choose_splits(state, cameras));
   // Projected edges may all be short enough before the budget is met; in the end it is.
-  if (step_ == last_resample_step()) cut(longest_edges(state.model, budget));
-  apply(in_space_order(state.model));
+  if (last) cut(longest_edges(state.model, budget));
+  renewal.apply(in_space_order(state.model));
   if (config_.reset_moments) state.moments.reset_faces(state.model);
   faces_ = state.model.faces();
   backend_->upload(state);
 }
 
+/// How many pixels each face wins; none for a face that too few pictures show, or that hangs right
+/// before a camera.
+std::vector<std::uint64_t> Trainer::evident_pixels(const Model& model,
+                                                   std::span<const Camera> cameras) {
+  // Of few pictures one alone may be all that shows a place.
+  const int least = std::min(config_.least_views, 1 + int(cameras.size() / pictures_a_view));
+  std::vector<std::uint64_t> pixels;
+  if (least > 1) {
+    pixels.resize(model.faces());
+    std::vector<int> views(model.faces());
+    for (const Camera& camera : cameras) {
+      const std::vector<std::uint64_t> shown = backend_->visible_pixels({&camera, 1});
+      for (std::size_t face = 0; face < shown.size(); ++face) {
+        pixels[face] += shown[face];
+        views[face] += shown[face] > 0;
+      }
+    }
+    for (std::size_t face = 0; face < pixels.size(); ++face)
+      if (views[face] < least) pixels[face] = 0;
+  } else {
+    pixels = backend_->visible_pixels(cameras);
+  }
+  if (config_.clear_near) {
+    const std::vector<std::uint8_t> reaching = reaching_near_zone(model, cameras, config_.near);
+    for (std::size_t face = 0; face < pixels.size(); ++face)
+      if (reaching[face]) pixels[face] = 0;
+  }
+  return pixels;
+}
+
 std::vector<Split> Trainer::choose_splits(const TrainingState& state,
                                           std::span<const Camera> cameras) {
-  const std::size_t budget = std::size_t(config_.triangles);
+  const std::size_t triangles = std::size_t(config_.triangles);
+  const std::size_t budget = config_.split_beyond_budget ? most_beyond * triangles : triangles;
   if (state.model.faces() == 0) return {};
   std::vector<Split> splits;
   if (config_.preset == Preset::scene) {
@@ -193,7 +257,7 @@ std::vector<Split> Trainer::choose_splits(const TrainingState& state,
         state.model, views,
         {.fraction = config_.split_fraction, .budget = budget, .near = config_.near});
   }
-  if (splits.empty()) splits = longest_edges(state.model, budget);
+  if (splits.empty()) splits = longest_edges(state.model, triangles);
   return splits;
 }
 

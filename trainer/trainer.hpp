@@ -50,6 +50,7 @@ class Trainer {
   int last_resample_step() const;
   void lift();
   void resample();
+  std::vector<std::uint64_t> evident_pixels(const Model& model, std::span<const Camera> cameras);
   std::vector<Split> choose_splits(const TrainingState& state, std::span<const Camera> cameras);
 
   Config config_;

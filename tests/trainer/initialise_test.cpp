@@ -282,6 +282,39 @@ TEST(SeedsAtPoints, LeaveOutMistakesButNotWhatIsFar) {
   EXPECT_TRUE(std::ranges::any_of(seeds.centres, [](glm::dvec3 p) { return p.x > 45; }));
 }
 
+TEST(SeedsAtPoints, ThatCoincideAreTakenOnce) {
+  std::vector<DatasetPoint> points = ball(97, 40, {0, 0, 0}, 1);
+  for (int i = 0; i < 40; ++i)
+    for (int twin = 0; twin < 5; ++twin) points.push_back(points[std::size_t(i)]);
+  for (const bool local : {false, true})
+    for (const std::size_t count : {30u, 100u}) {
+      Random random(98);
+      const Seeds seeds =
+          seeds_at_points(points, {.count = count, .radius = 0.25, .local = local}, random);
+      ASSERT_THAT(seeds.centres, SizeIs(count));
+      const std::vector<double> distances = nearest_distances(seeds.centres);
+      EXPECT_GT(*std::ranges::min_element(distances), 0) << count;
+      EXPECT_GT(*std::ranges::min_element(seeds.radii), 0) << count;
+    }
+}
+
+TEST(SeedsAtPoints, OfOnePointLieAboutIt) {
+  const std::vector<DatasetPoint> points(7, {.position = {3, 2, 1}, .color = {}});
+  for (const std::size_t count : {1u, 50u}) {
+    Random random(99);
+    const Seeds seeds =
+        seeds_at_points(points, {.count = count, .radius = 0.25, .lone_spacing = 2}, random);
+    ASSERT_THAT(seeds.centres, SizeIs(count));
+    EXPECT_EQ(seeds.centres[0], glm::dvec3(3, 2, 1));
+    for (const glm::dvec3 centre : seeds.centres)
+      EXPECT_LE(glm::distance(centre, seeds.centres[0]), 2);
+    EXPECT_GT(*std::ranges::min_element(seeds.radii), 0);
+    if (count == 1) {
+      EXPECT_EQ(seeds.radii[0], 0.5);
+    }
+  }
+}
+
 TEST(RandomSeeds, FillTheCube) {
   const Dataset dataset = ring(87, {1, 2, 3}, 20.0);
   const Region region{{1, 2, 3}, 1.5};
@@ -382,7 +415,16 @@ TEST(InitialModel, BeginsAtPointsWhereThereAreSome) {
   };
   EXPECT_GT(farthest(initial_model(dataset, config)), 2);  // half of them around the box
   dataset.points = ball(95, 500, {0, 0, 0}, 0.5);
+  config.around_points = 0;
   EXPECT_LT(farthest(initial_model(dataset, config)), 1);
+  config.around_points = 0.3f;
+  const Model around = initial_model(dataset, config);
+  EXPECT_EQ(around.faces(), 100u);
+  EXPECT_GT(farthest(around), 2);
+  int far = 0;  // the box's half side is 1.2: 4 tan(20 degrees) times 80 / 100
+  for (std::size_t face = 0; face < 100; ++face)
+    far += glm::length(around.positions[3 * face]) > 1.1f;
+  EXPECT_EQ(far, 30);
   config.initialisation = Initialisation::random;
   EXPECT_GT(farthest(initial_model(dataset, config)), 2);
   config.initialisation = Initialisation::points;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "random_model.hpp"
 #include "stages.hpp"
@@ -15,7 +16,7 @@ namespace tureen::trainer {
 namespace {
 
 /// Every face errs by its number, and every `unseen`-th has no pixel.
-class BlindBackend final : public Backend {
+class BlindBackend : public Backend {
  public:
   explicit BlindBackend(std::size_t unseen) : unseen_(unseen) {}
 
@@ -137,6 +138,99 @@ TEST(Schedule, MeetsTheBudgetEvenWhereNothingIsSeen) {
     while (!trainer.done()) trainer.step();
     EXPECT_EQ(trainer.faces(), 50u) << initial;
   }
+}
+
+TEST(Schedule, PublishedScenesAreSplitBeyondTheBudgetAndPrunedToIt) {
+  Case run{"", published(Preset::scene), 50, 7};
+  run.config.steps = 60;
+  run.config.triangles = 50;
+  run.config.resample_every = 10;
+  run.config.max_level = 2;
+  run.config.split_fraction = 0.02f;  // there is always something to split
+  const std::vector<TrainingView> views(
+      3, {.camera = test::axis_camera(64, 48, 60), .target = {}, .ignored = {}});
+  Trainer trainer(run.config, views, std::make_unique<BlindBackend>(run.unseen),
+                  first_state(run.initial_faces));
+  for (int step = 1; step <= 60; ++step) {
+    const std::size_t before = trainer.faces();
+    trainer.step();
+    const ResampleReport& report = trainer.last_resample();
+    if (step == 10) {
+      // At the budget, so nothing is pruned, unseen or not, and long edges are split all the same.
+      EXPECT_EQ(report.unseen + report.pruned, 0u);
+      EXPECT_GT(report.split, 10u);
+      EXPECT_EQ(trainer.faces(), 50 + report.split);
+    }
+    if (step == 20) {
+      EXPECT_GT(report.pruned, 10u);
+      EXPECT_EQ(trainer.faces(), 50 + report.split);
+    }
+    if (step == 50) {  // the last one prunes only; 57 is rounded down to a multiple of ten
+      EXPECT_EQ(report.pruned, before - 50);
+      EXPECT_EQ(report.split, 0u);
+    }
+    if (step >= 50) {
+      EXPECT_EQ(trainer.faces(), 50u);
+    }
+  }
+}
+
+/// Shows `seen_once` faces in the first camera only, the others in all.
+class NarrowBackend final : public BlindBackend {
+ public:
+  NarrowBackend(std::size_t seen_once, glm::dmat4 first)
+      : BlindBackend(~std::size_t(0)), seen_once_(seen_once), first_(first) {}
+
+  std::vector<std::uint64_t> visible_pixels(std::span<const Camera> cameras) override {
+    std::vector<std::uint64_t> pixels = BlindBackend::visible_pixels(cameras);
+    bool is_first = false;
+    for (const Camera& camera : cameras) is_first |= camera.view_from_world == first_;
+    for (std::size_t face = 0; !is_first && face < seen_once_; ++face) pixels[face] = 0;
+    return pixels;
+  }
+
+ private:
+  std::size_t seen_once_;
+  glm::dmat4 first_;
+};
+
+std::size_t removed_of(const Config& config, std::size_t seen_once, std::size_t pictures = 40) {
+  std::vector<TrainingView> views(
+      pictures, {.camera = test::axis_camera(64, 48, 60), .target = {}, .ignored = {}});
+  views[0].camera.view_from_world[3].x = 0.125;
+  Trainer trainer(config, views,
+                  std::make_unique<NarrowBackend>(seen_once, views[0].camera.view_from_world),
+                  first_state(50));
+  trainer.step();
+  return trainer.last_resample().unseen;
+}
+
+TEST(Schedule, RemovesFacesThatTooFewPicturesShow) {
+  Config config;
+  config.steps = 20;
+  config.triangles = 50;
+  config.resample_every = 1;
+  for (const auto& [least, removed] : {std::pair(1, 0u), {2, 12u}, {3, 12u}}) {
+    config.least_views = least;
+    EXPECT_EQ(removed_of(config, 12), removed) << least;
+    EXPECT_EQ(removed_of(config, 12, 19), 0u);  // too few pictures to ask for two
+  }
+}
+
+TEST(Schedule, RemovesFacesBeforeTheNearPlane) {
+  Config config;
+  config.steps = 20;
+  config.triangles = 50;
+  config.resample_every = 1;
+  config.near = 0.01f;
+  config.clear_near = true;
+  EXPECT_EQ(removed_of(config, 0), 0u);
+  config.near = 5.0f;  // the middle of all faces
+  const std::size_t removed = removed_of(config, 0);
+  EXPECT_GT(removed, 10u);
+  EXPECT_LT(removed, 50u);
+  config.clear_near = false;
+  EXPECT_EQ(removed_of(config, 0), 0u);
 }
 
 TEST(Schedule, FacesStayAfterTheLastResampling) {

@@ -90,6 +90,21 @@ TEST(GreatestErrors, OfZeroStillMeetTheBudget) {
   EXPECT_THAT(greatest_errors(model, std::vector<float>(3), 20), SizeIs(17));
 }
 
+// Where nothing errs the longest edges are cut: no face takes all of the budget.
+TEST(GreatestErrors, OfZeroGoByLength) {
+  const Model model = random_model(65, {.faces = 12, .max_level = 0});
+  const std::vector<float> none(12);
+  const auto positions = [&](const std::vector<Split>& splits) {
+    return split(model, splits, ChildTexture::copied).model.positions;
+  };
+  EXPECT_EQ(positions(greatest_errors(model, none, 90)), positions(longest_edges(model, 90)));
+  // What errs at all comes first.
+  std::vector<float> one = none;
+  one[7] = 1e-20f;
+  for (const Split& each : greatest_errors(model, one, 20))
+    EXPECT_TRUE(each.face == 7 || each.face >= 12) << each.face;
+}
+
 /// A camera at the origin that looks along -z: at depth 1 a picture of 200 x 100 pixels is 2 x 1.
 Camera plain_camera() {
   return {.name = "",

@@ -338,6 +338,38 @@ TEST_P(ATexelThatIsNoNumber, IsCountedAndHurtsNobodyElse) {
 INSTANTIATE_TEST_SUITE_P(InChannel, ATexelThatIsNoNumber, testing::Values(0, 3, 5, alpha_channel),
                          testing::PrintToStringParamName());
 
+TEST(CpuStep, WhatDoesNotCountLeavesTheBaselineAlone) {
+  // A wall behind everything whose blend between base colour and network is no number: its pixels
+  // are put aside, and their running means wait. So do those of pixels that the caller left out.
+  TrainingState state = random_state(45, 1, 0, 0);
+  make_opaque(state.model);
+  state.model.origin = glm::dvec3(0.0);
+  state.model.positions = {{-50, -50, -3}, {50, -50, -3}, {0, 50, -3}};
+  state.model.logits[blend_channel] = std::numeric_limits<float>::quiet_NaN();
+  constexpr std::size_t pixels = std::size_t(width) * height;
+  for (const bool named : {false, true}) {
+    TrainingView view{.camera = test::axis_camera(width, height, 40), .target = {}, .ignored = {}};
+    view.target.assign(3 * pixels, 100);
+    TrainingState before = state;
+    if (named) {
+      before.model.logits[blend_channel] = 0;
+      view.ignored.assign(pixels, 1);
+    }
+    before.baseline.assign(pixels, 30000);
+    const std::vector<TrainingView> views = {view};
+    const auto backend = make_cpu_backend(views, Config{}, 1);
+    backend->upload(before);
+    const std::uint32_t batch[] = {0};
+    const StepReport report = backend->step(batch, rates);
+    if (!named) {
+      EXPECT_GE(report.non_finite, pixels);
+    }
+    TrainingState after;
+    backend->download(after);
+    EXPECT_EQ(after.baseline, before.baseline) << named;
+  }
+}
+
 TEST(CpuStep, APositionThatIsNoNumberHurtsNobodyElse) {
   TrainingState state = random_state(43, 60, 0, 1);
   const auto views = random_views(44, 4, state.model.origin);

@@ -267,14 +267,17 @@ CpuBackend::BandReport CpuBackend::take_advantage(Picture& picture, std::uint32_
   const float scale = config_.opacity_l1_weight / (float(pictures_.size()) * 3.0f * float(pixels));
   for (std::size_t p = std::size_t(y0) * width; p < std::size_t(y1) * width; ++p) {
     report.shaded += picture.visible[p].face != no_face;
-    const bool counts = view.ignored.empty() || !view.ignored[p];
+    bool counts = view.ignored.empty() || !view.ignored[p];
     for (std::size_t c = 0; counts && c < 3; ++c) {
       const double d = picture.color[c * pixels + p] - view.target[c * pixels + p] / 255.0;
       if (std::isfinite(d)) report.squared += d * d;
     }
+    for (std::size_t c = 0; c < 3; ++c)
+      counts = counts && std::isfinite(picture.color[c * pixels + p]);
     float loss = picture.loss[p];
     picture.gradient[p].error = loss;
-    if (config_.baseline) {
+    // A pixel that does not count has a loss of 0, which says nothing of what it mostly shows.
+    if (config_.baseline && counts) {
       std::uint16_t& stored = state_.baseline[first_pixel_[view_index] + p];
       const float root = float(stored) / 65535;
       const float mean = 3 * root * root;  // of sum |C - G|, which is in [0, 3]

@@ -258,10 +258,12 @@ struct TakeLoss {
       if (x >= picture.view.width || y >= picture.view.height) continue;
       const std::size_t pixel = std::size_t(y) * std::size_t(picture.view.width) + std::size_t(x);
       shaded += keys[picture.first_pixel + pixel] != 0;
-      non_finite += counted(picture, color, pixel) == Counted::not_finite;
+      const Counted counts = counted(picture, color, pixel);
+      non_finite += counts == Counted::not_finite;
       float loss = local.loss[k];
       error[picture.first_pixel + pixel] = loss;
-      if (picture.baseline) loss -= run_on(picture.baseline[pixel], loss);
+      // A pixel that does not count has a loss of 0, which says nothing of what it mostly shows.
+      if (picture.baseline && counts == Counted::yes) loss -= run_on(picture.baseline[pixel], loss);
       advantage[picture.first_pixel + pixel] =
           loss * (weights.opacity / (3.0f * float(picture.pixels())));
     }

@@ -1,0 +1,128 @@
+#include "trainer/near_zone.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <glm/mat4x4.hpp>
+
+namespace tureen::trainer {
+
+namespace {
+
+/// The pyramid between an eye and a rectangle parallel to its picture, in homogeneous pixels
+/// (X, Y, W): the pixel is (X / W, Y / W), W the distance from the camera's plane.
+class Pyramid {
+ public:
+  Pyramid(const Camera& camera, glm::dvec3 origin, double near)
+      : camera_(camera), origin_(origin), near_(near) {}
+
+  bool meets(const glm::vec3* corners) const {
+    // A triangle gains at most a corner at each plane.
+    std::array<glm::dvec3, 3 + planes> polygon, clipped;
+    std::size_t count = 3;
+    for (std::size_t i = 0; i < 3; ++i) polygon[i] = project(corners[i]);
+    for (int plane = 0; plane < planes; ++plane) {
+      std::size_t left = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec3 a = polygon[i], b = polygon[(i + 1) % count];
+        const double at_a = distance(plane, a), at_b = distance(plane, b);
+        if (at_a >= 0) clipped[left++] = a;
+        if ((at_a > 0 && at_b < 0) || (at_a < 0 && at_b > 0))
+          clipped[left++] = a + at_a / (at_a - at_b) * (b - a);
+      }
+      if (left == 0) return false;
+      std::swap(polygon, clipped);
+      count = left;
+    }
+    return true;
+  }
+
+ private:
+  static constexpr int planes = 5;
+
+  glm::dvec3 project(glm::vec3 position) const {
+    const glm::dvec4 v = camera_.view_from_world * glm::dvec4(origin_ + glm::dvec3(position), 1.0);
+    const double w = -v.z;
+    return {camera_.fx * v.x + camera_.cx * w, -camera_.fy * v.y + camera_.cy * w, w};
+  }
+
+  /// Not negative on the inner side. The four sides leave nothing behind the eye: their sums are
+  /// width and height times W.
+  double distance(int plane, glm::dvec3 point) const {
+    switch (plane) {
+      case 0:  // most triangles are out after this one
+        return near_ - point.z;
+      case 1:
+        return point.x;
+      case 2:
+        return camera_.width * point.z - point.x;
+      case 3:
+        return point.y;
+      default:
+        return camera_.height * point.z - point.y;
+    }
+  }
+
+  const Camera& camera_;
+  glm::dvec3 origin_;
+  double near_;
+};
+
+/// In front of the camera's plane, whether in its picture or not.
+double depth(const Camera& camera, glm::dvec3 point) {
+  return -(camera.view_from_world * glm::dvec4(point, 1.0)).z;
+}
+
+bool in_picture(const Camera& camera, glm::dvec3 point) {
+  const glm::dvec4 v = camera.view_from_world * glm::dvec4(point, 1.0);
+  if (!(v.z < 0)) return false;
+  const double x = camera.cx + camera.fx * v.x / -v.z, y = camera.cy - camera.fy * v.y / -v.z;
+  return x >= 0 && x <= camera.width && y >= 0 && y <= camera.height;
+}
+
+double quantile(std::vector<double>& values, double fraction) {
+  const auto at = values.begin() + std::ptrdiff_t(fraction * double(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// Nothing is nearer, as far as the dataset tells; 0 where it does not.
+double nearest_surface(const Dataset& dataset, const Region& region) {
+  std::vector<double> depths;
+  for (const Photograph& view : dataset.train)
+    for (const DatasetPoint& point : dataset.points)
+      if (in_picture(view.camera, point.position))
+        depths.push_back(depth(view.camera, point.position));
+  // Some points of structure from motion are mistakes, often right before a camera.
+  if (!depths.empty()) return quantile(depths, 0.01);
+  for (const Photograph& view : dataset.train)
+    if (const double d = depth(view.camera, region.centre); d > 0) depths.push_back(d);
+  return 2 * depths.size() > dataset.train.size() ? quantile(depths, 0.5) : 0;
+}
+
+}  // namespace
+
+Config with_empty_near_zone(const Config& config, const Dataset& dataset, const Region& region) {
+  Config fitted = config;
+  if (!config.clear_near) return fitted;
+  const double nearest = nearest_surface(dataset, region);
+  const double least = published(Preset::scene).near * region.half_side / reference_extent;
+  if (!(nearest > 0)) fitted.clear_near = false;
+  fitted.near = float(std::min(double(config.near), std::max(0.5 * nearest, least)));
+  return fitted;
+}
+
+std::vector<std::uint8_t> reaching_near_zone(const Model& model, std::span<const Camera> cameras,
+                                             double near) {
+  assert(near > 0);
+  std::vector<std::uint8_t> reaching(model.faces(), 0);
+  for (const Camera& camera : cameras) {
+    const Pyramid pyramid(camera, model.origin, near);
+    for (std::size_t face = 0; face < model.faces(); ++face)
+      if (!reaching[face]) reaching[face] = pyramid.meets(&model.positions[3 * face]);
+  }
+  return reaching;
+}
+
+}  // namespace tureen::trainer
