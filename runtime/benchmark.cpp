@@ -73,8 +73,9 @@ class Run {
     const auto most = std::size_t(std::max(options_.most_warm_up_frames, 1));
     const auto least =
         std::clamp(std::size_t(std::max(options_.least_warm_up_frames, 1)), std::size_t(1), most);
-    while (ms.size() < least || (ms.size() < most && !is_stable(ms) &&
-                                 clock_() - start < options_.most_warm_up_seconds)) {
+    while (
+        ms.size() < least || clock_() - start < options_.least_warm_up_seconds ||
+        (ms.size() < most && !is_stable(ms) && clock_() - start < options_.most_warm_up_seconds)) {
       ms.push_back(sample(entrant, cameras_.front(), 1));
       report(0);
     }

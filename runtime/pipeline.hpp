@@ -8,6 +8,7 @@
 #include "runtime/clip_range.hpp"
 #include "runtime/gl/context.hpp"
 #include "runtime/gl/objects.hpp"
+#include "runtime/gl/timer_query.hpp"
 #include "runtime/plan.hpp"
 #include "soup/camera.hpp"
 
@@ -34,6 +35,12 @@ class Pipeline {
   virtual GLuint visibility_framebuffer() const { return 0; }
   /// Buffers and textures of the scene, not the targets.
   virtual std::size_t device_bytes() const = 0;
+
+  /// Later frames tell their passes to this timer, or to none. It must outlive them.
+  void time_passes(gl::PassTimer* timer) { timer_ = timer; }
+
+ protected:
+  gl::PassTimer* timer_ = nullptr;
 };
 
 std::unique_ptr<Pipeline> make_tureen_pipeline(const gl::Capabilities& capabilities,

@@ -33,9 +33,10 @@ void describe_drawing(PlanDraft& draft) {
   std::string sentence = formatted("draws %zu of %zu faces (%s), near ones first in %zu clusters, ",
                                    plan.faces.size(), draft.soup.triangles.size(),
                                    appearance_name(draft.soup.appearance), plan.clusters.size());
-  sentence += plan.site == ShadingSite::forward ? "colour in one pass"
-                                                : "a visibility pass, then colour once a pixel";
-  if (plan.color_mlp) sentence += " by the color MLP";
+  sentence += plan.site == ShadingSite::forward    ? "colour in one pass"
+              : plan.site == ShadingSite::deferred ? "a visibility pass, then colour once a pixel"
+                                                   : "no colours, an empty fragment shader";
+  if (plan.color_mlp && plan.site != ShadingSite::nowhere) sentence += " by the color MLP";
   sentence += plan.reversed_depth ? "; reversed depth" : "; ordinary depth range";
   if (!draft.preferences.specialise) sentence += "; nothing is left out, as asked";
   plan.sentences.insert(plan.sentences.begin(), std::move(sentence));

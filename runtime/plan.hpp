@@ -34,6 +34,8 @@ enum class PipelineKind {
 enum class ShadingSite {
   forward,   // colour in the only pass
   deferred,  // a visibility pass names the winning fragment, a shading pass colours it
+  nowhere,   // the triangles with an empty fragment shader: depth, and no colour but the
+             // background's. How fast a device can be asked to draw them at all (a ceiling)
 };
 
 struct PlanPreferences {

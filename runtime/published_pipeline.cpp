@@ -63,7 +63,19 @@ class PublishedPipeline final : public Pipeline {
   void draw(const FrameCamera& frame, const glm::vec4& background) override {
     gl::use_plain_rasterisation(width_, height_);
     glDepthFunc(GL_LESS);
+    const glm::dmat4 projection = clip_from_view(frame.camera, frame.range.near, frame.range.far);
+    draw_features(frame, projection, background);
+    draw_shading(frame, projection, background);
+    gl::check("published draw");
+  }
 
+  GLuint color_framebuffer() const override { return color_framebuffer_.id(); }
+  std::size_t device_bytes() const override { return geometry_.device_bytes() + lut_bytes_; }
+
+ private:
+  void draw_features(const FrameCamera& frame, const glm::dmat4& projection,
+                     const glm::vec4& background) {
+    const gl::TimedPass pass(timer_, "features");
     glBindFramebuffer(GL_FRAMEBUFFER, feature_framebuffer_.id());
     const float clear0[4] = {background.r, background.g, background.b, 0};
     const float clear1[4] = {0, 0, 0, 0};
@@ -71,7 +83,6 @@ class PublishedPipeline final : public Pipeline {
     glClearBufferfv(GL_COLOR, 0, clear0);
     glClearBufferfv(GL_COLOR, 1, clear1);
     glClearBufferfv(GL_DEPTH, 0, &far);
-    const glm::dmat4 projection = clip_from_view(frame.camera, frame.range.near, frame.range.far);
     geometry_program_.use();
     Geometry::set_camera(geometry_program_, frame, projection);
     bind_texture(0, lut0_.id());
@@ -81,7 +92,11 @@ class PublishedPipeline final : public Pipeline {
     geometry_program_.set("lut_width", lut_width);
     geometry_.bind();
     glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * face_count_));
+  }
 
+  void draw_shading(const FrameCamera& frame, const glm::dmat4& projection,
+                    const glm::vec4& background) {
+    const gl::TimedPass pass(timer_, "shading");
     glBindFramebuffer(GL_FRAMEBUFFER, color_framebuffer_.id());
     glDisable(GL_DEPTH_TEST);
     shading_program_.use();
@@ -100,13 +115,8 @@ class PublishedPipeline final : public Pipeline {
     glBindVertexArray(nothing_.id());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glEnable(GL_DEPTH_TEST);
-    gl::check("published draw");
   }
 
-  GLuint color_framebuffer() const override { return color_framebuffer_.id(); }
-  std::size_t device_bytes() const override { return geometry_.device_bytes() + lut_bytes_; }
-
- private:
   static void bind_texture(int unit, GLuint texture) {
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     glBindTexture(GL_TEXTURE_2D, texture);

@@ -6,6 +6,7 @@
 #include "runtime/clip_range.hpp"
 #include "runtime/gl/state.hpp"
 #include "runtime/pipeline.hpp"
+#include "runtime/targets.hpp"
 #include "soup/error.hpp"
 
 namespace tureen {
@@ -28,10 +29,17 @@ DeviceLimits device_limits(const gl::Capabilities& capabilities) {
 
 Renderer::Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
                    const RenderOptions& options)
+    : Renderer(context, soup, origin,
+               make_plan(soup, options.limits.value_or(device_limits(context.capabilities())),
+                         options.plan),
+               options) {}
+
+Renderer::Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
+                   RenderPlan plan, const RenderOptions& options)
     : state_(std::make_unique<State>()) {
   const gl::Capabilities& capabilities = context.capabilities();
   const DeviceLimits limits = options.limits.value_or(device_limits(capabilities));
-  state_->plan = make_plan(soup, limits, options.plan);
+  state_->plan = std::move(plan);
   state_->bounds = bounds(soup);
   state_->origin = origin;
   state_->background = options.background;
@@ -70,17 +78,11 @@ void Renderer::draw(const Camera& camera) {
 
 void Renderer::finish() const { glFinish(); }
 
+void Renderer::time_passes(gl::PassTimer* timer) { state_->pipeline->time_passes(timer); }
+
 Image8 Renderer::read_color() const {
-  const int width = state_->width, height = state_->height;
-  assert(width > 0 && "no frame has been drawn");
-  Image8 image(width, height);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, state_->pipeline->color_framebuffer());
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  gl::use_plain_pixel_transfer();
-  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
-  for (int y = 0; y < height / 2; ++y)
-    std::swap_ranges(&image.at(0, y), &image.at(0, y) + width, &image.at(0, height - 1 - y));
-  return image;
+  assert(state_->width > 0 && "no frame has been drawn");
+  return read_pixels(state_->pipeline->color_framebuffer(), state_->width, state_->height);
 }
 
 std::vector<std::uint32_t> Renderer::read_faces() const {

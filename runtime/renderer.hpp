@@ -25,6 +25,9 @@
 namespace tureen {
 
 class Pipeline;
+namespace gl {
+class PassTimer;
+}
 
 struct RenderOptions {
   PlanPreferences plan = {};
@@ -42,6 +45,10 @@ class Renderer {
   /// DeviceLimitError with a forecast when it does not fit, UsageError as make_plan does.
   Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
            const RenderOptions& options = {});
+  /// The same with a plan that make_plan made of this soup, for limits that the device has:
+  /// options.plan has no say.
+  Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin, RenderPlan plan,
+           const RenderOptions& options = {});
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
@@ -57,6 +64,10 @@ class Renderer {
 
   /// Waits for the device.
   void finish() const;
+
+  /// Later frames tell the times of their passes to this timer (runtime/gl/timer_query.hpp), or to
+  /// none. It must outlive them. For benchmarks.
+  void time_passes(gl::PassTimer* timer);
 
   /// The last frame. Row 0 is the top row. Waits for the device. Asserts that there was a frame.
   Image8 read_color() const;

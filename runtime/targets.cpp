@@ -1,7 +1,9 @@
 #include "runtime/targets.hpp"
 
+#include <algorithm>
 #include <vector>
 
+#include "runtime/gl/state.hpp"
 #include "soup/error.hpp"
 
 namespace tureen {
@@ -33,6 +35,17 @@ gl::Framebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint de
         "the device has no memory for the targets of a picture of this size: a smaller one would "
         "fit");
   return framebuffer;
+}
+
+Image8 read_pixels(GLuint framebuffer, int width, int height) {
+  Image8 image(width, height);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  gl::use_plain_pixel_transfer();
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
+  for (int y = 0; y < height / 2; ++y)
+    std::swap_ranges(&image.at(0, y), &image.at(0, y) + width, &image.at(0, height - 1 - y));
+  return image;
 }
 
 }  // namespace tureen

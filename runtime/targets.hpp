@@ -5,6 +5,7 @@
 
 #include "runtime/gl/objects.hpp"
 #include "runtime/texel_store.hpp"
+#include "soup/image.hpp"
 
 namespace tureen {
 
@@ -26,5 +27,8 @@ gl::Texture make_target(const TargetFormat& format, int width, int height);
 /// so it is memory that a picture of this size lacks. `colors` become attachments 0, 1, ..; all of
 /// them are drawn to.
 gl::Framebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint depth);
+
+/// The RGBA8 pixels of a framebuffer's first color attachment, row 0 on top. Waits for the device.
+Image8 read_pixels(GLuint framebuffer, int width, int height);
 
 }  // namespace tureen

@@ -23,8 +23,9 @@ class TureenPipeline final : public Pipeline {
         appearance_(upload_appearance(soup, plan, TexelLayout::of(limits))),
         geometry_(soup, plan.faces, plan.parts),
         nothing_(gl::VertexArray::create()) {
-    const bool forward = plan.site == ShadingSite::forward;
-    const char* fragment = forward ? "forward.frag" : "visibility.frag";
+    const char* fragment = plan.site == ShadingSite::forward    ? "forward.frag"
+                           : plan.site == ShadingSite::deferred ? "visibility.frag"
+                                                                : "nothing.frag";
     const std::size_t cut_out = plan.faces.size() - plan.opaque_count;
     if (plan.opaque_count > 0)
       opaque_ = program(capabilities.api, "geometry.vert", fragment,
@@ -32,7 +33,7 @@ class TureenPipeline final : public Pipeline {
     if (cut_out > 0)
       cut_out_ = program(capabilities.api, "geometry.vert", fragment,
                          {{"ALPHA_TEST", "1"}, {"PARTS", plan.parts.empty() ? "0" : "1"}});
-    if (!forward)
+    if (plan.site == ShadingSite::deferred)
       shading_ = program(capabilities.api, "full_screen.vert", "shading.frag",
                          {{"NO_FACE", "0xffffffffu"},
                           {"DEPTH_REJECTS_BACKGROUND", plan.depth_rejects_background ? "1" : "0"}});
@@ -56,11 +57,11 @@ class TureenPipeline final : public Pipeline {
   void draw(const FrameCamera& frame, const glm::vec4& background) override {
     gl::use_plain_rasterisation(width_, height_);
     if (plan_.reversed_depth) set_clip_control(true);
-    if (plan_.site == ShadingSite::forward) {
-      draw_forward(frame, background);
-    } else {
+    if (plan_.site == ShadingSite::deferred) {
       draw_visibility(frame);
       draw_shading(frame, background);
+    } else {
+      draw_forward(frame, background);
     }
     if (plan_.reversed_depth) set_clip_control(false);
     gl::check("draw");
@@ -103,6 +104,7 @@ class TureenPipeline final : public Pipeline {
   }
 
   void draw_visibility(const FrameCamera& frame) {
+    const gl::TimedPass pass(timer_, "visibility");
     glBindFramebuffer(GL_FRAMEBUFFER, visibility_framebuffer_.id());
     const GLuint empty[4] = {no_slot, 0, 0, 0};
     glClearBufferuiv(GL_COLOR, 0, empty);
@@ -110,9 +112,12 @@ class TureenPipeline final : public Pipeline {
     draw_geometry(frame);
   }
 
+  /// The only pass, also of ShadingSite::nowhere, which leaves the background's colour.
   void draw_forward(const FrameCamera& frame, const glm::vec4& background) {
+    const gl::TimedPass pass(timer_, "forward");
     glBindFramebuffer(GL_FRAMEBUFFER, color_framebuffer_.id());
     glClearBufferfv(GL_COLOR, 0, &background[0]);
+    if (plan_.site == ShadingSite::nowhere) glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     clear_depth();
     draw_geometry(frame);
   }
@@ -161,6 +166,7 @@ class TureenPipeline final : public Pipeline {
   }
 
   void draw_shading(const FrameCamera& frame, const glm::vec4& background) {
+    const gl::TimedPass pass(timer_, "shading");
     glBindFramebuffer(GL_FRAMEBUFFER, color_framebuffer_.id());
     glDepthMask(GL_FALSE);
     if (plan_.depth_rejects_background) {

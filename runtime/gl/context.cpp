@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <stdexcept>
 
 #include "runtime/gl/api.hpp"
@@ -46,12 +47,34 @@ void GLAD_API_PTR report(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLc
 }
 #endif
 
+bool has_extension(const char* name) {
+  for (int i = 0; i < integer_of(GL_NUM_EXTENSIONS); ++i)
+    if (const auto* text = reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, GLuint(i)));
+        text && std::strcmp(text, name) == 0)
+      return true;
+  return false;
+}
+
+bool has_timer_queries(Api api) {
+#ifdef __EMSCRIPTEN__
+  (void)api;
+  return false;
+#else
+  if (api == Api::es) return has_extension("GL_EXT_disjoint_timer_query");
+  // Core since 3.3, but with a clock of no bits where the device has none.
+  GLint bits = 0;
+  glGetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
+  return bits > 0;
+#endif
+}
+
 Capabilities query_capabilities(Api api) {
   Capabilities result;
   result.api = api;
   result.major = integer_of(GL_MAJOR_VERSION);
   result.minor = integer_of(GL_MINOR_VERSION);
   result.renderer = text_of(GL_RENDERER);
+  result.vendor = text_of(GL_VENDOR);
   result.version = text_of(GL_VERSION);
   const bool desktop = api == Api::desktop;
   const int version = 10 * result.major + result.minor;
@@ -60,6 +83,7 @@ Capabilities query_capabilities(Api api) {
   result.clip_control =
       desktop ? glClipControl != nullptr && version >= 45 : glClipControlEXT != nullptr;
   result.multi_draw = desktop;
+  result.timer_queries = has_timer_queries(api);
   result.software = contains(result.renderer, "llvmpipe") ||
                     contains(result.renderer, "softpipe") ||
                     contains(result.renderer, "SwiftShader");

@@ -24,9 +24,12 @@ struct Capabilities {
   int major = 0;
   int minor = 0;
   std::string renderer;  // GL_RENDERER
+  std::string vendor;    // GL_VENDOR
   std::string version;   // GL_VERSION
   bool clip_control = false;
   bool multi_draw = false;
+  bool timer_queries =
+      false;              // timestamps can be had; whether they mean anything is another matter
   bool software = false;  // llvmpipe, softpipe or SwiftShader: timer queries mislead there
   int max_texture_size = 0;
   int max_picture_side = 0;  // the widest and highest frame that can be drawn

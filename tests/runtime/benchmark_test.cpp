@@ -117,6 +117,16 @@ TEST(Benchmark, WarmUpHasATimeLimitToo) {
   EXPECT_EQ(run_benchmark(entrants, cameras(1), options).entrants[0].warm_up_frames, 4);
 }
 
+TEST(Benchmark, WarmUpCanBeMadeToLast) {
+  Machine machine;
+  const std::vector<Entrant> entrants{machine.entrant("A", always(1))};
+  BenchmarkOptions options = machine.options(1);
+  options.least_warm_up_seconds = 0.25;
+  options.most_warm_up_frames = 20;
+  // A clock in doubles may need one frame more.
+  EXPECT_NEAR(run_benchmark(entrants, cameras(1), options).entrants[0].warm_up_frames, 250, 1);
+}
+
 TEST(Benchmark, FastFramesShareASampleAndEverybodyDrawsAsMany) {
   Machine machine;
   const std::vector<Entrant> entrants{machine.entrant("A", always(8)),

@@ -1,0 +1,2 @@
+// Nothing: what triangles cost a device before anybody looks at a fragment.
+void main() {}

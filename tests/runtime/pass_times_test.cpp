@@ -1,0 +1,130 @@
+// Timers of the device: that they say which pass is which, where they are refused, and what the
+// ceilings draw.
+#include "runtime/pass_times.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "runtime/copy_ceiling.hpp"
+#include "runtime/gl/timer_query.hpp"
+#include "runtime/navigation.hpp"
+#include "support/contexts.hpp"
+#include "support/cutout_cloud.hpp"
+
+namespace tureen {
+namespace {
+
+using testing::HasSubstr;
+
+gl::Capabilities device(const std::string& renderer, bool software, bool timer_queries) {
+  gl::Capabilities capabilities;
+  capabilities.renderer = renderer;
+  capabilities.software = software;
+  capabilities.timer_queries = timer_queries;
+  return capabilities;
+}
+
+TEST(TimersMislead, OnSoftwareAndWithoutQueries) {
+  const auto llvmpipe = gl::timers_mislead(device("llvmpipe (LLVM 15.0.6, 256 bits)", true, true));
+  ASSERT_TRUE(llvmpipe);
+  EXPECT_THAT(*llvmpipe, HasSubstr("llvmpipe"));
+  EXPECT_THAT(*llvmpipe, HasSubstr("only the processor's clock counts"));
+  EXPECT_THAT(*gl::timers_mislead(device("a phone", false, false)), HasSubstr("no timer queries"));
+  EXPECT_FALSE(gl::timers_mislead(device("a graphics card", false, true)));
+}
+
+TEST(BelievedPasses, AreThoseThatTheWallClockHasRoomFor) {
+  const PassTimes good = believed({{"visibility", 1.0}, {"shading", 2.0}}, 3.1);
+  EXPECT_EQ(good.reason, "");
+  ASSERT_TRUE(good.gpu_ms);
+  EXPECT_DOUBLE_EQ(*good.gpu_ms, 3.0);
+  ASSERT_EQ(good.ms.size(), 2u);
+  EXPECT_EQ(good.ms[1].first, "shading");
+
+  // The device waits for the processor: no contradiction.
+  EXPECT_EQ(believed({{"forward", 0.1}}, 3.0).reason, "");
+
+  const PassTimes impossible = believed({{"visibility", 1.0}, {"shading", 2.6}}, 3.1);
+  EXPECT_THAT(impossible.reason, HasSubstr("3.600 ms for frames that take 3.100 ms"));
+  EXPECT_TRUE(impossible.ms.empty());
+  EXPECT_FALSE(impossible.gpu_ms);
+}
+
+Scene small_cloud() { return test::cutout_cloud({.triangles = 50, .width = 64, .height = 48}); }
+
+class DeviceTimers : public testing::TestWithParam<test::NamedContext> {};
+
+TEST_P(DeviceTimers, NameEveryPassOfEveryFrame) {
+  const gl::Context context = gl::Context::create(GetParam().request);
+  if (!context.capabilities().timer_queries) GTEST_SKIP() << "no timer queries here";
+  const Scene scene = small_cloud();
+  Renderer renderer(context, std::get<TriangleSoup>(scene.primitives), scene.origin);
+  gl::PassTimer timer(context);
+  renderer.draw(scene.cameras[0]);  // before the timer: not counted
+  for (int round = 0; round < 2; ++round) {
+    renderer.time_passes(&timer);
+    for (int i = 0; i < 3; ++i) renderer.draw(scene.cameras[0]);
+    renderer.time_passes(nullptr);
+    renderer.draw(scene.cameras[0]);
+    const auto passes = timer.collect();
+    ASSERT_EQ(passes.size(), 2u);
+    EXPECT_EQ(passes[0].pass, "visibility");
+    EXPECT_EQ(passes[1].pass, "shading");
+    EXPECT_EQ(passes[0].turns, 3);
+    EXPECT_EQ(passes[1].turns, 3);
+    EXPECT_GE(passes[0].ms, 0);
+    EXPECT_GT(passes[0].ms + passes[1].ms, 0);
+  }
+  EXPECT_TRUE(timer.collect().empty());
+}
+
+TEST_P(DeviceTimers, AreNotUsedWhereTheyMislead) {
+  const gl::Context context = gl::Context::create(GetParam().request);
+  if (!context.capabilities().software) GTEST_SKIP() << "not a software renderer";
+  const Scene scene = small_cloud();
+  Renderer renderer(context, std::get<TriangleSoup>(scene.primitives), scene.origin);
+  const PassTimes times = time_passes(context, renderer, scene.cameras, 2);
+  EXPECT_THAT(times.reason, HasSubstr(context.capabilities().renderer));
+  EXPECT_TRUE(times.ms.empty());
+  EXPECT_FALSE(times.gpu_ms);
+}
+
+INSTANTIATE_TEST_SUITE_P(Contexts, DeviceTimers, testing::ValuesIn(test::every_context),
+                         [](const auto& each) { return each.param.name; });
+
+class Ceilings : public testing::TestWithParam<test::NamedContext> {};
+
+TEST_P(Ceilings, TrianglesWithoutColoursLeaveTheBackground) {
+  const gl::Context context = gl::Context::create(GetParam().request);
+  const Scene scene = small_cloud();
+  Renderer renderer(
+      context, std::get<TriangleSoup>(scene.primitives), scene.origin,
+      {.plan = {.site = ShadingSite::nowhere}, .background = glm::vec4(0.2f, 0.4f, 0.6f, 1.0f)});
+  EXPECT_THAT(renderer.plan().sentences.front(), HasSubstr("empty fragment shader"));
+  renderer.draw(scene.cameras[0]);
+  const Image8 picture = renderer.read_color();
+  EXPECT_THAT(picture.pixels, testing::Each(glm::u8vec4(51, 102, 153, 255)));
+  EXPECT_TRUE(renderer.read_faces().empty());
+}
+
+TEST_P(Ceilings, TheCopyIsAPicturesWorthOfPixels) {
+  const gl::Context context = gl::Context::create(GetParam().request);
+  CopyCeiling copy(context);
+  for (const int width : {64, 200, 37}) {
+    copy.draw(width, 48);
+    const Image8 picture = copy.read_copy();
+    ASSERT_EQ(picture.width, width);
+    ASSERT_EQ(picture.height, 48);
+    // Row 0 of the picture is the highest of 64 rows of cells that grow greener upwards.
+    EXPECT_GT(picture.at(0, 0).g, 240);
+    EXPECT_LT(picture.at(0, 47).g, 10);
+    EXPECT_GT(picture.at(width - 1, 0).r, 240);
+    EXPECT_LT(picture.at(0, 0).r, 10);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Contexts, Ceilings, testing::ValuesIn(test::every_context),
+                         [](const auto& each) { return each.param.name; });
+
+}  // namespace
+}  // namespace tureen
