@@ -5,6 +5,8 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "cli/exit_code.hpp"
 
@@ -13,6 +15,8 @@ namespace tureen::cli {
 /// What the chosen subcommand does, set while arguments are parsed and called afterwards.
 using Action = std::function<ExitCode()>;
 
+/// `arguments` are those of the program, which the result repeats.
+void add_bench(CLI::App& program, Action& action, std::vector<std::string> arguments);
 void add_compare(CLI::App& program, Action& action);
 void add_convert(CLI::App& program, Action& action);
 void add_eval(CLI::App& program, Action& action);

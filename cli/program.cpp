@@ -115,6 +115,7 @@ bad, 4 no OpenGL context, 5 anything else.)");
   add_convert(program, action);
   add_compare(program, action);
   add_eval(program, action);
+  add_bench(program, action, {argv + std::min(argc, 1), argv + argc});
   add_plot(program, action);
 
   if (argc < 2) {

@@ -25,9 +25,10 @@ constexpr int most_orbit_views = 1000;
 /// exists, colon and all.
 struct CameraArgument {
   fs::path file;
-  std::string which = "0";
+  std::string which;
 
-  explicit CameraArgument(const std::string& text) : file(text) {
+  CameraArgument(const std::string& text, const std::string& which_without)
+      : file(text), which(which_without) {
     std::error_code error;
     const std::size_t colon = text.rfind(':');
     if (fs::exists(file, error) || colon == std::string::npos) return;
@@ -49,8 +50,11 @@ CameraFile cameras_in(const fs::path& file, const Scene& scene, const std::strin
   return {read_scene(file).cameras, {}};
 }
 
-Views from_file(const std::string& argument, const Scene& scene, const std::string& scene_path) {
-  const CameraArgument wanted(argument);
+}  // namespace
+
+Views recorded_views(const std::string& argument, const std::string& which_without,
+                     const Scene& scene, const std::string& scene_path) {
+  const CameraArgument wanted(argument, which_without);
   CameraFile found = cameras_in(wanted.file, scene, scene_path);
   if (found.cameras.empty())
     throw InputError({wanted.file.string(), {}, {}}, "it holds no cameras");
@@ -58,12 +62,9 @@ Views from_file(const std::string& argument, const Scene& scene, const std::stri
   const int last = int(found.cameras.size()) - 1;
   // As text first: a number of forty digits is out of range, not malformed.
   if (wanted.which.size() > 9 || std::stol(wanted.which) > last)
-    throw UsageError("--camera " + argument + ": cameras are numbered from 0 to " +
-                     std::to_string(last));
+    throw UsageError(argument + ": cameras are numbered from 0 to " + std::to_string(last));
   return {{found.cameras[std::size_t(std::stol(wanted.which))]}, std::move(found.notes)};
 }
-
-}  // namespace
 
 void add_view_options(CLI::App& command, ViewOptions& options) {
   command
@@ -109,7 +110,7 @@ Views resolve_views(const ViewOptions& options, const Scene& scene, const std::s
 
   Views views;
   if (!options.camera.empty()) {
-    views = from_file(options.camera, scene, scene_path);
+    views = recorded_views(options.camera, "0", scene, scene_path);
   } else if (options.eye.empty() && options.orbit == 0 && !options.fov_degrees &&
              !scene.cameras.empty()) {
     views.cameras = {scene.cameras.front()};

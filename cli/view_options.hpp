@@ -35,4 +35,9 @@ struct Views {
 /// cameras. Throws UsageError and InputError.
 Views resolve_views(const ViewOptions& options, const Scene& scene, const std::string& scene_path);
 
+/// The cameras that "FILE", "FILE:3" or "FILE:all" names; `which_without` stands for what follows
+/// the colon where nothing does. Throws InputError and UsageError.
+Views recorded_views(const std::string& argument, const std::string& which_without,
+                     const Scene& scene, const std::string& scene_path);
+
 }  // namespace tureen::cli

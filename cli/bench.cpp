@@ -1,0 +1,159 @@
+// `tureen bench`: frame times across resolutions.
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <ctime>
+#include <memory>
+
+#include "cli/bench_contestants.hpp"
+#include "cli/bench_measure.hpp"
+#include "cli/bench_reports.hpp"
+#include "cli/bench_table.hpp"
+#include "cli/bench_views.hpp"
+#include "cli/commands.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/report.hpp"
+#include "cli/scene_argument.hpp"
+#include "cli/version.hpp"
+#include "soup/error.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+struct Options {
+  SceneArgument scene;
+  BenchViewOptions views;
+  ContestantOptions contestants;
+  int rounds = 5;
+  double seconds = 20;
+  BenchReportOptions reports;
+  bool json = false;
+  std::vector<std::string> arguments;  // all of them, as typed
+};
+
+std::string now_utc() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+}
+
+BenchDevice device_of(const gl::Context& context) {
+  const gl::Capabilities& capabilities = context.capabilities();
+  return {.context = context.description(),
+          .renderer = capabilities.renderer,
+          .vendor = capabilities.vendor,
+          .version = capabilities.version,
+          .software = capabilities.software};
+}
+
+BenchLoad load_of(const Contestants& contestants, double read_ms) {
+  const BenchConfiguration& first = contestants.list.front()->configuration;
+  return {.read_ms = read_ms,
+          .plan_ms = first.plan_ms,
+          .upload_ms = first.upload_ms,
+          .peak_mib = contestants.peak_mib,
+          .device_mib = first.device_mib};
+}
+
+void add_measurements(BenchResult& result, std::vector<BenchMeasurement> measurements) {
+  for (BenchMeasurement& each : measurements) {
+    result.protocol.aa_spread = std::max(result.protocol.aa_spread, each.aa_spread);
+    result.measurements.push_back(std::move(each));
+  }
+}
+
+BenchResult run(const Options& options) {
+  BenchResult result;
+  result.date = now_utc();
+  result.program = {program_version(), program_commit(), options.arguments};
+  result.machine = this_machine();
+  result.protocol = {
+      .clock = "steady clock of the processor, from an idle device until it has finished",
+      .rounds = options.rounds};
+
+  const auto start = std::chrono::steady_clock::now();
+  Scene scene = read(options.scene);
+  const std::chrono::duration<double, std::milli> read_ms =
+      std::chrono::steady_clock::now() - start;
+  const TriangleSoup& soup = opaque_soup(scene);
+  result.scene = {scene.info.name, options.scene.path, soup.triangles.size(),
+                  appearance_name(soup.appearance)};
+  result.notes = scene.info.notes;
+  const BenchViewList views = bench_views(options.views, scene, options.scene.path);
+  result.notes.insert(result.notes.end(), views.notes.begin(), views.notes.end());
+
+  const gl::Context context = gl::Context::create({.backend = options.contestants.drawing.backend});
+  throw_if_interrupted();
+  result.device = device_of(context);
+  const Contestants contestants = make_contestants(options.contestants, context, scene);
+  result.notes.insert(result.notes.end(), contestants.notes.begin(), contestants.notes.end());
+  result.load = load_of(contestants, read_ms.count());
+  for (const auto& contestant : contestants.list)
+    result.configurations.push_back(contestant->configuration);
+  add_measurements(result, measure(contestants, views.views,
+                                   {.rounds = options.rounds,
+                                    .most_seconds = options.seconds,
+                                    .folder = options.reports.folder}));
+  return result;
+}
+
+ExitCode bench(const Options& options) {
+  // Everything that can be wrong with the arguments is said before the scene is read.
+  check(options.views);
+  check(options.contestants);
+  const std::optional<BenchResult> then = prepare_bench_reports(options.reports);
+
+  const BenchResult result = run(options);
+  say_list("Notes:", result.notes);
+  say_list("Plan of " + result.configurations.front().name + ":",
+           result.configurations.front().plan);
+  for (const std::string& line : bench_table(result)) say(line);
+  if (options.json) print_json(to_json(result));
+  return report_bench(options.reports, result, then);
+}
+
+}  // namespace
+
+void add_bench(CLI::App& program, Action& action, std::vector<std::string> arguments) {
+  auto options = std::make_shared<Options>();
+  options->arguments = std::move(arguments);
+  CLI::App* command = program.add_subcommand("bench", "Frame times across resolutions");
+  command->footer(
+      R"(The plan, our pipeline with nothing left out and the published pipeline (where it can draw the
+scene) take turns frame by frame, each warmed up until its times are stable, each frame ended when
+the device has finished; first of all the plan is held against itself (A/A). "best ms" is the
+smallest of the rounds' medians, which ratios are taken of; what differs by less than twice the A/A
+spread is called equal. Loading is told apart.
+
+Examples:
+  tureen bench soup.glb                                   eight views from above at 1280x720
+  tureen bench soup.glb --sweep --json > bench.json       five sizes
+  tureen bench soup.glb --size 640x360,1920x1080 --cameras orbit:12,adversarial
+  tureen bench soup.glb photographs --sizes full,half     the dataset's test cameras
+  tureen bench soup.glb --ceilings -o timed               a page, plots, and the pictures timed
+  tureen bench soup.glb --against timed/bench.json        what has become faster or slower since
+  tureen bench soup.glb --only tureen,triangles --seconds 60
+
+Exit codes: 0 done, 1 slower than --fail-slower allows, 2 wrong usage, 3 the scene or the
+cameras cannot be read, 4 no OpenGL context, 5 it does not fit on the device or cannot be
+written.)");
+  add_scene_argument(*command, options->scene);
+  add_bench_view_options(*command, options->views);
+  add_contestant_options(*command, options->contestants);
+  command
+      ->add_option("--rounds", options->rounds,
+                   "how often the views are gone through at most, 5 by default")
+      ->check(CLI::Range(1, 10000))
+      ->option_text("N");
+  command
+      ->add_option("--seconds", options->seconds,
+                   "make fewer rounds, but one at least, to be done in about this time; 20 by "
+                   "default, 0 for no limit")
+      ->check(CLI::Range(0.0, 1e6))
+      ->option_text("S");
+  add_bench_report_options(*command, options->reports);
+  command->add_flag("--json", options->json, "the result as JSON on standard output");
+  command->callback([options, &action] { action = [options] { return bench(*options); }; });
+}
+
+}  // namespace tureen::cli

@@ -1,0 +1,191 @@
+#include "cli/bench_contestants.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "formats/suggestion.hpp"
+#include "runtime/copy_ceiling.hpp"
+#include "runtime/renderer.hpp"
+#include "soup/error.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+constexpr const char* ours = "tureen";
+constexpr const char* generic = "generic";
+constexpr const char* published = "published";
+constexpr const char* triangles = "triangles";
+constexpr const char* copy = "copy";
+const std::vector<std::string> all_names{ours, generic, published, triangles, copy};
+
+constexpr double bytes_per_mib = 1 << 20;
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
+}
+
+/// A renderer with one plan: what `tureen render` draws with.
+class RendererContestant final : public Contestant {
+ public:
+  RendererContestant(const std::string& name, const gl::Context& context, const Scene& scene,
+                     const PlanPreferences& preferences)
+      : context_(context) {
+    configuration.name = name;
+    const auto& soup = std::get<TriangleSoup>(scene.primitives);
+    auto start = std::chrono::steady_clock::now();
+    RenderPlan plan = make_plan(soup, device_limits(context.capabilities()), preferences);
+    configuration.plan_ms = milliseconds_since(start);
+    start = std::chrono::steady_clock::now();
+    renderer_ = std::make_unique<Renderer>(
+        context, soup, scene.origin, std::move(plan),
+        RenderOptions{.plan = preferences, .background = glm::vec4(scene.info.background, 1.0f)});
+    renderer_->finish();
+    configuration.upload_ms = milliseconds_since(start);
+    configuration.plan = renderer_->plan().sentences;
+    configuration.device_mib = double(renderer_->device_bytes()) / bytes_per_mib;
+  }
+  void draw(const Camera& camera) override { renderer_->draw(camera); }
+  void finish() const override { renderer_->finish(); }
+  Image8 last_frame() const override { return renderer_->read_color(); }
+  PassTimes passes(std::span<const Camera> cameras) override {
+    // So many that a timestamp's rounding vanishes, so few that nobody waits for them.
+    constexpr int repeats = 20;
+    return time_passes(context_, *renderer_, cameras, repeats);
+  }
+
+ private:
+  const gl::Context& context_;
+  std::unique_ptr<Renderer> renderer_;
+};
+
+class CopyContestant final : public Contestant {
+ public:
+  explicit CopyContestant(const gl::Context& context) {
+    configuration.name = copy;
+    const auto start = std::chrono::steady_clock::now();
+    copy_ = std::make_unique<CopyCeiling>(context);
+    copy_->finish();
+    configuration.upload_ms = milliseconds_since(start);
+    configuration.plan = {"copies as many pixels by a full-screen triangle (a ceiling)"};
+  }
+  void draw(const Camera& camera) override { copy_->draw(camera.width, camera.height); }
+  void finish() const override { copy_->finish(); }
+  Image8 last_frame() const override { return copy_->read_copy(); }
+  PassTimes passes(std::span<const Camera>) override {
+    return {.ms = {}, .reason = "a copy has one pass", .gpu_ms = {}};
+  }
+
+ private:
+  std::unique_ptr<CopyCeiling> copy_;
+};
+
+std::vector<std::string> names_of(const ContestantOptions& options) {
+  std::vector<std::string> names = options.only;
+  const PlanPreferences& plan = options.drawing.plan;
+  if (names.empty()) {
+    if (plan.pipeline == PipelineKind::published)
+      names = {published};
+    else if (!plan.specialise)
+      names = {generic};
+    else
+      names = {ours, generic, published};
+  }
+  if (options.ceilings)
+    for (const char* ceiling : {triangles, copy})
+      if (std::find(names.begin(), names.end(), ceiling) == names.end()) names.push_back(ceiling);
+  return names;
+}
+
+/// The options of `tureen render` that draw the same, and the preferences that they stand for.
+struct Setting {
+  PlanPreferences plan;
+  std::vector<std::string> options;
+};
+
+Setting setting_of(const std::string& name, PlanPreferences plan) {
+  if (name == published) {
+    plan.pipeline = PipelineKind::published;
+    return {plan, {"--pipeline", "published"}};
+  }
+  plan.pipeline = PipelineKind::tureen;
+  if (name == generic) {
+    plan.specialise = false;
+    return {plan, {"--no-specialise"}};
+  }
+  plan.specialise = true;
+  if (name == triangles) plan.site = ShadingSite::nowhere;
+  return {plan, {}};
+}
+
+std::unique_ptr<Contestant> make_contestant(const std::string& name,
+                                            const ContestantOptions& options,
+                                            const gl::Context& context, const Scene& scene) {
+  if (name == copy) return std::make_unique<CopyContestant>(context);
+  const Setting setting = setting_of(name, options.drawing.plan);
+  auto contestant = std::make_unique<RendererContestant>(name, context, scene, setting.plan);
+  contestant->configuration.options = setting.options;
+  return contestant;
+}
+
+}  // namespace
+
+Entrant Contestant::entrant() {
+  return {.name = configuration.name,
+          .draw = [this](const Camera& camera) { draw(camera); },
+          .finish = [this] { finish(); }};
+}
+
+void add_contestant_options(CLI::App& command, ContestantOptions& options) {
+  add_drawing_options(command, options.drawing);
+  command
+      .add_option(
+          "--only", options.only,
+          "who takes part, with commas between: tureen (the plan), generic (nothing left "
+          "out), published (DiffSoup's viewer), triangles and copy (the ceilings); the first "
+          "is what the others are held against")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->option_text("NAME,..");
+  command.add_flag("--ceilings", options.ceilings,
+                   "also how fast the device draws the same triangles with an empty fragment "
+                   "shader, and copies as many pixels");
+}
+
+void check(const ContestantOptions& options) {
+  for (std::size_t i = 0; i < options.only.size(); ++i) {
+    const std::string& name = options.only[i];
+    if (std::find(all_names.begin(), all_names.end(), name) == all_names.end())
+      throw UsageError("--only takes tureen, generic, published, triangles and copy, not '" + name +
+                       "'" + did_you_mean(name, all_names));
+    if (std::find(options.only.begin(), options.only.begin() + std::ptrdiff_t(i), name) !=
+        options.only.begin() + std::ptrdiff_t(i))
+      throw UsageError("--only names " + name + " twice");
+  }
+}
+
+Contestants make_contestants(const ContestantOptions& options, const gl::Context& context,
+                             const Scene& scene) {
+  const std::vector<std::string> names = names_of(options);
+  Contestants result;
+  for (const std::string& name : names) {
+    const auto leave_out = [&](const Error& error) {
+      // Where it was asked for by name, or alone, there is nothing to go on with.
+      if (!options.only.empty() || names.size() == 1) throw;
+      result.notes.push_back(name + " is left out: " + error.reason());
+    };
+    try {
+      result.list.push_back(make_contestant(name, options, context, scene));
+    } catch (const UsageError& error) {
+      leave_out(error);
+    } catch (const DeviceLimitError& error) {
+      leave_out(error);
+    }
+    if (result.list.size() == 1 && result.peak_mib == 0) result.peak_mib = peak_mib();
+  }
+  if (result.list.empty()) throw DeviceLimitError(result.notes.front());
+  return result;
+}
+
+}  // namespace tureen::cli

@@ -1,0 +1,59 @@
+// Who takes part in `tureen bench`: the plan, the same pipeline with nothing left out, the
+// published pipeline, and the device's ceilings, each ready to draw.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/bench_result.hpp"
+#include "cli/drawing_options.hpp"
+#include "runtime/benchmark.hpp"
+#include "runtime/pass_times.hpp"
+#include "soup/scene.hpp"
+
+namespace tureen::cli {
+
+/// As typed.
+struct ContestantOptions {
+  DrawingOptions drawing;
+  std::vector<std::string> only;  // names; empty: the usual ones
+  bool ceilings = false;
+};
+
+/// --only, --ceilings and the options that all commands share which draw.
+void add_contestant_options(CLI::App& command, ContestantOptions& options);
+
+/// Throws UsageError for names that nobody has.
+void check(const ContestantOptions& options);
+
+/// Something that draws a camera's view on a device.
+class Contestant {
+ public:
+  virtual ~Contestant() = default;
+  virtual void draw(const Camera& camera) = 0;
+  virtual void finish() const = 0;
+  virtual Image8 last_frame() const = 0;
+  /// Of these views; a reason and no times where nobody can tell.
+  virtual PassTimes passes(std::span<const Camera> cameras) = 0;
+
+  BenchConfiguration configuration;  // as the result describes it
+
+  Entrant entrant();
+};
+
+struct Contestants {
+  std::vector<std::unique_ptr<Contestant>> list;  // the first is what ratios refer to
+  double peak_mib = 0;                            // of the process, when the first was ready
+  std::vector<std::string> notes;                 // who cannot take part, and why
+};
+
+/// Plans and uploads for each; the times are in Contestant::configuration. With --no-specialise or
+/// --pipeline published only that one takes part, and the ceilings where asked for. Who cannot draw
+/// this soup is noted and left out, but UsageError and DeviceLimitError pass where --only names it
+/// or nobody is left.
+Contestants make_contestants(const ContestantOptions& options, const gl::Context& context,
+                             const Scene& scene);
+
+}  // namespace tureen::cli

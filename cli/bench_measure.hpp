@@ -1,0 +1,25 @@
+// The measurements of `tureen bench`: every set of views at every size, with everybody in turns.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "cli/bench_contestants.hpp"
+#include "cli/bench_result.hpp"
+#include "cli/bench_views.hpp"
+
+namespace tureen::cli {
+
+struct MeasureOptions {
+  int rounds = 5;
+  double most_seconds = 0;       // for all together; 0: no limit
+  std::filesystem::path folder;  // of the pictures that prove what was timed; empty: none
+};
+
+/// One after the other, contestant by contestant within each. Shows progress; throws Interrupted
+/// after Ctrl-C, DeviceLimitError for a size that the device does not draw and OutputError.
+std::vector<BenchMeasurement> measure(const Contestants& contestants,
+                                      const std::vector<BenchViews>& views,
+                                      const MeasureOptions& options);
+
+}  // namespace tureen::cli

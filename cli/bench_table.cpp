@@ -1,0 +1,97 @@
+#include "cli/bench_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tureen::cli {
+
+namespace {
+
+/// Three significant digits down to a microsecond.
+std::string ms_text(double ms) { return fmt::format("{:.{}f}", ms, ms < 1 ? 3 : ms < 10 ? 2 : 1); }
+
+std::string fps_text(double fps) { return fmt::format("{:.{}f}", fps, fps < 100 ? 1 : 0); }
+
+bool same_views(const BenchMeasurement& a, const BenchMeasurement& b) {
+  return a.camera_set == b.camera_set && a.size == b.size;
+}
+
+std::string compared(const BenchMeasurement& each, const BenchMeasurement& first) {
+  if (&each == &first) return "1.00";
+  const double a = each.frame_ms.min_of_medians, b = first.frame_ms.min_of_medians;
+  return differ(a, b, first.aa_spread) ? fmt::format("{:.2f}", a / b) : "equal";
+}
+
+std::string passes_text(const BenchMeasurement& measurement) {
+  std::string text;
+  for (const auto& [pass, ms] : measurement.passes_ms)
+    text += fmt::format("{}{} {} ms", text.empty() ? "" : ", ", pass, ms_text(ms));
+  return text;
+}
+
+void add_heading(std::vector<std::string>& lines, const BenchMeasurement& first) {
+  const auto counted_text = [](int count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+  };
+  std::string heading =
+      fmt::format("{} x {}, {}: {}, {}", first.width, first.height, first.camera_set,
+                  counted_text(first.views, "view"), counted_text(first.rounds, "round"));
+  if (first.frames_per_sample > 1)
+    heading += fmt::format(" of {} frames a view", first.frames_per_sample);
+  lines.push_back("");
+  lines.push_back(heading + fmt::format(", A/A spread {:.1f} %", 100 * first.aa_spread));
+  lines.push_back(fmt::format("  {:<13} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7}", "configuration",
+                              "best ms", "mean ms", "p95", "p99", "FPS", "1 % low", "ratio"));
+}
+
+void add_row(std::vector<std::string>& lines, const BenchMeasurement& each,
+             const BenchMeasurement& first) {
+  const FrameStatistics& ms = each.frame_ms;
+  lines.push_back(fmt::format("  {:<13} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7}",
+                              each.configuration, ms_text(ms.min_of_medians), ms_text(ms.mean),
+                              ms_text(ms.p95), ms_text(ms.p99), fps_text(each.fps),
+                              fps_text(ms.low_1_percent_fps), compared(each, first)));
+  if (!each.passes_ms.empty())
+    lines.push_back(fmt::format("  {:<13} {}", "", "by the device's clock: " + passes_text(each)));
+  if (!each.stable)
+    lines.push_back(fmt::format("  {:<13} {}", "", "its warm-up did not come to rest"));
+}
+
+/// Why there are no times of passes, each reason once.
+void add_pass_reasons(std::vector<std::string>& lines, const BenchResult& result) {
+  std::vector<std::string> said;
+  for (const BenchMeasurement& each : result.measurements)
+    if (!each.passes_reason.empty() && each.configuration != "copy" &&
+        std::find(said.begin(), said.end(), each.passes_reason) == said.end())
+      said.push_back(each.passes_reason);
+  if (!said.empty()) lines.push_back("");
+  for (const std::string& reason : said) lines.push_back("No times of passes: " + reason + ".");
+}
+
+}  // namespace
+
+std::vector<std::string> bench_table(const BenchResult& result) {
+  std::vector<std::string> lines;
+  lines.push_back(
+      fmt::format("{} ({}){}", result.device.renderer, result.device.context,
+                  result.device.software ? ": software, never to be compared with hardware" : ""));
+  const BenchLoad& load = result.load;
+  lines.push_back(
+      fmt::format("{} triangles: read {} ms, plan {} ms, upload {} ms; peak {:.0f} MiB, on the "
+                  "device {:.1f} MiB",
+                  counted(result.scene.triangles), ms_text(load.read_ms), ms_text(load.plan_ms),
+                  ms_text(load.upload_ms), load.peak_mib, load.device_mib));
+  const BenchMeasurement* first = nullptr;
+  for (const BenchMeasurement& each : result.measurements) {
+    if (!first || !same_views(*first, each)) {
+      first = &each;
+      add_heading(lines, each);
+    }
+    add_row(lines, each, *first);
+  }
+  add_pass_reasons(lines, result);
+  return lines;
+}
+
+}  // namespace tureen::cli

@@ -1,0 +1,16 @@
+// What `tureen bench` says on the terminal.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/bench_result.hpp"
+
+namespace tureen::cli {
+
+/// Lines: where it ran, what loading cost, then a table for each set of views and size. Ratios are
+/// of min_of_medians and refer to the first configuration; "equal" where they differ by less than
+/// twice the A/A spread.
+std::vector<std::string> bench_table(const BenchResult& result);
+
+}  // namespace tureen::cli

@@ -1,0 +1,204 @@
+// `tureen bench` from outside: what it says of itself, and that the pixels that were timed are
+// those that `tureen render` draws.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <thread>
+
+#include "cli/program_fixture.hpp"
+#include "support/schema.hpp"
+
+namespace tureen {
+namespace {
+
+using test::Child;
+using test::ChildResult;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string example = TUREEN_SOURCE_DIR "/examples/soup.glb";
+
+class Bench : public test::Program {
+ protected:
+  /// One round of two small views of the example, and what is added.
+  ChildResult bench(std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments{"bench", example, "--context", "osmesa"};
+    if (std::find(more.begin(), more.end(), "--rounds") == more.end())
+      arguments.insert(arguments.end(), {"--rounds", "1"});
+    if (std::find(more.begin(), more.end(), "--size") == more.end())
+      arguments.insert(arguments.end(), {"--size", "64x48"});
+    if (std::find(more.begin(), more.end(), "--cameras") == more.end())
+      arguments.insert(arguments.end(), {"--cameras", "orbit:2"});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  }
+  nlohmann::json bench_json(std::vector<std::string> more = {}) const {
+    more.push_back("--json");
+    const ChildResult result = bench(more);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return nlohmann::json::parse(result.out);
+  }
+  static std::vector<std::string> all(const nlohmann::json& list, const char* key) {
+    std::vector<std::string> result;
+    for (const auto& each : list) result.push_back(each[key]);
+    return result;
+  }
+};
+
+TEST_F(Bench, SaysAllThatItsSchemaWants) {
+  const nlohmann::json json = bench_json({"--only", "tureen,triangles"});
+  EXPECT_EQ(test::schema_violations(json, "bench.schema.json"), "");
+  EXPECT_EQ(json["scene"]["triangles"], 7000);
+  EXPECT_EQ(json["scene"]["path"], example);
+  EXPECT_EQ(json["program"]["arguments"][0], "bench");
+  EXPECT_EQ(json["device"]["software"], true);
+  EXPECT_EQ(json["protocol"]["rounds"], 1);
+  for (const char* time : {"read_ms", "upload_ms", "peak_mib", "device_mib"})
+    EXPECT_GT(json["load"][time], 0) << time;
+  for (const auto& each : json["measurements"]) {
+    EXPECT_EQ(each["width"], 64);
+    EXPECT_EQ(each["height"], 48);
+    EXPECT_EQ(each["views_ms"].size(), 2u);
+    EXPECT_EQ(each["frames"], 2 * each["frames_per_sample"].get<int>());
+    EXPECT_GT(each["frame_ms"]["min_of_medians"], 0);
+    EXPECT_DOUBLE_EQ(each["fps"], 1000 / each["frame_ms"]["mean"].get<double>());
+  }
+}
+
+TEST_F(Bench, SoftwareIsTimedByTheProcessorsClockAlone) {
+  const ChildResult result = bench({"--only", "tureen", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  for (const auto& each : nlohmann::json::parse(result.out)["measurements"]) {
+    EXPECT_TRUE(each["passes_ms"].is_null());
+    EXPECT_TRUE(each["gpu_ms"].is_null());
+    EXPECT_THAT(each["passes_reason"].get<std::string>(), HasSubstr("software OpenGL"));
+  }
+  EXPECT_THAT(result.err, HasSubstr("software, never to be compared with hardware"));
+  EXPECT_THAT(result.err, HasSubstr("No times of passes: software OpenGL"));
+}
+
+TEST_F(Bench, ThePixelsThatWereTimedAreThoseOfRender) {
+  const nlohmann::json json = bench_json({"-o", "timed"});
+  ASSERT_EQ(json["configurations"].size(), json["measurements"].size());
+  for (std::size_t i = 0; i < json["measurements"].size(); ++i) {
+    const auto& configuration = json["configurations"][i];
+    const auto& measurement = json["measurements"][i];
+    SCOPED_TRACE(configuration["name"].get<std::string>());
+    std::vector<std::string> render{"render", example,  "--context", "osmesa", "--orbit",
+                                    "2",      "--size", "64x48",     "-o",     "drawn_%d.png"};
+    for (const std::string option : configuration["options"]) render.push_back(option);
+    ASSERT_EQ(run(render).exit_code, 0);
+    // The last view of the two is the last that was timed.
+    EXPECT_EQ(read_png(measurement["picture"]).pixels, read_png("drawn_1.png").pixels);
+    EXPECT_NE(read_png(measurement["picture"]).pixels, read_png("drawn_0.png").pixels);
+  }
+  std::ifstream file(folder / "timed/bench.json");
+  EXPECT_EQ(nlohmann::json::parse(file), json);
+  EXPECT_EQ(all(json["measurements"], "configuration"), all(json["configurations"], "name"));
+}
+
+TEST_F(Bench, WhoTakesPartCanBeChosen) {
+  EXPECT_THAT(all(bench_json()["configurations"], "name"),
+              ElementsAre("tureen", "generic", "published"));
+  EXPECT_THAT(all(bench_json({"--no-specialise"})["configurations"], "name"),
+              ElementsAre("generic"));
+  EXPECT_THAT(all(bench_json({"--pipeline", "published"})["configurations"], "name"),
+              ElementsAre("published"));
+  const nlohmann::json ceilings = bench_json({"--only", "tureen", "--ceilings"});
+  EXPECT_THAT(all(ceilings["configurations"], "name"), ElementsAre("tureen", "triangles", "copy"));
+  EXPECT_NE(ceilings["measurements"][0]["pixels_hash"], ceilings["measurements"][1]["pixels_hash"]);
+}
+
+TEST_F(Bench, ASceneThatThePublishedPipelineCannotDrawIsTimedWithoutIt) {
+  write_scene();
+  const ChildResult result = run(
+      {"bench", "scene.off", "--context", "osmesa", "--rounds", "1", "--size", "32x32", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_THAT(all(json["configurations"], "name"), ElementsAre("tureen", "generic"));
+  EXPECT_THAT(result.err, HasSubstr("published is left out: "));
+  EXPECT_EQ(json["measurements"][0]["views"], 8);
+  EXPECT_EQ(json["measurements"][0]["camera_set"], "hemisphere:8");
+  EXPECT_EQ(run({"bench", "scene.off", "--only", "published"}).exit_code, 2);
+}
+
+TEST_F(Bench, SetsAndSizesMakeATableEach) {
+  const ChildResult result = bench(
+      {"--cameras", "adversarial,orbit:3", "--size", "48x27,32x18", "--only", "tureen", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_THAT(all(json["measurements"], "size"), ElementsAre("32x18", "32x18", "48x27", "48x27"));
+  EXPECT_THAT(all(json["measurements"], "camera_set"),
+              ElementsAre("adversarial", "orbit:3", "adversarial", "orbit:3"));
+  EXPECT_EQ(json["measurements"][0]["views"], 4);
+  EXPECT_THAT(result.err, HasSubstr("32 x 18, adversarial: 4 views, 1 round"));
+  EXPECT_THAT(result.err, HasSubstr("48 x 27, orbit:3: 3 views"));
+}
+
+TEST_F(Bench, RecordedCamerasComeInFullHalfAndQuarter) {
+  const std::string own = example;  // the example has cameras
+  const nlohmann::json json =
+      bench_json({"--cameras", own + ":0", "--size", "quarter,64x48", "--only", "tureen"});
+  ASSERT_EQ(json["measurements"].size(), 2u);
+  const auto drawn = run({"render", example, "--camera", own + ":0", "--json"});
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+  const auto full = nlohmann::json::parse(drawn.out);
+  for (const auto& each : json["measurements"]) {
+    if (each["size"] == "64x48") continue;
+    EXPECT_EQ(each["size"], "quarter");
+    EXPECT_EQ(each["width"], full["width"].get<int>() / 4);
+    EXPECT_EQ(each["height"], full["height"].get<int>() / 4);
+  }
+}
+
+struct Refusal {
+  std::vector<std::string> arguments;
+  int exit_code;
+  const char* says;
+};
+
+TEST_F(Bench, RefusesWhatMakesNoSense) {
+  const Refusal refusals[] = {
+      {{"--cameras", "hemispher"}, 2, "not 'hemispher', of which there is none"},
+      {{"--cameras", "orbit:0"}, 2, "'0' is no whole number from 1 to 1000"},
+      {{"--cameras", "dataset"}, 2, "wants a DATASET"},
+      {{"--size", "half"}, 2, "'half' is a size of recorded cameras only"},
+      {{"--size", "64"}, 2, "'64' is no size"},
+      {{"--only", "publish"}, 2, "not 'publish'; did you mean published?"},
+      {{"--only", "copy,copy"}, 2, "names copy twice"},
+      {{"no_dataset", "--cameras", "dataset"}, 3, "no_dataset"},
+  };
+  for (const Refusal& refusal : refusals) {
+    SCOPED_TRACE(refusal.says);
+    const ChildResult result = bench(refusal.arguments);
+    EXPECT_EQ(result.exit_code, refusal.exit_code);
+    EXPECT_THAT(result.err, HasSubstr(refusal.says));
+    EXPECT_EQ(result.out, "");
+  }
+}
+
+TEST_F(Bench, TimeIsKeptTo) {
+  // A thousand rounds of these would take minutes.
+  const nlohmann::json json =
+      bench_json({"--rounds", "1000", "--seconds", "1", "--size", "320x180", "--only", "tureen"});
+  EXPECT_LT(json["measurements"][0]["rounds"], 1000);
+  EXPECT_GE(json["measurements"][0]["rounds"], 1);
+}
+
+TEST_F(Bench, CtrlCLeavesNoResult) {
+  Child child({"bench", example, "--context", "osmesa", "--only", "tureen", "--size", "64x48",
+               "--seconds", "0", "--rounds", "10000", "-o", "timed"},
+              folder);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1000));
+  ASSERT_TRUE(child.running());
+  child.signal(SIGINT);
+  const ChildResult result = child.wait();
+  EXPECT_EQ(result.exit_code, 5);
+  EXPECT_THAT(result.err, HasSubstr("interrupted"));
+  EXPECT_FALSE(exists("timed/bench.json"));
+}
+
+}  // namespace
+}  // namespace tureen

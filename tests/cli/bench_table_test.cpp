@@ -1,0 +1,89 @@
+// What the terminal shows of a benchmark.
+#include "cli/bench_table.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace tureen::cli {
+namespace {
+
+using testing::Contains;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+
+BenchMeasurement measurement(const std::string& configuration, const std::string& size, double ms) {
+  BenchMeasurement result;
+  result.configuration = configuration;
+  result.camera_set = "orbit:8";
+  result.size = size;
+  result.width = 640;
+  result.height = 360;
+  result.views = 8;
+  result.rounds = 5;
+  result.frame_ms = {.mean = ms + 1,
+                     .median = ms,
+                     .p95 = ms + 2,
+                     .p99 = ms + 3,
+                     .min_of_medians = ms,
+                     .spread = 0,
+                     .low_1_percent_fps = 1000 / (ms + 3)};
+  result.fps = 1000 / (ms + 1);
+  result.aa_spread = 0.02;
+  result.passes_reason = "it is told so";
+  return result;
+}
+
+BenchResult two_sizes() {
+  BenchResult result;
+  result.device = {.context = "EGL, OpenGL 4.5 core",
+                   .renderer = "a card",
+                   .vendor = "",
+                   .version = "",
+                   .software = false};
+  result.scene.triangles = 15000;
+  result.measurements = {measurement("tureen", "640x360", 10),
+                         measurement("generic", "640x360", 10.3),
+                         measurement("published", "640x360", 52), measurement("tureen", "full", 4),
+                         measurement("published", "full", 2)};
+  return result;
+}
+
+TEST(BenchTable, HoldsEachAgainstTheFirstOfItsSize) {
+  const std::vector<std::string> lines = bench_table(two_sizes());
+  EXPECT_THAT(
+      lines,
+      Contains(HasSubstr("640 x 360, orbit:8: 8 views, 5 rounds, A/A spread 2.0 %")).Times(2));
+  EXPECT_THAT(lines, Contains(AllOf(HasSubstr("tureen "), EndsWith("  1.00"))).Times(2));
+  // 3 % is less than twice the spread of 2 %.
+  EXPECT_THAT(lines, Contains(AllOf(HasSubstr("generic "), EndsWith("  equal"))));
+  EXPECT_THAT(lines, Contains(AllOf(HasSubstr("published "), EndsWith("  5.20"))));
+  EXPECT_THAT(lines, Contains(AllOf(HasSubstr("published "), EndsWith("  0.50"))));
+}
+
+TEST(BenchTable, SaysWhyPassesHaveNoTimesOnce) {
+  EXPECT_THAT(bench_table(two_sizes()), Contains("No times of passes: it is told so.").Times(1));
+}
+
+TEST(BenchTable, ShowsThePassesThatTheDeviceTimed) {
+  BenchResult result = two_sizes();
+  for (BenchMeasurement& each : result.measurements) each.passes_reason.clear();
+  result.measurements[0].passes_ms = {{"visibility", 0.1234}, {"shading", 7.891}};
+  const std::vector<std::string> lines = bench_table(result);
+  EXPECT_THAT(lines,
+              Contains(HasSubstr("by the device's clock: visibility 0.123 ms, shading 7.89 ms")));
+  EXPECT_THAT(lines, Not(Contains(HasSubstr("No times of passes"))));
+}
+
+TEST(BenchTable, WarnsOfSoftwareAndOfRestlessness) {
+  BenchResult result = two_sizes();
+  EXPECT_THAT(bench_table(result), Not(Contains(HasSubstr("software"))));
+  result.device.software = true;
+  result.measurements[1].stable = false;
+  const std::vector<std::string> lines = bench_table(result);
+  EXPECT_THAT(lines.front(), HasSubstr("never to be compared with hardware"));
+  EXPECT_THAT(lines, Contains(HasSubstr("its warm-up did not come to rest")).Times(1));
+}
+
+}  // namespace
+}  // namespace tureen::cli
