@@ -71,10 +71,12 @@ BenchPlot time_against_pixels(const BenchResult& result, const std::string& came
       fmt::format("Frame time against the pixels of a frame, cameras {}: medians, with bars from "
                   "the fastest round's median to the 95th percentile; both axes logarithmic. {}.",
                   cameras, device_of(result)),
-      {title, lines.script("set title " + plot_text(title) +
-                           "\nset logscale xy\nset key top left\n"
-                           "set xlabel 'megapixels a frame'\nset ylabel 'ms a frame'\n"
-                           "set offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n")}};
+      {title,
+       lines.script(
+           "set title " + plot_text(title) +
+           "\nset logscale xy\nset key top left\n"
+           "set xlabel 'megapixels a frame'\nset ylabel 'ms a frame'\n"
+           "set autoscale fix\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n")}};
 }
 
 /// The size with the most pixels that was measured with these cameras.
@@ -140,7 +142,7 @@ std::vector<BenchPlot> ratio_bars(const BenchResult& result) {
            {title,
             lines.script("set title " + plot_text(title) +
                          "\nset yrange [0:*]\nset key outside bottom center horizontal\n"
-                         "set xtics rotate by -35 scale 0 (" +
+                         "set xtics rotate by 30 right scale 0 (" +
                          labels +
                          ")\nset ylabel 'times as fast'\n"
                          "set arrow from graph 0, first 1 to graph 1, first 1 nohead "
