@@ -1,0 +1,185 @@
+#!/usr/bin/env bash
+# Measures what docs/benchmarks.md holds, but for the training runs, which have commands of their
+# own there. `./dev bench` builds what this needs and calls it, from the repository's root.
+set -uo pipefail
+
+bin=build/release/bin out=build/bench data=../shared/data
+all_parts=(load frames growth tradeoff agreement step)
+quick='' check='' ficus='' fox='' photographs=''
+parts=() done_parts=() skipped=() failed=()
+
+usage() {
+  cat <<'END'
+usage: ./dev bench [--quick] [--ficus SOUP] [--fox SOUP [--photographs DATASET]] [PART..]
+
+Measures and writes tables, plots and pages into build/bench; all parts without a PART:
+  load        how long a soup of 2,000,000 triangles takes to load from each format, and its memory
+  frames      tureen bench: frame times across sizes, on every scene there is
+  growth      the time of a frame against triangles, pixels and overdraw, and its model
+  tradeoff    tureen tradeoff: error against run time, on every scene there is
+  agreement   how well GL agrees with the oracle
+  step        what a training step costs
+
+  --quick        everything small: whether it works, not a measurement
+  --ficus SOUP   a soup of 2D Triangle Splatting; ../shared/data/soups/ficus_2dts.off where it is there
+  --fox SOUP     a soup trained from photographs (docs/benchmarks.md, Photographs)
+  --photographs  what it was trained from; ../shared/data/photos/fox where it is there
+
+Ctrl-C ends it; parts that were done stay. Exit code 1 where a part failed.
+END
+}
+
+say() { printf '==> %s\n' "$*" >&2; }
+die() {
+  printf 'dev bench: %s\n' "$*" >&2
+  exit 2
+}
+skip() {
+  skipped+=("$1")
+  say "Skipped: $1"
+}
+
+while (($#)); do
+  case $1 in
+    --quick) quick=1 ;;
+    --check) check=1 ;; # of the arguments alone
+    --ficus | --fox | --photographs)
+      (($# > 1)) || die "$1 wants a path"
+      declare "${1#--}=$2"
+      shift
+      ;;
+    -h | --help) usage && exit ;;
+    -*) die "there is no option $1; --help lists them" ;;
+    *)
+      [[ " ${all_parts[*]} " == *" $1 "* ]] || die "there is no part '$1'; there are ${all_parts[*]}"
+      parts+=("$1")
+      ;;
+  esac
+  shift
+done
+((${#parts[@]})) || parts=("${all_parts[@]}")
+for given in "$ficus" "$fox" "$photographs"; do
+  [[ -z $given || -e $given ]] || die "there is no $given"
+done
+[[ -n $ficus || ! -e $data/soups/ficus_2dts.off ]] || ficus=$data/soups/ficus_2dts.off
+[[ -n $photographs || ! -e $data/photos/fox ]] || photographs=$data/photos/fox
+
+[[ -z $check ]] || exit 0
+
+# measure NAME COMMAND..: its output goes to NAME.txt, and its end is shown where it fails.
+measure() {
+  local name=$1 status=0
+  shift
+  say "$name: $*"
+  "$@" >"$out/$name.txt" 2>"$out/$name.log" </dev/null || status=$?
+  if ((status)); then
+    tail -n 15 "$out/$name.log" >&2
+    failed+=("$name (all it said: $out/$name.log)")
+  else
+    done_parts+=("$name")
+  fi
+  ((status != 130)) || exit 130 # Ctrl-C
+}
+
+# Scenes, a name and a path each; a cut-out cloud keeps its own cameras.
+scene_names=() scene_paths=()
+add_scene() {
+  scene_names+=("$1")
+  scene_paths+=("$2")
+}
+find_scenes() {
+  add_scene example examples/soup.glb
+  local coverage
+  for coverage in forty_percent all; do
+    local cloud=$out/scenes/cloud_$coverage.glb
+    [[ -e $cloud ]] || "$bin/make_cutout_cloud" "$cloud" --coverage "$coverage" ||
+      { skip "the cut-out cloud $coverage, which could not be written"; continue; }
+    add_scene "cloud-$coverage" "$cloud"
+  done
+  if [[ -n $ficus ]]; then add_scene ficus "$ficus"; else skip "the ficus soup: give it with --ficus"; fi
+  if [[ -n $fox ]]; then add_scene fox "$fox"; else skip "the fox soup: train it (docs/benchmarks.md) and give it with --fox"; fi
+}
+
+part_load() {
+  local base=${ficus:-examples/soup.glb} options=(--formats '.glb,.off,.ply')
+  [[ -n $ficus ]] || say "load: made of the example, as there is no ficus"
+  [[ -z $quick ]] || options+=(--triangles 50000 --repeats 1)
+  measure load "$bin/load_benchmark" "$base" "$out/load" "${options[@]}"
+}
+
+part_frames() {
+  "$bin/tureen" bench --help >/dev/null 2>&1 || { skip "frames: this program has no tureen bench"; return; }
+  local i name path options
+  for i in "${!scene_names[@]}"; do
+    name=${scene_names[i]} path=${scene_paths[i]}
+    case $name in
+      cloud-*) options=(--cameras "$path" --size 1280x720) ;;
+      *) options=(--cameras 'hemisphere:8,adversarial' --sweep) ;;
+    esac
+    options+=(--rounds 5 --seconds 120)
+    [[ -z $quick ]] || options=(--size 160x90 --rounds 1 --seconds 1)
+    measure "frames-$name" "$bin/tureen" bench "$path" "${options[@]}" -o "$out/frames-$name"
+    [[ $name == fox && -n $photographs ]] || continue
+    options=(--sizes 'full,half,quarter' --rounds 5 --seconds 120)
+    [[ -z $quick ]] || options=(--sizes quarter --rounds 1 --seconds 1)
+    measure "frames-fox-photographs" "$bin/tureen" bench "$path" "$photographs" "${options[@]}" \
+      -o "$out/frames-fox-photographs"
+  done
+}
+
+part_growth() {
+  measure growth "$bin/growth_benchmark" -o "$out/growth" ${quick:+--quick}
+}
+
+part_tradeoff() {
+  "$bin/tureen" tradeoff --help >/dev/null 2>&1 || { skip "tradeoff: this program has no tureen tradeoff"; return; }
+  local i name options
+  for i in "${!scene_names[@]}"; do
+    name=${scene_names[i]} options=()
+    [[ $name != cloud-* ]] || continue # a random network: its errors say nothing about scenes
+    [[ $name != fox || -z $photographs ]] || options=("$photographs")
+    measure "tradeoff-$name" "$bin/tureen" tradeoff "${scene_paths[i]}" "${options[@]}" \
+      ${quick:+--quick} -o "$out/tradeoff-$name"
+  done
+}
+
+# Properties that tests recorded, from GoogleTest's XML: a table's row for each.
+properties() {
+  printf '| test | property | value |\n|---|---|---|\n'
+  awk -F'"' '/<testcase / { test = $2 } /<property / { print "| " test " | " $2 " | " $4 " |" }' "$1"
+}
+
+part_agreement() {
+  local program filter
+  for program in agreement_tests gl_oracle_tests; do
+    filter='*'
+    [[ -z $quick || $program == agreement_tests ]] || filter='GlOracleSingle.*'
+    measure "agreement-$program" "$bin/$program" --gtest_filter="$filter" \
+      --gtest_output="xml:$out/$program.xml"
+    [[ ! -e $out/$program.xml ]] || properties "$out/$program.xml" >"$out/agreement-$program.md"
+  done
+  [[ -e $data ]] || skip "agreement on real soups, which lie in ../shared/data"
+}
+
+part_step() {
+  local size=(400 400 12)
+  [[ -z $quick ]] || size=(64 64 1)
+  measure step "$bin/training_benchmark" "${size[@]}"
+}
+
+mkdir -p "$out/scenes"
+[[ " ${parts[*]} " != *" frames "* && " ${parts[*]} " != *" tradeoff "* ]] || find_scenes
+for part in "${parts[@]}"; do "part_$part"; done
+
+{
+  echo "# Measured $(date -u +%Y-%m-%dT%H:%MZ)${quick:+, --quick: whether it works, not a measurement}"
+  echo
+  echo "Commit $(git describe --always --dirty 2>/dev/null || echo unknown), $(nproc) cores."
+  for name in "${done_parts[@]}"; do echo "- $name: $name.txt, $name.log"; done
+  for name in "${skipped[@]}"; do echo "- skipped: $name"; done
+  for name in "${failed[@]}"; do echo "- FAILED: $name"; done
+  for page in "$out"/*/*.html; do [[ ! -e $page ]] || echo "- page: ${page#"$out"/}"; done
+} >"$out/summary.md"
+cat "$out/summary.md" >&2
+say "All of it is in $PWD/$out"
+((${#failed[@]} == 0))
