@@ -6,6 +6,7 @@
 
 #include "cli/bench_comparison.hpp"
 #include "cli/bench_csv.hpp"
+#include "cli/bench_markdown.hpp"
 #include "cli/bench_page.hpp"
 #include "cli/bench_plots.hpp"
 #include "formats/input.hpp"
@@ -85,8 +86,9 @@ void say_comparison(const BenchComparison& comparison, const std::string& file) 
 
 void add_bench_report_options(CLI::App& command, BenchReportOptions& options) {
   command
-      .add_option("-o,--output", options.folder,
-                  "a folder for bench.json, bench.csv, bench.html and the plots as SVG and PNG")
+      .add_option(
+          "-o,--output", options.folder,
+          "a folder for bench.json, bench.csv, bench.md, bench.html and the plots as SVG and PNG")
       ->option_text("FOLDER");
   command.add_option("--csv", options.csv, "the table as CSV")->option_text("FILE");
   command
@@ -135,6 +137,7 @@ ExitCode report_bench(const BenchReportOptions& options, const BenchResult& now,
     write_text(folder / "bench.json",
                to_json(now).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     write_text(folder / "bench.csv", bench_csv(now));
+    write_text(folder / "bench.md", bench_markdown(now));
     BenchPage page{.drawings = write_plots(now, folder),
                    .pictures = pictures_of(now),
                    .compared_with = options.against,

@@ -12,7 +12,7 @@ namespace tureen::cli {
 
 /// As typed; empty where not given.
 struct BenchReportOptions {
-  std::string folder;   // bench.json, bench.csv, bench.html and all plots
+  std::string folder;   // bench.json, .csv, .md and .html, and all plots
   std::string csv;      // a file
   std::string plots;    // a folder
   std::string against;  // an earlier bench.json

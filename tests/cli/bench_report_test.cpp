@@ -7,6 +7,7 @@
 
 #include "cli/bench_comparison.hpp"
 #include "cli/bench_csv.hpp"
+#include "cli/bench_markdown.hpp"
 #include "cli/bench_page.hpp"
 #include "cli/bench_plots.hpp"
 #include "cli/bench_reports.hpp"
@@ -127,6 +128,24 @@ TEST(BenchCsv, KeepsDigitsAndAwkwardNames) {
   EXPECT_EQ(lines[2][18], "") << "not measured";
   EXPECT_EQ(lines[1][20], awkward);
   EXPECT_EQ(lines[5][1], awkward);
+}
+
+TEST(BenchMarkdown, IsATableWhateverTheNamesAre) {
+  BenchResult all = result();
+  all.measurements[0].camera_set = "a|b\n";
+  std::istringstream text(bench_markdown(all));
+  std::string line;
+  std::size_t rows = 0;
+  while (std::getline(text, line)) {
+    if (line.empty() || line[0] != '|') continue;
+    std::size_t bars = 0;
+    for (std::size_t i = 0; i < line.size(); ++i)
+      bars += line[i] == '|' && (i == 0 || line[i - 1] != '\\');
+    EXPECT_EQ(bars, 12u) << line;
+    ++rows;
+  }
+  EXPECT_EQ(rows, 2 + all.measurements.size());
+  EXPECT_THAT(bench_markdown(all), HasSubstr("| 4.00 |"));
 }
 
 // ---- Plots --------------------------------------------------------------------------------------
@@ -265,8 +284,8 @@ TEST(BenchReports, WritesTheFolderAndFailsOnlyWhereAsked) {
   const auto before = prepare_bench_reports(options);
   ASSERT_TRUE(before);
   EXPECT_EQ(report_bench(options, now, before), ExitCode::done);
-  for (const char* name :
-       {"new/out/bench.json", "new/out/bench.csv", "new/out/bench.html", "table.csv"})
+  for (const char* name : {"new/out/bench.json", "new/out/bench.csv", "new/out/bench.md",
+                           "new/out/bench.html", "table.csv"})
     EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
   if (draw_plot({.title = "a", .script = "plot 1"}, PlotFormat::svg)) {
     EXPECT_TRUE(std::filesystem::exists(folder / "new/out/ratios.svg"));
