@@ -112,7 +112,7 @@ Json to_json(const Growth& growth) {
                   {"triangle_ns", 1e6 * fit.ms[1]},
                   {"fragment_ns", 1e6 * fit.ms[2]},
                   {"shaded_pixel_ns", 1e6 * fit.ms[3]},
-                  {"standard_errors", fit.standard_error},
+                  {"standard_errors_ms", fit.standard_error},
                   {"residuals", fit.residuals}};
   return {{"format", "tureen growth"},
           {"version", 1},

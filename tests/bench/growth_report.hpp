@@ -15,7 +15,7 @@ struct GrowthPoint {
   std::string series;  // "triangles", "pixels", "overdraw": which of them grows
   int layers = 0;
   int width = 0, height = 0;
-  CostSample sample;  // its time is the smallest of the rounds' medians
+  CostSample sample = {};  // its time is the smallest of the rounds' medians
   double p95_ms = 0;
   double aa_spread = 0;
 };
