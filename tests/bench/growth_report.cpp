@@ -56,6 +56,7 @@ cli::Plot series_plot(const Growth& growth, const Axis& axis) {
       if (fit != growth.fits.end())
         model.push_back({axis.value(*point), fit->second.predict(point->sample)});
     }
+    if (measured.empty()) continue;
     data += cli::plot_data(fmt::format("measured{}", color), measured);
     plots += fmt::format("{}$measured{} using 1:2:3:4 with yerrorbars linetype {} title {}",
                          plots.empty() ? "" : ", ", color, color, cli::plot_text(kind));
@@ -235,9 +236,13 @@ void write_growth(const Growth& growth, const fs::path& folder) {
     write(folder / (name + ".svg"), *svg);
     page.drawing(*svg, caption + " " + device_of(growth) + ".");
   };
-  for (const Axis& axis : axes)
+  for (const Axis& axis : axes) {
+    if (std::none_of(growth.points.begin(), growth.points.end(),
+                     [&](const GrowthPoint& point) { return point.series == axis.series; }))
+      continue;
     draw(series_plot(growth, axis), fmt::format("growth-{}", axis.series),
          fmt::format("Time against {}, bars up to the 95th percentile.", axis.series));
+  }
   if (!growth.fits.empty())
     draw(fit_plot(growth), "growth-fit", "The model against what was measured.");
   if (!drawn) {

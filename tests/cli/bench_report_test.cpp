@@ -166,7 +166,10 @@ TEST(BenchPlots, OneViewAndOneConfigurationNeedFewer) {
   BenchResult small = result();
   small.measurements.resize(1);
   small.measurements[0].views_ms = {1};
-  EXPECT_EQ(bench_plots(small).size(), 1u);
+  ASSERT_EQ(bench_plots(small).size(), 1u);
+  if (const auto svg = draw_plot(bench_plots(small)[0].plot, PlotFormat::svg)) {
+    EXPECT_EQ(check_markup(*svg).defect, "");
+  }
   small.measurements.clear();
   EXPECT_THAT(bench_plots(small), IsEmpty());
 }
