@@ -4,7 +4,7 @@
 set -uo pipefail
 
 bin=build/release/bin out=build/bench data=../shared/data
-all_parts=(load frames growth tradeoff agreement step)
+all_parts=(load frames leave_out growth tradeoff agreement step)
 quick='' check='' ficus='' fox='' photographs=''
 parts=() done_parts=() skipped=() failed=()
 
@@ -15,6 +15,7 @@ usage: ./dev bench [--quick] [--ficus SOUP] [--fox SOUP [--photographs DATASET]]
 Measures and writes tables, plots and pages into build/bench; all parts without a PART:
   load        how long a soup of 2,000,000 triangles takes to load from each format, and its memory
   frames      tureen bench: frame times across sizes, on every scene there is
+  leave_out   what each thing that a plan leaves out gains
   growth      the time of a frame against triangles, pixels and overdraw, and its model
   tradeoff    tureen tradeoff: error against run time, on every scene there is
   agreement   how well GL agrees with the oracle
@@ -127,6 +128,15 @@ part_frames() {
   done
 }
 
+part_leave_out() {
+  local path scenes=() options=(--rounds 5)
+  for path in "${scene_paths[@]}"; do
+    [[ $path == */cloud_* ]] || scenes+=("$path") # clouds are among its own
+  done
+  [[ -z $quick ]] || options=(--rounds 1 --width 160 --height 90)
+  measure leave_out "$bin/leave_out_benchmark" "${scenes[@]}" "${options[@]}"
+}
+
 part_growth() {
   measure growth "$bin/growth_benchmark" -o "$out/growth" ${quick:+--quick}
 }
@@ -168,7 +178,9 @@ part_step() {
 }
 
 mkdir -p "$out/scenes"
-[[ " ${parts[*]} " != *" frames "* && " ${parts[*]} " != *" tradeoff "* ]] || find_scenes
+case " ${parts[*]} " in
+  *" frames "* | *" leave_out "* | *" tradeoff "*) find_scenes ;;
+esac
 for part in "${parts[@]}"; do "part_$part"; done
 
 {
