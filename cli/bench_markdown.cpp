@@ -29,7 +29,7 @@ std::string bench_markdown(const BenchResult& result) {
       result.device.software ? " (software)" : "", cell(result.machine.cpu), result.machine.cores,
       cell(result.program.commit), result.date);
   text += fmt::format(
-      "| cameras | size | configuration | median ms | least ms | p95 ms | p99 ms | FPS | 1 % low | "
+      "| cameras | size | configuration | median ms | best ms | p95 ms | p99 ms | FPS | 1 % low | "
       "A/A spread | times as fast as {} |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
       cell(reference_configuration(result)));
   for (const BenchMeasurement& m : result.measurements) {

@@ -34,7 +34,7 @@ std::string shell_line(const std::vector<std::string>& words) {
 void measurements(HtmlPage& page, const BenchResult& result) {
   page.section("Frame times");
   page.paragraph(fmt::format(
-      "Milliseconds a frame. Configurations took turns frame by frame; \"least\" is the smallest "
+      "Milliseconds a frame. Configurations took turns frame by frame; \"best\" is the smallest "
       "of the rounds' medians, of which the ratios to '{}' are taken. A difference below twice the "
       "A/A spread, which is one configuration measured against itself, means nothing. FPS is 1000 "
       "divided by the mean.",
@@ -58,7 +58,7 @@ void measurements(HtmlPage& page, const BenchResult& result) {
               {"size", Column::text},
               {"pixels"},
               {"median"},
-              {"least"},
+              {"best"},
               {"p95"},
               {"p99"},
               {"FPS"},

@@ -66,7 +66,7 @@ GrowthPoint measure(const gl::Context& context, Kind kind, const Step& step,
   const Scene scene = layered_soup(soup_options);
   const auto& soup = std::get<TriangleSoup>(scene.primitives);
   // A transparent background, by which pixels without a face are known.
-  Renderer renderer(context, soup, scene.origin, {.background = glm::vec4(0)});
+  Renderer renderer(context, soup, scene.origin, RenderOptions{.background = glm::vec4(0)});
   const Camera camera = resized(scene.cameras[0], step.width, step.height);
   const Entrant entrant{"plan", [&](const Camera& view) { renderer.draw(view); },
                         [&] { renderer.finish(); }};
