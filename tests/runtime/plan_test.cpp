@@ -239,16 +239,17 @@ struct Specialisation {
 class SpecialisedKinds : public testing::TestWithParam<Specialisation> {};
 
 // specs 06, section 6: what the plan calls exact leaves every pixel as it is. Compiling the
-// network's weights in sums the same terms in another order: that may round one channel in 100,000
-// otherwise.
+// network's weights in sums the same terms in another order, and a cut-out face without its rims
+// interpolates from other corners: that may round one channel in 100,000 otherwise.
 TEST_P(SpecialisedKinds, DrawsWhatTheGenericPlanDraws) {
   const auto [kind, seed] = GetParam();
   const TriangleSoup soup = random_soup(seed, {.kind = kind, .faces = 400, .degenerate = true});
   Random random(seed);
   const Difference difference = specialised_against_generic(soup, random_camera(random, 320, 240));
-  const bool network = kind == Kind::lattice_mlp || kind == Kind::uv_textures_mlp;
-  EXPECT_LE(difference.largest, network ? 1 : 0);
-  EXPECT_LE(difference.channels, network ? 320 * 240 * 4 / 100000 : 0);
+  const bool rounds =
+      kind == Kind::lattice || kind == Kind::lattice_mlp || kind == Kind::uv_textures_mlp;
+  EXPECT_LE(difference.largest, rounds ? 1 : 0);
+  EXPECT_LE(difference.channels, rounds ? 320 * 240 * 4 / 100000 : 0);
 }
 
 TEST(Specialised, DrawsTheCutOutCloudAsTheGenericPlanDoes) {
