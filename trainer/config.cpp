@@ -5,9 +5,6 @@ namespace tureen::trainer {
 Config preset(Preset kind) {
   Config config;
   config.preset = kind;
-  // From then on rates are below a tenth, and what is renewed hardly catches up: lego ends 0.2 dB
-  // higher than with 0.75.
-  config.turnover_until = 0.5f;
   if (kind == Preset::scene) {
     // Photographs show walls and trees behind what they look at.
     config.far_points = 0.5f;

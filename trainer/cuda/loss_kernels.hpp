@@ -60,14 +60,33 @@ TUREEN_HOST_DEVICE float weighed(const float* in, int stride) {
   return sum;
 }
 
+/// A tile of `planes` images, as far as its windows reach, weighed in two passes: every row along x
+/// by all threads of a block, then the columns where they are asked for.
+template <int planes>
+struct WeighedTile {
+  static constexpr int wide = tile_width + ssim_reach, high = tile_height + ssim_reach;
+  float in[planes][high][wide];
+  float rows[planes][high][tile_width];
+
+  TUREEN_HOST_DEVICE void weigh_rows(unsigned thread, unsigned threads) {
+    for (int i = int(thread); i < tile_width * high; i += int(threads)) {
+      const int x = i % tile_width, y = i / tile_width;
+      for (int p = 0; p < planes; ++p) rows[p][y][x] = weighed(&in[p][y][x], 1);
+    }
+  }
+
+  TUREEN_HOST_DEVICE float at(int plane, int x, int y) const {
+    return weighed(&rows[plane][y][x], tile_width);
+  }
+};
+
 /// Compares all windows: three planes of derivatives a channel, planes of a picture's size, of
 /// which the last ten rows and columns are not written. A block a tile.
 struct CompareWindows {
   static constexpr unsigned threads = 256;
-  static constexpr int wide = tile_width + ssim_reach, high = tile_height + ssim_reach;
+  using Tiles = WeighedTile<4>;  // sum, difference and their squares
   struct Shared {
-    float pixels[4][high][wide];      // sum, difference and their squares
-    float rows[4][high][tile_width];  // weighed along x
+    Tiles tile;
     double dissimilarity[threads];
   };
   struct Local {
@@ -86,7 +105,7 @@ struct CompareWindows {
     const Tile tile = tile_of(batch, at.block);
     if (phase < 9) {
       if (phase % 3 == 0) read(tile, phase / 3, at, shared);
-      if (phase % 3 == 1) weigh(at, shared);
+      if (phase % 3 == 1) shared.tile.weigh_rows(at.thread, threads);
       if (phase % 3 == 2) compare(tile, phase / 3, at, shared, local);
     } else if (phase == 9) {
       shared.dissimilarity[at.thread] = local.dissimilarity;
@@ -100,24 +119,17 @@ struct CompareWindows {
   TUREEN_HOST_DEVICE void read(const Tile& tile, unsigned channel, const Thread& at,
                                Shared& shared) const {
     const int width = tile.picture->view.width, height = tile.picture->view.height;
-    for (int i = int(at.thread); i < wide * high; i += int(threads)) {
-      const int x = i % wide, y = i / wide;
+    for (int i = int(at.thread); i < Tiles::wide * Tiles::high; i += int(threads)) {
+      const int x = i % Tiles::wide, y = i / Tiles::wide;
       SsimPixel<float> pixel{0, 0};
       if (tile.x0 + x < width && tile.y0 + y < height)
         pixel = pixel_of(*tile.picture, color,
                          std::size_t(tile.y0 + y) * std::size_t(width) + std::size_t(tile.x0 + x),
                          channel);
-      shared.pixels[0][y][x] = pixel.sum;
-      shared.pixels[1][y][x] = pixel.difference;
-      shared.pixels[2][y][x] = pixel.sum * pixel.sum;
-      shared.pixels[3][y][x] = pixel.difference * pixel.difference;
-    }
-  }
-
-  TUREEN_HOST_DEVICE void weigh(const Thread& at, Shared& shared) const {
-    for (int i = int(at.thread); i < tile_width * high; i += int(threads)) {
-      const int x = i % tile_width, y = i / tile_width;
-      for (int p = 0; p < 4; ++p) shared.rows[p][y][x] = weighed(&shared.pixels[p][y][x], 1);
+      shared.tile.in[0][y][x] = pixel.sum;
+      shared.tile.in[1][y][x] = pixel.difference;
+      shared.tile.in[2][y][x] = pixel.sum * pixel.sum;
+      shared.tile.in[3][y][x] = pixel.difference * pixel.difference;
     }
   }
 
@@ -132,10 +144,10 @@ struct CompareWindows {
           tile.y0 + y + ssim_reach >= picture.view.height)
         continue;
       SsimMoments<float> mean;
-      mean.sum = weighed(&shared.rows[0][y][x], tile_width);
-      mean.difference = weighed(&shared.rows[1][y][x], tile_width);
-      mean.sum_squared = weighed(&shared.rows[2][y][x], tile_width);
-      mean.difference_squared = weighed(&shared.rows[3][y][x], tile_width);
+      mean.sum = shared.tile.at(0, x, y);
+      mean.difference = shared.tile.at(1, x, y);
+      mean.sum_squared = shared.tile.at(2, x, y);
+      mean.difference_squared = shared.tile.at(3, x, y);
       const SsimDissimilarity<float> here = ssim_dissimilarity(mean);
       const std::size_t pixel = std::size_t(tile.y0 + y) * width + std::size_t(tile.x0 + x);
       out[pixel] = here.by_sum_variance;
@@ -156,11 +168,10 @@ struct LossWeights {
 /// The gradient by all colours, what the score takes, and the sums of a report. A block a tile.
 struct TakeLoss {
   static constexpr unsigned threads = 256;
-  static constexpr int wide = tile_width + ssim_reach, high = tile_height + ssim_reach;
+  using Tiles = WeighedTile<3>;                                        // derivatives of the windows
   static constexpr int own = tile_width * tile_height / int(threads);  // pixels a thread
   struct Shared {
-    float windows[3][high][wide];
-    float rows[3][high][tile_width];
+    Tiles tile;
     double l1[threads], squared[threads];
     unsigned shaded[threads], non_finite[threads];
   };
@@ -186,7 +197,7 @@ struct TakeLoss {
     const Tile tile = tile_of(batch, at.block);
     if (phase < 9) {
       if (phase % 3 == 0) read(tile, phase / 3, at, shared);
-      if (phase % 3 == 1) weigh(at, shared);
+      if (phase % 3 == 1) shared.tile.weigh_rows(at.thread, threads);
       if (phase % 3 == 2) write(tile, phase / 3, at, shared, local);
     } else if (phase == 9) {
       finish(tile, at, shared, local);
@@ -201,22 +212,15 @@ struct TakeLoss {
     const DevicePicture& picture = *tile.picture;
     const std::size_t pixels = picture.pixels(), width = std::size_t(picture.view.width);
     const float* in = windows + 9 * picture.first_pixel + 3 * channel * pixels;
-    for (int i = int(at.thread); i < wide * high; i += int(threads)) {
-      const int x = i % wide, y = i / wide;
+    for (int i = int(at.thread); i < Tiles::wide * Tiles::high; i += int(threads)) {
+      const int x = i % Tiles::wide, y = i / Tiles::wide;
       const int window_x = tile.x0 + x - ssim_reach, window_y = tile.y0 + y - ssim_reach;
       const bool there = window_x >= 0 && window_y >= 0 &&
                          window_x + ssim_reach < picture.view.width &&
                          window_y + ssim_reach < picture.view.height;
       for (std::size_t p = 0; p < 3; ++p)
-        shared.windows[p][y][x] =
+        shared.tile.in[p][y][x] =
             there ? in[p * pixels + std::size_t(window_y) * width + std::size_t(window_x)] : 0;
-    }
-  }
-
-  TUREEN_HOST_DEVICE void weigh(const Thread& at, Shared& shared) const {
-    for (int i = int(at.thread); i < tile_width * high; i += int(threads)) {
-      const int x = i % tile_width, y = i / tile_width;
-      for (int p = 0; p < 3; ++p) shared.rows[p][y][x] = weighed(&shared.windows[p][y][x], 1);
     }
   }
 
@@ -238,9 +242,8 @@ struct TakeLoss {
       const bool counts = counted(picture, color, pixel) == Counted::yes;
       const SsimPixel<float> here = pixel_of(picture, color, pixel, channel);
       float gradient = l1_scale * sign(here.difference);
-      gradient += ssim_scale * ssim_derivative(here, weighed(&shared.rows[0][y][x], tile_width),
-                                               weighed(&shared.rows[1][y][x], tile_width),
-                                               weighed(&shared.rows[2][y][x], tile_width));
+      gradient += ssim_scale * ssim_derivative(here, shared.tile.at(0, x, y),
+                                               shared.tile.at(1, x, y), shared.tile.at(2, x, y));
       by_color[3 * picture.first_pixel + channel * pixels + pixel] = counts ? gradient : 0.0f;
       local.loss[k] += std::fabs(here.difference);
       local.l1 += double(std::fabs(here.difference));
