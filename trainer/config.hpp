@@ -89,9 +89,9 @@ struct Config {
   // Fraction of the steps. From there on rates are below a tenth, and what is renewed hardly
   // catches up: held-out views of lego lost 0.3 dB between a half and three quarters of a run.
   float turnover_until = 0.5f;
-  bool split_by_error = true;    // published: false. Splits what errs most, not what is longest
-  float split_fraction = 0.2f;   // of the picture's height: longer projected edges are split
-  int split_views = 20;          // at most so many views choose edges
+  bool split_by_error = true;   // published: false. Splits what errs most, not what is longest
+  float split_fraction = 0.2f;  // of the picture's height: longer projected edges are split
+  int split_views = 20;         // at most so many views choose edges
   /// Published for scenes: true. Edges longer than split_fraction are all split, and the next
   /// pruning brings the faces back to the budget, whereas otherwise only pruning makes room.
   bool split_beyond_budget = false;

@@ -362,7 +362,8 @@ TEST(Dataset, RefusesAnEmptySplit) {
               HasSubstr("transforms.json: there are no photographs to test"));
 
   write_text(folder / "transforms_train.json", transforms(intrinsics, {frame("images/0.png")}));
-  EXPECT_THAT(refusal(folder / ""), HasSubstr("transforms_test.json: there is no such file, which the other half"));
+  EXPECT_THAT(refusal(folder / ""),
+              HasSubstr("transforms_test.json: there is no such file, which the other half"));
   EXPECT_EQ(refusal(folder / "", {.part = DatasetPart::train}), "");
   write_text(folder / "transforms_test.json", transforms(intrinsics, {}));
   EXPECT_THAT(refusal(folder / ""), HasSubstr("no photographs to test: it has 1 to train on"));
