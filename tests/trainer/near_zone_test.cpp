@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <vector>
 
 #include "support/random.hpp"
 #include "trainer/random_model.hpp"
@@ -104,6 +106,25 @@ TEST(NearZone, HoldsNothingBehindBeyondOrBeside) {
 TEST(NearZone, HoldsNoPositionThatIsNoNumber) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_FALSE(reaches(triangle({nan, nan, nan}, {nan, nan, nan}, {nan, nan, nan})));
+}
+
+// What is left of such a triangle is rounding, and the sanitizer of the memory it is clipped in.
+TEST(NearZone, TakesTrianglesAtTheVeryEye) {
+  Random random(5);
+  std::vector<Camera> cameras;
+  for (int i = 0; i < 20; ++i) {
+    const glm::dvec3 forward = random.direction();
+    cameras.push_back(look_at(glm::dvec3(0.0), forward, random.direction(), 0.7, 90, 60));
+  }
+  Model model = test::random_model(6, {.faces = 3000, .max_level = 0});
+  model.origin = glm::dvec3(0.0);
+  for (std::size_t i = 0; i < model.positions.size(); ++i)
+    model.positions[i] = float(std::pow(10.0, -double(i % 40))) * glm::vec3(random.direction());
+  for (std::size_t face = 0; face < model.faces(); face += 7)  // some all around it, or at it
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      model.positions[3 * face + corner] = glm::vec3(0.0f);
+  const std::vector<std::uint8_t> reaching = reaching_near_zone(model, cameras, 1.0);
+  for (std::size_t face = 0; face < model.faces(); face += 7) EXPECT_TRUE(reaching[face]) << face;
 }
 
 TEST(NearZone, IsEmptyAsFarAsPointsTell) {
