@@ -90,8 +90,10 @@ std::string largest_size(const BenchResult& result, const std::string& cameras) 
 std::vector<BenchPlot> times_by_view(const BenchResult& result, const std::string& cameras) {
   const std::string size = largest_size(result, cameras);
   Lines lines;
+  std::size_t views = 0;
   for (const BenchMeasurement& m : result.measurements) {
     if (m.camera_set != cameras || m.size != size || m.views_ms.size() < 2) continue;
+    views = std::max(views, m.views_ms.size());
     Rows rows;
     for (std::size_t view = 0; view < m.views_ms.size(); ++view)
       rows.push_back({double(view), m.views_ms[view]});
@@ -104,7 +106,8 @@ std::vector<BenchPlot> times_by_view(const BenchResult& result, const std::strin
            fmt::format("The median of each view, cameras {} at {}. {}.", cameras, size,
                        device_of(result)),
            {title, lines.script("set title " + plot_text(title) +
-                                "\nset yrange [0:*]\nset key top left\n"
+                                "\nset yrange [0:*]\nset key top left\n" +
+                                fmt::format("set xtics {}\n", 1 + views / 16) +
                                 "set xlabel 'view'\nset ylabel 'ms a frame'\n"
                                 "set offsets 0.5, 0.5, graph 0.1, 0\n")}}};
 }
