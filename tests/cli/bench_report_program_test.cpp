@@ -1,0 +1,83 @@
+// The files of `tureen bench` from outside, and how it ends where something became slower.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "cli/program_fixture.hpp"
+
+namespace tureen {
+namespace {
+
+using test::ChildResult;
+using testing::HasSubstr;
+
+class BenchFiles : public test::Program {
+ protected:
+  ChildResult bench(std::vector<std::string> more) const {
+    std::vector<std::string> arguments{"bench",  "scene.off", "--context", "osmesa",
+                                       "--size", "32x18",     "--rounds",  "1",
+                                       "--only", "tureen",    "--cameras", "orbit:2"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  }
+  nlohmann::json read_json(const std::string& name) const {
+    std::ifstream stream(folder / name);
+    return nlohmann::json::parse(stream);
+  }
+};
+
+TEST_F(BenchFiles, ARunIsComparedWithAnEarlierOne) {
+  write_scene();
+  const ChildResult first = bench({"-o", "before", "--csv", "table.csv"});
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  for (const char* name : {"before/bench.json", "before/bench.csv", "before/bench.md",
+                           "before/bench.html", "table.csv"})
+    EXPECT_TRUE(exists(name)) << name;
+  // What the machine does meanwhile must not decide a test: the earlier run becomes much faster.
+  nlohmann::json before = read_json("before/bench.json");
+  for (auto& measurement : before["measurements"]) {
+    measurement["frame_ms"]["min_of_medians"] =
+        measurement["frame_ms"]["min_of_medians"].get<double>() / 1e6;
+    measurement["frame_ms"]["spread"] = 0;
+    measurement["aa_spread"] = 0;
+  }
+  before["machine"]["cpu"] = "an abacus";
+  write("fast.json", before.dump());
+  const ChildResult told = bench({"--against", "fast.json"});
+  EXPECT_EQ(told.exit_code, 0) << "it fails only where that was asked for";
+  EXPECT_THAT(told.err, HasSubstr("slower"));
+  EXPECT_THAT(told.err, HasSubstr("then an abacus"));
+  const ChildResult failed = bench({"--against", "fast.json", "--fail-slower", "50"});
+  EXPECT_EQ(failed.exit_code, 1) << failed.err;
+  EXPECT_THAT(failed.err, HasSubstr("slower than allowed"));
+}
+
+TEST_F(BenchFiles, BadArgumentsAreSaidBeforeAnythingIsMeasured) {
+  write_scene();
+  EXPECT_EQ(bench({"--fail-slower", "5"}).exit_code, 2);
+  const ChildResult missing = bench({"--against", "none.json"});
+  EXPECT_EQ(missing.exit_code, 3);
+  EXPECT_THAT(missing.err, HasSubstr("none.json"));
+  write("other.json", "{\"format\": \"tureen growth\"}");
+  const ChildResult other = bench({"--against", "other.json", "-o", "out"});
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_THAT(other.err, HasSubstr("no result of tureen bench"));
+  EXPECT_FALSE(exists("out"));
+}
+
+TEST_F(BenchFiles, WithoutGnuplotThereAreNoPlotsAndAllElse) {
+  write_scene();
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", folder.c_str(), 1);
+  const ChildResult result = bench({"-o", "out"});
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("gnuplot is not installed"));
+  EXPECT_TRUE(exists("out/bench.html"));
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "out"))
+    EXPECT_NE(entry.path().extension(), ".svg") << entry.path();
+}
+
+}  // namespace
+}  // namespace tureen
