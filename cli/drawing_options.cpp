@@ -4,6 +4,21 @@
 
 namespace tureen::cli {
 
+namespace {
+
+LeaveOut named(const std::string& name) {
+  if (const auto known = leave_out_named(name)) return *known;
+  std::vector<std::string> names;
+  std::string list;
+  for (const LeaveOutName& known : leave_out_names()) {
+    list += (names.empty() ? "" : ", ") + std::string(known.name);
+    names.emplace_back(known.name);
+  }
+  throw UsageError("--keep takes " + list + ", not '" + name + "'" + did_you_mean(name, names));
+}
+
+}  // namespace
+
 void add_drawing_options(CLI::App& command, DrawingOptions& options) {
   add_choice<gl::Backend>(command, "--context", options.backend,
                           {{"auto", gl::Backend::automatic},
@@ -19,6 +34,18 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
   command.add_flag_callback(
       "--no-specialise", [&options] { options.plan.specialise = false; },
       "leave nothing out that the scene does not need (for comparisons)");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--keep",
+          [&options](const std::vector<std::string>& names) {
+            for (const std::string& name : names)
+              options.plan.leave_out = options.plan.leave_out.without(named(name));
+          },
+          "do not leave these out, whether the scene needs them or not: names from "
+          "docs/leaving-out.md with commas between, as alpha-test,background")
+      ->option_text("NAMES")
+      ->delimiter(',')
+      ->expected(1);
 }
 
 }  // namespace tureen::cli

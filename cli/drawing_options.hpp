@@ -13,7 +13,8 @@ struct DrawingOptions {
   PlanPreferences plan = {};
 };
 
-/// --context, --pipeline and --no-specialise. `options` must live until the arguments are parsed.
+/// --context, --pipeline, --no-specialise and --keep. `options` must live until the arguments are
+/// parsed.
 void add_drawing_options(CLI::App& command, DrawingOptions& options);
 
 }  // namespace tureen::cli

@@ -24,6 +24,7 @@ struct Settings {
   int rounds = 5;
   int width = 1280, height = 720;
   std::vector<std::string> rows;
+  bool real_scenes_only = false;
   std::vector<std::filesystem::path> scenes;
 
   bool wants(LeaveOut what) const {
@@ -141,6 +142,7 @@ int main(int argc, char** argv) {
   app.add_option("scenes", settings.scenes, "real scenes to measure, too");
   app.add_option("--rounds", settings.rounds, "how often the eight views are gone through");
   app.add_option("--rows", settings.rows, "these alone, by name")->delimiter(',');
+  app.add_flag("--real-only", settings.real_scenes_only, "no scenes made for the purpose");
   app.add_option("--width", settings.width);
   app.add_option("--height", settings.height);
   CLI11_PARSE(app, argc, argv);
@@ -153,7 +155,7 @@ int main(int argc, char** argv) {
         "| left out | scene | kept ms | left out ms | times | spread | gains | kept MiB | left out "
         "MiB |");
     std::puts("|---|---|---|---|---|---|---|---|---|");
-    test::measure_traits(context, settings);
+    if (!settings.real_scenes_only) test::measure_traits(context, settings);
     for (const auto& path : settings.scenes) test::measure_scene(context, settings, path);
   } catch (const Error& error) {
     std::fprintf(stderr, "leave_out_benchmark: %s\n", error.what());

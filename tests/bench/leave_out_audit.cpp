@@ -1,0 +1,120 @@
+// How much of real scenes the entries of specs 06, section 6 would touch that plans do not leave
+// out: docs/leaving-out.md gives these counts as the reason.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "formats/scene_file.hpp"
+#include "soup/error.hpp"
+#include "soup/lattice.hpp"
+#include "support/random.hpp"
+
+namespace tureen::test {
+namespace {
+
+constexpr double half_step = 0.5 / 255.0;
+
+/// Texels where the network has no say.
+std::size_t unblended_texels(const LatticeTexture& texture, int blend_channel) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < texture.texel_count(); ++i)
+    count += texture.value(i, blend_channel) <= half_step ? 1 : 0;
+  return count;
+}
+
+std::size_t distinct_lattices(const LatticeTexture& texture) {
+  std::set<std::vector<float>> known;
+  for (const LatticePatch& patch : texture.patches) {
+    std::vector<float> values;
+    for (std::uint32_t k = 0; k < lattice::texel_count(int(patch.level)); ++k)
+      for (int c = 0; c < LatticeTexture::channels; ++c)
+        values.push_back(texture.value(std::size_t(patch.first_texel) + k, c));
+    known.insert(std::move(values));
+  }
+  return known.size();
+}
+
+/// Whether every second texel says it all, to half a step of each channel.
+bool fits_a_level_lower(const LatticeTexture& texture, const LatticePatch& patch) {
+  const int level = int(patch.level), n = lattice::resolution(level);
+  if (level == 0) return false;
+  for (std::uint32_t k = 0; k < lattice::texel_count(level); ++k) {
+    const auto [x, y] = lattice::texel_coordinates(k);
+    const auto at = lattice::footprint(level - 1, double(x) / n, double(y) / n);
+    for (int c = 0; c < LatticeTexture::channels; ++c) {
+      double value = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto coarse = lattice::texel_coordinates(at.texels[i]);
+        value += at.weights[i] *
+                 double(texture.value(
+                     patch.first_texel + lattice::texel_index(2 * coarse.x, 2 * coarse.y), c));
+      }
+      if (std::abs(value - double(texture.value(patch.first_texel + k, c))) > half_step)
+        return false;
+    }
+  }
+  return true;
+}
+
+/// Of so many random texels those whose colour moves by at most a step over 256 directions.
+std::size_t view_independent_texels(const LatticeTexture& texture, std::size_t samples) {
+  Random random(1);
+  std::vector<glm::dvec3> directions;
+  for (int i = 0; i < 256; ++i) directions.push_back(random.direction());
+  std::size_t count = 0;
+  for (std::size_t s = 0; s < samples; ++s) {
+    const std::size_t texel = random.below(std::uint32_t(texture.texel_count()));
+    double features[LatticeTexture::features];
+    for (int c = 0; c < LatticeTexture::features; ++c) features[c] = texture.value(texel, c);
+    glm::dvec3 low(1), high(0);
+    for (const glm::dvec3& direction : directions) {
+      const glm::dvec3 color = evaluate(*texture.mlp, features, direction);
+      low = glm::min(low, color);
+      high = glm::max(high, color);
+    }
+    const glm::dvec3 range = high - low;
+    count += std::max({range.x, range.y, range.z}) <= 2 * half_step ? 1 : 0;
+  }
+  return count;
+}
+
+void audit(const char* path) {
+  Scene scene = read_scene(path);
+  const auto* texture = std::get_if<LatticeTexture>(&opaque_soup(scene).appearance);
+  if (!texture) {
+    std::printf("%s: no lattice texture\n", path);
+    return;
+  }
+  const std::size_t faces = texture->patches.size();
+  const auto lower =
+      std::count_if(texture->patches.begin(), texture->patches.end(),
+                    [&](const LatticePatch& patch) { return fits_a_level_lower(*texture, patch); });
+  std::printf(
+      "%s: %zu faces, %zu of them with a lattice of their own (L4), %zu fit a level lower "
+      "(L3)",
+      path, faces, distinct_lattices(*texture), std::size_t(lower));
+  if (texture->mlp && texture->texel_count() > 0) {
+    constexpr std::size_t samples = 4000;
+    std::printf("; %zu of %zu texels view-independent (M3)",
+                view_independent_texels(*texture, samples), samples);
+    if (texture->mlp->blend_channel)
+      std::printf("; %zu of %zu texels without the network (M6)",
+                  unblended_texels(*texture, *texture->mlp->blend_channel), texture->texel_count());
+  }
+  std::puts("");
+}
+
+}  // namespace
+}  // namespace tureen::test
+
+int main(int argc, char** argv) {
+  try {
+    for (int i = 1; i < argc; ++i) tureen::test::audit(argv[i]);
+  } catch (const tureen::Error& error) {
+    std::fprintf(stderr, "leave_out_audit: %s\n", error.what());
+    return 1;
+  }
+}

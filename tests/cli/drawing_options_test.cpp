@@ -1,0 +1,40 @@
+#include "cli/drawing_options.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+
+#include "soup/error.hpp"
+
+namespace tureen::cli {
+namespace {
+
+PlanPreferences parsed(const std::string& arguments) {
+  CLI::App app;
+  DrawingOptions options;
+  add_drawing_options(app, options);
+  app.parse(arguments);
+  return options.plan;
+}
+
+TEST(DrawingOptions, WhatIsToBeKeptIsNotLeftOut) {
+  EXPECT_EQ(parsed("").leave_out, LeaveOutSet::all());
+  EXPECT_EQ(parsed("--keep background,alpha-test").leave_out,
+            LeaveOutSet::all().without(LeaveOut::background).without(LeaveOut::alpha_test));
+  EXPECT_TRUE(parsed("--keep background").specialise);
+  EXPECT_FALSE(parsed("--no-specialise").specialise);
+}
+
+TEST(DrawingOptions, AnUnknownNameIsRefusedWithTheNearest) {
+  try {
+    parsed("--keep alpha-tset");
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("not 'alpha-tset'"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("did you mean alpha-test?"));
+  }
+}
+
+}  // namespace
+}  // namespace tureen::cli
