@@ -1,0 +1,34 @@
+// A renderer as plain as they come, the baseline for large opaque soups: vertices of 16 bytes
+// (three floats and a colour), unshared, in file order, one draw call, one matrix.
+#pragma once
+
+#include "runtime/gl/objects.hpp"
+#include "runtime/gl/program.hpp"
+#include "soup/camera.hpp"
+#include "soup/triangle_soup.hpp"
+
+namespace tureen::testing {
+
+class PlainRenderer {
+ public:
+  /// Of a soup with FaceColors. The context must be current, then and for every call.
+  explicit PlainRenderer(const TriangleSoup& soup);
+
+  /// Into a target of its own, on black, with an ordinary 24-bit depth buffer.
+  void draw(const Camera& camera);
+  GLuint color_framebuffer() const { return framebuffer_.id(); }
+
+ private:
+  void resize(int width, int height);
+
+  Bounds bounds_;
+  GLsizei vertex_count_;
+  gl::VertexArray vertex_array_;
+  gl::Buffer vertices_;
+  gl::Program program_;
+  gl::Texture color_, depth_;
+  gl::Framebuffer framebuffer_;
+  int width_ = 0, height_ = 0;
+};
+
+}  // namespace tureen::testing
