@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <ctime>
+#include <functional>
 #include <memory>
 
 #include "cli/bench_contestants.hpp"
@@ -16,6 +17,7 @@
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/version.hpp"
+#include "runtime/benchmark.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {
@@ -28,6 +30,7 @@ struct Options {
   ContestantOptions contestants;
   int rounds = 5;
   double seconds = 20;
+  bool processor_time = false;
   BenchReportOptions reports;
   bool json = false;
   std::vector<std::string> arguments;  // all of them, as typed
@@ -44,6 +47,21 @@ BenchDevice device_of(const gl::Context& context) {
           .vendor = capabilities.vendor,
           .version = capabilities.version,
           .software = capabilities.software};
+}
+
+/// What times are read from; with the sentence that says so.
+std::function<double()> choose_clock(const Options& options, BenchResult& result) {
+  if (!options.processor_time) {
+    result.protocol.clock =
+        "steady clock of the processor, from an idle device until it has finished";
+    return nullptr;
+  }
+  if (!result.device.software)
+    throw UsageError("--processor-time says nothing of " + result.device.renderer +
+                     ", which is no software renderer");
+  result.protocol.clock =
+      "processor time of all threads, not time that passed: for ratios on a busy machine";
+  return processor_seconds;
 }
 
 BenchLoad load_of(const Contestants& contestants, double read_ms) {
@@ -67,9 +85,7 @@ BenchResult run(const Options& options) {
   result.date = now_utc();
   result.program = {program_version(), program_commit(), options.arguments};
   result.machine = this_machine();
-  result.protocol = {
-      .clock = "steady clock of the processor, from an idle device until it has finished",
-      .rounds = options.rounds};
+  result.protocol.rounds = options.rounds;
 
   const auto start = std::chrono::steady_clock::now();
   Scene scene = read(options.scene);
@@ -85,6 +101,7 @@ BenchResult run(const Options& options) {
   const gl::Context context = gl::Context::create({.backend = options.contestants.drawing.backend});
   throw_if_interrupted();
   result.device = device_of(context);
+  const std::function<double()> clock = choose_clock(options, result);
   const Contestants contestants = make_contestants(options.contestants, context, scene);
   result.notes.insert(result.notes.end(), contestants.notes.begin(), contestants.notes.end());
   result.load = load_of(contestants, read_ms.count());
@@ -93,6 +110,7 @@ BenchResult run(const Options& options) {
   add_measurements(result, measure(contestants, views.views,
                                    {.rounds = options.rounds,
                                     .most_seconds = options.seconds,
+                                    .clock = clock,
                                     .folder = options.reports.folder}));
   return result;
 }
@@ -151,6 +169,9 @@ written.)");
                    "default, 0 for no limit")
       ->check(CLI::Range(0.0, 1e6))
       ->option_text("S");
+  command->add_flag("--processor-time", options->processor_time,
+                    "processor time of all threads instead of time that passed: for ratios on a "
+                    "busy machine; software OpenGL only");
   add_bench_report_options(*command, options->reports);
   command->add_flag("--json", options->json, "the result as JSON on standard output");
   command->callback([options, &action] { action = [options] { return bench(*options); }; });

@@ -116,7 +116,12 @@ Setting setting_of(const std::string& name, PlanPreferences plan) {
   }
   plan.specialise = true;
   if (name == triangles) plan.site = ShadingSite::nowhere;
-  return {plan, {}};
+  std::string kept;
+  for (const LeaveOutName& known : leave_out_names())
+    if (!plan.leave_out.has(known.what))
+      kept += (kept.empty() ? "" : ",") + std::string(known.name);
+  if (kept.empty()) return {plan, {}};
+  return {plan, {"--keep", kept}};
 }
 
 std::unique_ptr<Contestant> make_contestant(const std::string& name,

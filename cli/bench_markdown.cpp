@@ -24,10 +24,11 @@ std::string ms(double value) { return fmt::format("{:.{}f}", value, value < 10 ?
 
 std::string bench_markdown(const BenchResult& result) {
   std::string text = fmt::format(
-      "{}, {} triangles; {}{}, {}, {} cores; commit {}, {}.\n\n", cell(result.scene.name),
-      counted(result.scene.triangles), cell(result.device.renderer),
+      "{}, {} triangles; {}{}, {}, {} cores; commit {}, {}. Times: "
+      "{}.\n\n",
+      cell(result.scene.name), counted(result.scene.triangles), cell(result.device.renderer),
       result.device.software ? " (software)" : "", cell(result.machine.cpu), result.machine.cores,
-      cell(result.program.commit), result.date);
+      cell(result.program.commit), result.date, cell(result.protocol.clock));
   text += fmt::format(
       "| cameras | size | configuration | median ms | best ms | p95 ms | p99 ms | FPS | 1 % low | "
       "A/A spread | times as fast as {} |\n|---|---|---|---|---|---|---|---|---|---|---|\n",

@@ -101,6 +101,7 @@ std::vector<BenchMeasurement> measure(const Contestants& contestants,
   for (std::size_t i = 0; i < views.size(); ++i) {
     const std::string detail = views[i].camera_set + " " + views[i].size;
     BenchmarkOptions benchmark{.rounds = options.rounds};
+    benchmark.clock = options.clock;
     benchmark.least_sample_ms = least_sample_ms;
     benchmark.least_warm_up_seconds = least_warm_up_seconds;
     benchmark.progress = [&](double fraction) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "cli/bench_contestants.hpp"
@@ -12,7 +13,8 @@ namespace tureen::cli {
 
 struct MeasureOptions {
   int rounds = 5;
-  double most_seconds = 0;       // for all together; 0: no limit
+  double most_seconds = 0;                  // for all together; 0: no limit
+  std::function<double()> clock = nullptr;  // of BenchmarkOptions
   std::filesystem::path folder;  // of the pictures that prove what was timed; empty: none
 };
 

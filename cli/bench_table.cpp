@@ -82,6 +82,7 @@ std::vector<std::string> bench_table(const BenchResult& result) {
                   "device {:.1f} MiB",
                   counted(result.scene.triangles), ms_text(load.read_ms), ms_text(load.plan_ms),
                   ms_text(load.upload_ms), load.peak_mib, load.device_mib));
+  lines.push_back("Times: " + result.protocol.clock);
   const BenchMeasurement* first = nullptr;
   for (const BenchMeasurement& each : result.measurements) {
     if (!first || !same_views(*first, each)) {

@@ -45,7 +45,7 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
           "docs/leaving-out.md with commas between, as alpha-test,background")
       ->option_text("NAMES")
       ->delimiter(',')
-      ->expected(1);
+      ->allow_extra_args(false);
 }
 
 }  // namespace tureen::cli

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 
 namespace tureen {
 
@@ -144,6 +145,8 @@ class Run {
 };
 
 }  // namespace
+
+double processor_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 BenchmarkResult run_benchmark(std::span<const Entrant> entrants, std::span<const Camera> cameras,
                               const BenchmarkOptions& options) {

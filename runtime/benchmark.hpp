@@ -76,6 +76,12 @@ struct BenchmarkResult {
   double seconds = 0;  // all of it
 };
 
+/// A clock for BenchmarkOptions: seconds of processor time that all threads of this program have
+/// used. Where the processor draws, other programs hardly disturb it, and ratios can be measured on
+/// a busy machine; threads that wait cost nothing, so it is not how long a frame takes. Says
+/// nothing of a GPU, and is the time of the wall on Windows.
+double processor_seconds();
+
 /// Asserts that there are entrants, cameras and at least one round. Leaves no frame in flight. The
 /// last sample of each entrant showed the last camera.
 BenchmarkResult run_benchmark(std::span<const Entrant> entrants, std::span<const Camera> cameras,

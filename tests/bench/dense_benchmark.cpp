@@ -3,8 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
-#include <functional>
 
 #include "bench/dense_soup.hpp"
 #include "bench/plain_renderer.hpp"
@@ -36,9 +34,11 @@ std::vector<Camera> views_around(const TriangleSoup& soup, glm::dvec3 up, int wi
   return cameras;
 }
 
-/// Seconds of processor time of all threads: what a busy machine leaves meaningful, with
-/// LP_NUM_THREADS=0.
-double processor_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
+std::size_t differing_pixels(const Image8& a, const Image8& b) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) count += a.pixels[i] != b.pixels[i] ? 1 : 0;
+  return count;
+}
 
 struct Options {
   std::size_t triangles = 2000000;
@@ -49,31 +49,34 @@ struct Options {
 void measure(const Scene& base, const Options& options) {
   const auto& [triangles, rounds, width, height, processor_time] = options;
   const TriangleSoup soup = dense_soup(std::get<TriangleSoup>(base.primitives), triangles);
-  gl::Context context = gl::Context::create({});
+  const gl::Context context = gl::Context::create({});
   PlainRenderer plain(soup);
-  Renderer whole(context, soup, glm::dvec3(0), {.plan = {.specialise = false}});
-  Renderer ours(context, soup, glm::dvec3(0));
+  const glm::vec4 black(0, 0, 0, 1);
+  Renderer whole(context, soup, glm::dvec3(0),
+                 {.plan = {.specialise = false}, .background = black});
+  Renderer ours(context, soup, glm::dvec3(0), {.background = black});
   const auto finish = [] { glFinish(); };
   const std::vector<Entrant> entrants = {
       {"plain", [&](const Camera& camera) { plain.draw(camera); }, finish},
       {"nothing left out", [&](const Camera& camera) { whole.draw(camera); }, finish},
       {"our plan", [&](const Camera& camera) { ours.draw(camera); }, finish}};
   const auto cameras = views_around(soup, base.info.up, width, height);
-  const BenchmarkResult result =
-      run_benchmark(entrants, cameras,
-                    {.rounds = rounds,
-                     .self_test = processor_time ? BenchmarkOptions::SelfTest::leave_out
-                                                 : BenchmarkOptions::SelfTest::run,
-                     .clock = processor_time ? processor_seconds : std::function<double()>()});
-  std::printf("%s; %zu triangles, %d x %d, %d rounds of %zu views, A/A spread %.1f %%\n\n",
-              context.capabilities().renderer.c_str(), soup.triangles.size(), width, height,
-              result.rounds, cameras.size(), 100 * result.aa_spread);
+  const BenchmarkResult result = run_benchmark(
+      entrants, cameras, {.rounds = rounds, .clock = processor_time ? processor_seconds : nullptr});
+  std::printf("%s, %s; %zu triangles, %d x %d, %d rounds of %zu views, A/A spread %.1f %%\n\n",
+              context.capabilities().renderer.c_str(),
+              processor_time ? "processor time of all threads" : "time that passed",
+              soup.triangles.size(), width, height, result.rounds, cameras.size(),
+              100 * result.aa_spread);
   for (const std::string& sentence : ours.plan().sentences) std::printf("- %s\n", sentence.c_str());
-  std::printf("\n| renderer | ms | times as fast as plain |\n|---|---|---|\n");
+  std::printf("- %zu of %d pixels of the last view differ from the plain renderer's\n",
+              differing_pixels(plain.read_color(), ours.read_color()), width * height);
+  std::printf("\n| renderer | ms | spread | times as fast as plain |\n|---|---|---|---|\n");
   const double baseline = statistics_of(result.entrants[0].times).min_of_medians;
   for (const EntrantResult& entrant : result.entrants) {
-    const double ms = statistics_of(entrant.times).min_of_medians;
-    std::printf("| %s | %.1f | %.2f |\n", entrant.name.c_str(), ms, baseline / ms);
+    const FrameStatistics statistics = statistics_of(entrant.times);
+    std::printf("| %s | %.1f | %.1f %% | %.2f |\n", entrant.name.c_str(), statistics.min_of_medians,
+                100 * statistics.spread, baseline / statistics.min_of_medians);
   }
 }
 
@@ -90,7 +93,7 @@ int main(int argc, char** argv) {
   app.add_option("--width", options.width)->check(CLI::PositiveNumber);
   app.add_option("--height", options.height)->check(CLI::PositiveNumber);
   app.add_flag("--processor-time", options.processor_time,
-               "processor time instead of wall time (with LP_NUM_THREADS=0, on a busy machine)");
+               "of all threads, instead of time that passed: for a busy machine; software only");
   CLI11_PARSE(app, argc, argv);
   try {
     tureen::testing::measure(tureen::read_scene(base), options);

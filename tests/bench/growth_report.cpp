@@ -39,7 +39,8 @@ constexpr Axis axes[] = {
     {"overdraw", "layers", [](const GrowthPoint& p) { return double(p.layers); }}};
 
 std::string device_of(const Growth& growth) {
-  return growth.renderer + (growth.software ? " (software)" : "");
+  return growth.renderer + (growth.software ? " (software)" : "") +
+         (growth.processor_time ? ", processor time of all threads" : "");
 }
 
 cli::Plot series_plot(const Growth& growth, const Axis& axis) {
@@ -122,6 +123,7 @@ Json to_json(const Growth& growth) {
           {"context", growth.context},
           {"renderer", growth.renderer},
           {"software", growth.software},
+          {"processor_time", growth.processor_time},
           {"points", points},
           {"fits", fits}};
 }

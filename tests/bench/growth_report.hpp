@@ -23,6 +23,7 @@ struct GrowthPoint {
 struct Growth {
   std::string commit, cpu, context, renderer;
   bool software = false;
+  bool processor_time = false;  // times are that, of all threads
   std::vector<GrowthPoint> points = {};
   std::map<std::string, CostFit> fits = {};  // by kind; without those that could not be fitted
 };

@@ -4,7 +4,6 @@
 // timed by the processor time of all its threads, which other programs hardly disturb.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -31,8 +30,6 @@ struct Settings {
     return rows.empty() || std::find(rows.begin(), rows.end(), name_of(what)) != rows.end();
   }
 };
-
-double processor_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 /// Two preferences of one scene against each other. Prints how many times as long a frame takes
 /// without what the first leaves out.

@@ -90,4 +90,6 @@ void PlainRenderer::draw(const Camera& camera) {
   glDrawArrays(GL_TRIANGLES, 0, vertex_count_);
 }
 
+Image8 PlainRenderer::read_color() const { return read_pixels(framebuffer_.id(), width_, height_); }
+
 }  // namespace tureen::testing

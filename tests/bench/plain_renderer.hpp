@@ -5,6 +5,7 @@
 #include "runtime/gl/objects.hpp"
 #include "runtime/gl/program.hpp"
 #include "soup/camera.hpp"
+#include "soup/image.hpp"
 #include "soup/triangle_soup.hpp"
 
 namespace tureen::testing {
@@ -16,7 +17,8 @@ class PlainRenderer {
 
   /// Into a target of its own, on black, with an ordinary 24-bit depth buffer.
   void draw(const Camera& camera);
-  GLuint color_framebuffer() const { return framebuffer_.id(); }
+  /// What it drew last, rows from the top.
+  Image8 read_color() const;
 
  private:
   void resize(int width, int height);

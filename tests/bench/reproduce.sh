@@ -5,12 +5,13 @@ set -uo pipefail
 
 bin=build/release/bin out=build/bench data=../shared/data
 all_parts=(load frames leave_out growth tradeoff agreement step)
-quick='' check='' ficus='' fox='' photographs=''
+quick='' processor='' check='' ficus='' fox='' photographs=''
 parts=() done_parts=() skipped=() failed=()
 
 usage() {
   cat <<'END'
-usage: ./dev bench [--quick] [--ficus SOUP] [--fox SOUP [--photographs DATASET]] [PART..]
+usage: ./dev bench [--quick] [--processor-time] [--ficus SOUP] [--fox SOUP]
+                   [--photographs DATASET] [PART..]
 
 Measures and writes tables, plots and pages into build/bench; all parts without a PART:
   load        how long a soup of 2,000,000 triangles takes to load from each format, and its memory
@@ -22,6 +23,9 @@ Measures and writes tables, plots and pages into build/bench; all parts without 
   step        what a training step costs
 
   --quick        everything small: whether it works, not a measurement
+  --processor-time
+                 frames, leave_out and growth by the processor time of all threads instead of the time
+                 that passed: ratios on a busy machine, without a GPU (leave_out does so by itself there)
   --ficus SOUP   a soup of 2D Triangle Splatting; ../shared/data/soups/ficus_2dts.off where it is there
   --fox SOUP     a soup trained from photographs (docs/benchmarks.md, Photographs)
   --photographs  what it was trained from; ../shared/data/photos/fox where it is there
@@ -43,6 +47,7 @@ skip() {
 while (($#)); do
   case $1 in
     --quick) quick=1 ;;
+    --processor-time) processor=1 ;;
     --check) check=1 ;; # of the arguments alone
     --ficus | --fox | --photographs)
       (($# > 1)) || die "$1 wants a path"
@@ -119,13 +124,19 @@ part_frames() {
     esac
     options+=(--rounds 5 --seconds 120)
     [[ -z $quick ]] || options=(--size 160x90 --rounds 1 --seconds 1)
+    [[ -z $processor ]] || options+=(--processor-time)
     measure "frames-$name" "$bin/tureen" bench "$path" "${options[@]}" -o "$out/frames-$name"
     [[ $name == fox && -n $photographs ]] || continue
     options=(--sizes 'full,half,quarter' --rounds 5 --seconds 120)
     [[ -z $quick ]] || options=(--sizes quarter --rounds 1 --seconds 1)
+    [[ -z $processor ]] || options+=(--processor-time)
     measure "frames-fox-photographs" "$bin/tureen" bench "$path" "$photographs" "${options[@]}" \
       -o "$out/frames-fox-photographs"
   done
+  options=()
+  [[ -z $quick ]] || options=(--triangles 50000 --rounds 1 --width 160 --height 90)
+  [[ -z $processor ]] || options+=(--processor-time)
+  measure frames-dense "$bin/dense_benchmark" "${ficus:-examples/soup.glb}" "${options[@]}"
 }
 
 part_leave_out() {
@@ -138,7 +149,8 @@ part_leave_out() {
 }
 
 part_growth() {
-  measure growth "$bin/growth_benchmark" -o "$out/growth" ${quick:+--quick}
+  measure growth "$bin/growth_benchmark" -o "$out/growth" ${quick:+--quick} \
+    ${processor:+--processor-time}
 }
 
 part_tradeoff() {
@@ -184,7 +196,7 @@ esac
 for part in "${parts[@]}"; do "part_$part"; done
 
 {
-  echo "# Measured $(date -u +%Y-%m-%dT%H:%MZ)${quick:+, --quick: whether it works, not a measurement}"
+  echo "# Measured $(date -u +%Y-%m-%dT%H:%MZ)${quick:+, --quick: whether it works, not a measurement}${processor:+, by processor time}"
   echo
   echo "Commit $(git describe --always --dirty 2>/dev/null || echo unknown), $(nproc) cores."
   for name in "${done_parts[@]}"; do echo "- $name: $name.txt, $name.log"; done

@@ -99,6 +99,22 @@ TEST_F(Bench, ThePixelsThatWereTimedAreThoseOfRender) {
   EXPECT_EQ(all(json["measurements"], "configuration"), all(json["configurations"], "name"));
 }
 
+TEST_F(Bench, WhatIsKeptIsSaidAsAnOptionOfRender) {
+  const nlohmann::json json = bench_json({"--keep", "background,alpha-test"});
+  EXPECT_THAT(json["configurations"][0]["options"], ElementsAre("--keep", "alpha-test,background"));
+  EXPECT_THAT(json["configurations"][1]["options"], ElementsAre("--no-specialise"));
+  for (const std::string sentence : json["configurations"][0]["plan"])
+    EXPECT_THAT(sentence, Not(HasSubstr("background")));
+}
+
+TEST_F(Bench, ProcessorTimeIsSaidWhereItIsWhatWasMeasured) {
+  const std::string clock =
+      bench_json({"--processor-time", "--only", "tureen"})["protocol"]["clock"];
+  EXPECT_THAT(clock, HasSubstr("processor time of all threads"));
+  const ChildResult steady = bench({"--only", "tureen"});
+  EXPECT_THAT(steady.err, HasSubstr("Times: steady clock"));
+}
+
 TEST_F(Bench, WhoTakesPartCanBeChosen) {
   EXPECT_THAT(all(bench_json()["configurations"], "name"),
               ElementsAre("tureen", "generic", "published"));

@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 namespace tureen {
 namespace {
@@ -175,6 +177,18 @@ TEST(Benchmark, ProgressGrowsToTheEndAndMayAbandon) {
 
   options.progress = [](double) { throw std::runtime_error("enough"); };
   EXPECT_THROW(run_benchmark(entrants, cameras(2), options), std::runtime_error);
+}
+
+TEST(Benchmark, ProcessorTimePassesWithWorkAndNotWithWaiting) {
+  const double start = processor_seconds();
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  const double waited = processor_seconds();
+#ifndef _WIN32  // which counts the time of the wall
+  EXPECT_LT(waited - start, 0.05);
+#endif
+  double worked = waited;
+  while (worked < waited + 0.01) worked = processor_seconds();  // would never end otherwise
+  EXPECT_GE(waited, start);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 
 #include "runtime/renderer.hpp"
 #include "support/contexts.hpp"
@@ -170,6 +171,30 @@ std::vector<Case> cases_without_rims() {
 INSTANTIATE_TEST_SUITE_P(All, LeavingOut, testing::ValuesIn(cases()), case_name);
 INSTANTIATE_TEST_SUITE_P(All, LeavingOutPicture, testing::ValuesIn(cases_without_rims()),
                          case_name);
+
+/// Has no name, as nobody could keep it: such a face covers no pixel centre.
+TEST(FacesWithoutArea, AreSaidAndChangeNothing) {
+  for (const std::uint64_t seed : {1, 2}) {
+    const TriangleSoup soup = random_soup(seed, {.kind = Kind::face_colors, .faces = 300});
+    TriangleSoup more = soup;
+    auto& rgba = std::get<FaceColors>(more.appearance).rgba;
+    more.positions.emplace_back(std::numeric_limits<float>::infinity(), 0.0f, 0.0f);
+    const auto infinite = std::uint32_t(more.positions.size() - 1);
+    for (const glm::uvec3& t : soup.triangles) {
+      more.triangles.emplace_back(t.x, t.y, t.y);
+      more.triangles.emplace_back(t.x, t.y, infinite);
+      rgba.resize(more.triangles.size(), glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
+    }
+    ASSERT_EQ(defect(more), std::nullopt);
+    EXPECT_THAT(plan_of(more).sentences,
+                Contains("left out: 600 faces without area or with corners that are not finite"));
+    Random random(seed);
+    const Camera camera = random_camera(random, width, height);
+    const Difference found = difference(picture(more, camera, {}), picture(soup, camera, {}));
+    EXPECT_EQ(found.channels, 0u);
+    EXPECT_GT(found.pixels, std::size_t(width * height / 20)) << "there is nothing to compare";
+  }
+}
 
 TEST(LeaveOutNames, AreFoundAgain) {
   for (const LeaveOutName& known : leave_out_names()) {
