@@ -144,6 +144,7 @@ Entrant Contestant::entrant() {
 
 void add_contestant_options(CLI::App& command, ContestantOptions& options) {
   add_drawing_options(command, options.drawing);
+  add_drawing_scale(command, options.drawing);
   command
       .add_option(
           "--only", options.only,

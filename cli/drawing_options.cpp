@@ -19,6 +19,14 @@ LeaveOut named(const std::string& name) {
 
 }  // namespace
 
+namespace {
+
+RenderPreset& preset_of(DrawingOptions& options) {
+  return options.plan.preset ? *options.plan.preset : options.plan.preset.emplace();
+}
+
+}  // namespace
+
 void add_drawing_options(CLI::App& command, DrawingOptions& options) {
   add_choice<gl::Backend>(command, "--context", options.backend,
                           {{"auto", gl::Backend::automatic},
@@ -46,6 +54,20 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
       ->option_text("NAMES")
       ->delimiter(',')
       ->allow_extra_args(false);
+  CLI::Option* supersample = command.add_option_function<int>(
+      "--supersample", [&options](int n) { preset_of(options).supersampling = n; },
+      "smooth edges: N x N samples a pixel, 1 to 8; costs N x N times the pixels");
+  supersample->check(CLI::Range(1, 8))->option_text("N");
+}
+
+void add_drawing_scale(CLI::App& command, DrawingOptions& options) {
+  command
+      .add_option_function<double>(
+          "--scale", [&options](double scale) { preset_of(options).resolution_scale = scale; },
+          "faster and blurred: draw S of the rows and columns, 0.25 to 1, and enlarge")
+      ->check(CLI::Range(0.25, 1.0))
+      ->excludes(command.get_option("--supersample"))
+      ->option_text("S");
 }
 
 }  // namespace tureen::cli

@@ -13,8 +13,12 @@ struct DrawingOptions {
   PlanPreferences plan = {};
 };
 
-/// --context, --pipeline, --no-specialise and --keep. `options` must live until the arguments are
-/// parsed.
+/// --context, --pipeline, --no-specialise, --keep and --supersample, which makes a preset.
+/// `options` must live until the arguments are parsed.
 void add_drawing_options(CLI::App& command, DrawingOptions& options);
+
+/// --scale, which makes a preset, too; after add_drawing_options. Not where a dataset's photographs
+/// have a --scale of their own.
+void add_drawing_scale(CLI::App& command, DrawingOptions& options);
 
 }  // namespace tureen::cli

@@ -162,6 +162,7 @@ Examples:
   tureen render soup.glb --orbit 8 -o orbit_%02d.png      and a contact_sheet.png
   tureen render soup.glb --eye 3,0,1 --target 0,0,0.5 --up 0,0,1 --fov 35
   tureen render soup.glb --camera transforms.json:12 --size 540x960
+  tureen render soup.glb --supersample 4 -o smooth.png    16 samples a pixel
   tureen render soup.glb --frames 100 --json              milliseconds a frame
   tureen render soup.glb --pipeline published --frames 100 --json
                                                           against the baseline
@@ -180,6 +181,7 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
                    "0 to 1; the scene's own by default")
       ->option_text("COLOR");
   add_drawing_options(*command, options->drawing);
+  add_drawing_scale(*command, options->drawing);
   command
       ->add_option("--frames", options->frames,
                    "draw so many frames more, after a warm-up, and tell the time of each")

@@ -1,6 +1,7 @@
 // A way to turn a planned soup into pixels of a target. Internal to runtime/: users want Renderer.
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <memory>
@@ -31,13 +32,19 @@ class Pipeline {
 
   /// The framebuffer with the finished colours, RGBA8, row 0 at the bottom.
   virtual GLuint color_framebuffer() const = 0;
-  /// The framebuffer with (slot, barycentrics) as RG32UI, or 0 where the pipeline has none.
+  /// What it draws into: a GL_TEXTURE_2D, nearest sampling.
+  virtual GLuint color_texture() const = 0;
+  /// The framebuffer with (slot, barycentrics) as RG32UI, or 0 where the pipeline has none; of
+  /// sample_size().
   virtual GLuint visibility_framebuffer() const { return 0; }
+  /// How many samples wide and high the geometry is drawn: the picture's own size but for pipelines
+  /// that resample.
+  virtual glm::ivec2 sample_size() const = 0;
   /// Buffers and textures of the scene, not the targets.
   virtual std::size_t device_bytes() const = 0;
 
   /// Later frames tell their passes to this timer, or to none. It must outlive them.
-  void time_passes(gl::PassTimer* timer) { timer_ = timer; }
+  virtual void time_passes(gl::PassTimer* timer) { timer_ = timer; }
 
  protected:
   gl::PassTimer* timer_ = nullptr;

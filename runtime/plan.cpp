@@ -1,6 +1,7 @@
 #include "runtime/plan.hpp"
 
 #include "runtime/color_mlp_source.hpp"
+#include "runtime/drawing_knobs.hpp"
 #include "runtime/plan_draft.hpp"
 #include "soup/error.hpp"
 
@@ -16,14 +17,14 @@ void choose_site(PlanDraft& draft) {
                      (std::holds_alternative<UvTextures>(draft.soup.appearance) && !plan.color_mlp);
   const bool forward =
       cheap && (draft.may(LeaveOut::shading_pass) || !draft.preferences.specialise);
-  plan.site =
-      draft.preferences.site.value_or(forward ? ShadingSite::forward : ShadingSite::deferred);
+  const std::optional<ShadingSite> wanted = wanted_site(draft.preferences);
+  plan.site = wanted.value_or(forward ? ShadingSite::forward : ShadingSite::deferred);
   plan.depth_rejects_background =
       draft.may(LeaveOut::background) && plan.site == ShadingSite::deferred;
   if (plan.depth_rejects_background)
     draft.leave_out(LeaveOut::background,
                     "shading of background pixels, the depth test rejects them (exact)");
-  if (draft.preferences.specialise && plan.site == ShadingSite::forward)
+  if (draft.preferences.specialise && !wanted && plan.site == ShadingSite::forward)
     draft.leave_out(LeaveOut::shading_pass,
                     "the shading pass, colours are cheap enough to write at once (exact)");
 }
@@ -65,19 +66,21 @@ void plan_appearance(PlanDraft& draft, const UvTextures& textures) {
 
 RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
                      const PlanPreferences& preferences) {
-  if (preferences.preset && !is_faithful(*preferences.preset))
+  if (preferences.preset && !keeps_data(*preferences.preset))
     throw UsageError("this runtime does not draw with a preset yet: " +
                      describe(*preferences.preset));
   PlanDraft draft{soup, preferences, {}};
   draft.plan.pipeline = preferences.pipeline;
   if (preferences.pipeline == PipelineKind::published) {
     plan_published(draft);
+    if (preferences.preset) obey_drawing_knobs(*preferences.preset, limits, draft.plan);
     return std::move(draft.plan);
   }
   draft.plan.reversed_depth = limits.clip_control && preferences.reversed_depth;
   plan_faces(draft);
   std::visit([&](const auto& appearance) { plan_appearance(draft, appearance); }, soup.appearance);
   choose_site(draft);
+  if (preferences.preset) obey_drawing_knobs(*preferences.preset, limits, draft.plan);
   describe_drawing(draft);
   return std::move(draft.plan);
 }

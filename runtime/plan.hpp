@@ -23,6 +23,8 @@ struct DeviceLimits {
   int max_texture_size = 4096;
   int max_array_layers = 256;
   bool clip_control = false;
+  bool half_float_targets = true;              // RGBA16F can be drawn into
+  std::vector<int> sample_counts = {2, 4, 8};  // that multisampling has, rising
 };
 
 enum class PipelineKind {
@@ -91,13 +93,24 @@ struct RenderPlan {
 
   /// What of LeaveOut this plan leaves out.
   LeaveOutSet left_out;
+  /// What a deferred plan stores of the nearest fragment; features only where color_mlp and
+  /// depth_rejects_background.
+  RenderPreset::FeatureStorage feature_storage = RenderPreset::FeatureStorage::visibility;
+  /// Alpha to coverage of so many samples a pixel instead of the alpha test; 0: none. Forward.
+  int coverage_samples = 0;
+  /// Rows and columns drawn for each of the picture's, and samples a pixel and axis: one of the two
+  /// is 1.
+  double resolution_scale = 1.0;
+  int supersampling = 1;
+
   /// For people: how the scene is drawn, then a sentence for each thing left out, with the measured
-  /// margin.
+  /// margin, and for each knob ("knob: ..").
   std::vector<std::string> sentences;
 };
 
 /// The soup must have no defect(). Throws UsageError when the published pipeline is asked for and
-/// cannot draw this soup, and for knobs that are not obeyed.
+/// cannot draw this soup, and for knobs that are not obeyed; DeviceLimitError for alpha to coverage
+/// where there is no multisampling.
 RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
                      const PlanPreferences& preferences = {});
 

@@ -24,6 +24,8 @@ void plan_rims(PlanDraft& draft, const LatticeTexture& texture) {
   const TriangleSoup& soup = draft.soup;
   const std::size_t count = plan.faces.size() - plan.opaque_count;
   if (count == 0 || !draft.may(LeaveOut::transparent_rims)) return;
+  // Alpha to coverage shows a cut-out up to half a pixel beyond the edge of what exists.
+  if (draft.preferences.preset && draft.preferences.preset->alpha_to_coverage > 0) return;
   const std::span<const std::uint32_t> faces(&plan.faces[plan.opaque_count], count);
   std::vector<FacePart> parts(count, whole_face);
   std::size_t smaller = 0;

@@ -70,6 +70,8 @@ class PublishedPipeline final : public Pipeline {
   }
 
   GLuint color_framebuffer() const override { return color_framebuffer_.id(); }
+  GLuint color_texture() const override { return color_.id(); }
+  glm::ivec2 sample_size() const override { return {width_, height_}; }
   std::size_t device_bytes() const override { return geometry_.device_bytes() + lut_bytes_; }
 
  private:

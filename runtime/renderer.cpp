@@ -6,6 +6,7 @@
 #include "runtime/clip_range.hpp"
 #include "runtime/gl/state.hpp"
 #include "runtime/pipeline.hpp"
+#include "runtime/resampled_pipeline.hpp"
 #include "runtime/targets.hpp"
 #include "soup/error.hpp"
 
@@ -24,8 +25,29 @@ struct Renderer::State {
 DeviceLimits device_limits(const gl::Capabilities& capabilities) {
   return {.max_texture_size = capabilities.max_texture_size,
           .max_array_layers = capabilities.max_array_layers,
-          .clip_control = capabilities.clip_control};
+          .clip_control = capabilities.clip_control,
+          .half_float_targets = capabilities.half_float_targets,
+          .sample_counts = capabilities.sample_counts};
 }
+
+namespace {
+
+std::unique_ptr<Pipeline> make_pipeline(const gl::Capabilities& capabilities,
+                                        const DeviceLimits& limits, const TriangleSoup& soup,
+                                        const RenderPlan& plan) {
+  std::unique_ptr<Pipeline> pipeline =
+      plan.pipeline == PipelineKind::published
+          ? make_published_pipeline(capabilities, limits, soup, plan)
+          : make_tureen_pipeline(capabilities, limits, soup, plan);
+  const PictureLimit limit{capabilities.api, capabilities.max_picture_side};
+  if (plan.supersampling > 1)
+    pipeline = make_supersampled(std::move(pipeline), plan.supersampling, limit);
+  if (plan.resolution_scale < 1)
+    pipeline = make_upscaled(std::move(pipeline), plan.resolution_scale, limit);
+  return pipeline;
+}
+
+}  // namespace
 
 Renderer::Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
                    const RenderOptions& options)
@@ -45,9 +67,7 @@ Renderer::Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dv
   state_->background = options.background;
   state_->max_side = capabilities.max_picture_side;
   gl::use_plain_pixel_transfer();
-  state_->pipeline = state_->plan.pipeline == PipelineKind::published
-                         ? make_published_pipeline(capabilities, limits, soup, state_->plan)
-                         : make_tureen_pipeline(capabilities, limits, soup, state_->plan);
+  state_->pipeline = make_pipeline(capabilities, limits, soup, state_->plan);
 }
 
 Renderer::~Renderer() = default;
@@ -65,6 +85,7 @@ void Renderer::draw(const Camera& camera) {
                            std::to_string(camera.height) + " is larger than this device draws: " +
                            std::to_string(state_->max_side) + " pixels a side");
   if (camera.width != state_->width || camera.height != state_->height) {
+    state_->width = state_->height = 0;  // should it throw, the next frame starts anew
     state_->pipeline->resize(camera.width, camera.height);
     state_->width = camera.width;
     state_->height = camera.height;
@@ -85,17 +106,19 @@ Image8 Renderer::read_color() const {
   return read_pixels(state_->pipeline->color_framebuffer(), state_->width, state_->height);
 }
 
+glm::ivec2 Renderer::sample_size() const { return state_->pipeline->sample_size(); }
+
 std::vector<std::uint32_t> Renderer::read_faces() const {
   const GLuint framebuffer = state_->pipeline->visibility_framebuffer();
   if (!framebuffer) return {};
-  const auto width = std::size_t(state_->width), height = std::size_t(state_->height);
+  const glm::ivec2 size = sample_size();
+  const auto width = std::size_t(size.x), height = std::size_t(size.y);
   // Four channels, though two are stored: ES 3.0 promises to read integers in no other way.
   std::vector<glm::uvec4> fragments(width * height);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
   glReadBuffer(GL_COLOR_ATTACHMENT0);
   gl::use_plain_pixel_transfer();
-  glReadPixels(0, 0, state_->width, state_->height, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
-               fragments.data());
+  glReadPixels(0, 0, size.x, size.y, GL_RGBA_INTEGER, GL_UNSIGNED_INT, fragments.data());
   std::vector<std::uint32_t> faces(fragments.size());
   for (std::size_t y = 0; y < height; ++y)
     for (std::size_t x = 0; x < width; ++x) {

@@ -10,6 +10,7 @@
 // clip control is left at GL's default.
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <memory>
@@ -59,7 +60,7 @@ class Renderer {
 
   /// Draws one frame of camera.width x camera.height into a target of its own; returns before the
   /// device has finished. Asserts a positive size; throws DeviceLimitError for one beyond
-  /// Capabilities::max_picture_side.
+  /// Capabilities::max_picture_side, in pixels or in samples.
   void draw(const Camera& camera);
 
   /// Waits for the device.
@@ -72,8 +73,12 @@ class Renderer {
   /// The last frame. Row 0 is the top row. Waits for the device. Asserts that there was a frame.
   Image8 read_color() const;
 
-  /// The face that each pixel of the last frame shows, row 0 on top, no_face where none does. Empty
-  /// when the plan shades forward.
+  /// Columns and rows of samples that the last frame was drawn with: the picture's own size but for
+  /// plans with a resolution scale or supersampling.
+  glm::ivec2 sample_size() const;
+
+  /// The face that each sample of the last frame shows, sample_size() of them, row 0 on top,
+  /// no_face where none does. Empty when the plan shades forward or stores features.
   std::vector<std::uint32_t> read_faces() const;
 
   /// Copies the last frame into a framebuffer of the same size (0 is the window).

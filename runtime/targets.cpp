@@ -30,11 +30,15 @@ gl::Framebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint de
   }
   if (depth) glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
   glDrawBuffers(static_cast<GLsizei>(attachments.size()), attachments.data());
+  require_complete_framebuffer();
+  return framebuffer;
+}
+
+void require_complete_framebuffer() {
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
     throw DeviceLimitError(
         "the device has no memory for the targets of a picture of this size: a smaller one would "
         "fit");
-  return framebuffer;
 }
 
 Image8 read_pixels(GLuint framebuffer, int width, int height) {

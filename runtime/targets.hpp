@@ -15,6 +15,7 @@ struct TargetFormat {
 
 namespace target_formats {
 inline constexpr TargetFormat rgba8{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
+inline constexpr TargetFormat rgba16f{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT};  // not on every ES 3.0
 inline constexpr TargetFormat rg32ui{GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT};
 inline constexpr TargetFormat depth24{GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT};
 inline constexpr TargetFormat depth32f{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT};
@@ -23,12 +24,15 @@ inline constexpr TargetFormat depth32f{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT
 /// A texture to draw into; nearest sampling.
 gl::Texture make_target(const TargetFormat& format, int width, int height);
 
-/// Throws DeviceLimitError when the device cannot: all formats here are ones that OpenGL requires,
-/// so it is memory that a picture of this size lacks. `colors` become attachments 0, 1, ..; all of
-/// them are drawn to.
+/// `colors` become attachments 0, 1, ..; all of them are drawn to. Leaves it bound. Throws as
+/// require_complete_framebuffer().
 gl::Framebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint depth);
 
 /// The RGBA8 pixels of a framebuffer's first color attachment, row 0 on top. Waits for the device.
 Image8 read_pixels(GLuint framebuffer, int width, int height);
+
+/// Throws DeviceLimitError when the framebuffer that is bound cannot be drawn to: plans use formats
+/// that OpenGL requires or the device has, so it is memory that a picture of this size lacks.
+void require_complete_framebuffer();
 
 }  // namespace tureen

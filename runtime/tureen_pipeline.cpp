@@ -1,6 +1,10 @@
-// Our frame: a visibility pass that names the winning fragment of each pixel, then a shading pass
-// over the covered pixels; or, for cheap appearances, colour at once.
+// Our frame: a geometry pass that stores the winning fragment of each pixel, its name or its
+// features, then a shading pass over the covered pixels; or colour at once.
+#include <optional>
+
 #include "runtime/appearance_upload.hpp"
+#include "runtime/coverage_target.hpp"
+#include "runtime/fragment_store.hpp"
 #include "runtime/geometry.hpp"
 #include "runtime/gl/state.hpp"
 #include "runtime/pipeline.hpp"
@@ -10,8 +14,6 @@
 namespace tureen {
 
 namespace {
-
-constexpr std::uint32_t no_slot = 0xffffffffu;
 
 class TureenPipeline final : public Pipeline {
  public:
@@ -23,9 +25,10 @@ class TureenPipeline final : public Pipeline {
         appearance_(upload_appearance(soup, plan, TexelLayout::of(limits))),
         geometry_(soup, plan.faces, plan.parts),
         nothing_(gl::VertexArray::create()) {
-    const char* fragment = plan.site == ShadingSite::forward    ? "forward.frag"
-                           : plan.site == ShadingSite::deferred ? "visibility.frag"
-                                                                : "nothing.frag";
+    const char* fragment = plan.site == ShadingSite::forward ? "forward.frag"
+                           : plan.site == ShadingSite::deferred
+                               ? FragmentStore::geometry_shader(plan.feature_storage)
+                               : "nothing.frag";
     const std::size_t cut_out = plan.faces.size() - plan.opaque_count;
     if (plan.opaque_count > 0)
       opaque_ = program(capabilities.api, "geometry.vert", fragment,
@@ -34,23 +37,30 @@ class TureenPipeline final : public Pipeline {
       cut_out_ = program(capabilities.api, "geometry.vert", fragment,
                          {{"ALPHA_TEST", "1"}, {"PARTS", plan.parts.empty() ? "0" : "1"}});
     if (plan.site == ShadingSite::deferred)
-      shading_ = program(capabilities.api, "full_screen.vert", "shading.frag",
+      shading_ = program(capabilities.api, "full_screen.vert",
+                         FragmentStore::shading_shader(plan.feature_storage),
                          {{"NO_FACE", "0xffffffffu"},
                           {"DEPTH_REJECTS_BACKGROUND", plan.depth_rejects_background ? "1" : "0"}});
+    if (plan.site == ShadingSite::forward && plan.coverage_samples > 0)
+      coverage_.emplace(capabilities.api);
     gl::check("TureenPipeline");
   }
 
   void resize(int width, int height) override {
     width_ = width;
     height_ = height;
-    depth_ = make_target(plan_.reversed_depth ? target_formats::depth32f : target_formats::depth24,
-                         width, height);
+    const TargetFormat& depth =
+        plan_.reversed_depth ? target_formats::depth32f : target_formats::depth24;
     color_ = make_target(target_formats::rgba8, width, height);
-    color_framebuffer_ = make_framebuffer({color_.id()}, depth_.id());
-    if (plan_.site == ShadingSite::deferred) {
-      visible_ = make_target(target_formats::rg32ui, width, height);
-      visibility_framebuffer_ = make_framebuffer({visible_.id()}, depth_.id());
+    if (coverage_) {
+      coverage_->resize({width, height, plan_.coverage_samples, depth.internal_format});
+      color_framebuffer_ = make_framebuffer({color_.id()}, 0);
+      return;
     }
+    depth_ = make_target(depth, width, height);
+    color_framebuffer_ = make_framebuffer({color_.id()}, depth_.id());
+    if (plan_.site == ShadingSite::deferred)
+      store_ = FragmentStore(plan_.feature_storage, width, height, depth_.id());
     gl::check("resize");
   }
 
@@ -58,7 +68,7 @@ class TureenPipeline final : public Pipeline {
     gl::use_plain_rasterisation(width_, height_);
     if (plan_.reversed_depth) set_clip_control(true);
     if (plan_.site == ShadingSite::deferred) {
-      draw_visibility(frame);
+      draw_store(frame);
       draw_shading(frame, background);
     } else {
       draw_forward(frame, background);
@@ -68,7 +78,9 @@ class TureenPipeline final : public Pipeline {
   }
 
   GLuint color_framebuffer() const override { return color_framebuffer_.id(); }
-  GLuint visibility_framebuffer() const override { return visibility_framebuffer_.id(); }
+  GLuint color_texture() const override { return color_.id(); }
+  glm::ivec2 sample_size() const override { return {width_, height_}; }
+  GLuint visibility_framebuffer() const override { return store_.visibility_framebuffer(); }
   std::size_t device_bytes() const override {
     return appearance_.device_bytes() + geometry_.device_bytes();
   }
@@ -78,7 +90,9 @@ class TureenPipeline final : public Pipeline {
                       const std::map<std::string, std::string>& constants) const {
     ShaderSource source{.file = fragment,
                         .constants = appearance_.constants,
-                        .generated = {{"appearance.glsl", appearance_.glsl}}};
+                        .generated = {{"appearance.glsl", appearance_.glsl},
+                                      {"network.glsl", appearance_.mlp.text}}};
+    source.constants["ALPHA_TO_COVERAGE"] = plan_.coverage_samples > 0 ? "1" : "0";
     source.constants.insert(constants.begin(), constants.end());
     return gl::Program(assemble({.file = vertex, .constants = constants, .generated = {}}, api),
                        assemble(source, api));
@@ -103,11 +117,11 @@ class TureenPipeline final : public Pipeline {
     glDepthFunc(plan_.reversed_depth ? GL_GREATER : GL_LESS);
   }
 
-  void draw_visibility(const FrameCamera& frame) {
-    const gl::TimedPass pass(timer_, "visibility");
-    glBindFramebuffer(GL_FRAMEBUFFER, visibility_framebuffer_.id());
-    const GLuint empty[4] = {no_slot, 0, 0, 0};
-    glClearBufferuiv(GL_COLOR, 0, empty);
+  void draw_store(const FrameCamera& frame) {
+    const gl::TimedPass pass(
+        timer_, plan_.feature_storage == RenderPreset::FeatureStorage::visibility ? "visibility"
+                                                                                  : "features");
+    store_.begin();
     clear_depth();
     draw_geometry(frame);
   }
@@ -115,6 +129,13 @@ class TureenPipeline final : public Pipeline {
   /// The only pass, also of ShadingSite::nowhere, which leaves the background's colour.
   void draw_forward(const FrameCamera& frame, const glm::vec4& background) {
     const gl::TimedPass pass(timer_, "forward");
+    if (coverage_) {
+      coverage_->begin(background);
+      clear_depth();
+      draw_geometry(frame);
+      coverage_->resolve_to(color_framebuffer_.id(), background);
+      return;
+    }
     glBindFramebuffer(GL_FRAMEBUFFER, color_framebuffer_.id());
     glClearBufferfv(GL_COLOR, 0, &background[0]);
     if (plan_.site == ShadingSite::nowhere) glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
@@ -182,11 +203,7 @@ class TureenPipeline final : public Pipeline {
     set_eye(shading_, frame.eye);
     shading_.set("background", background);
     shading_.set("background_depth", plan_.reversed_depth ? 0.0f : 1.0f);
-    const int unit = appearance_.unit_count();
-    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-    glBindTexture(GL_TEXTURE_2D, visible_.id());
-    gl::use_texture_sampling(static_cast<unsigned>(unit));
-    shading_.set("visible", unit);
+    store_.bind(shading_, appearance_.unit_count());
     glBindVertexArray(nothing_.id());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glDepthMask(GL_TRUE);
@@ -214,8 +231,10 @@ class TureenPipeline final : public Pipeline {
   gl::Program opaque_, cut_out_, shading_;
   FrontToBack order_;
   int width_ = 0, height_ = 0;
-  gl::Texture depth_, visible_, color_;
-  gl::Framebuffer visibility_framebuffer_, color_framebuffer_;
+  gl::Texture depth_, color_;
+  gl::Framebuffer color_framebuffer_;
+  FragmentStore store_;                     // where the plan is deferred
+  std::optional<CoverageTarget> coverage_;  // where it asks for alpha to coverage
 };
 
 }  // namespace

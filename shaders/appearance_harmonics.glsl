@@ -25,6 +25,8 @@ vec3 element_color(uint element) {
 
 bool fragment_exists(uint face, vec2 b) { return true; }
 
+float alpha_margin(uint face, vec2 b) { return 1.0; }
+
 vec3 fragment_color(uint face, vec2 b, vec3 to_eye) {
 #if HARMONICS_PER_VERTEX
   return b.x * element_color(3u * face) + b.y * element_color(3u * face + 1u) +

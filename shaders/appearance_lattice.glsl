@@ -30,7 +30,7 @@ FacePatch patch_of(uint face) {
 #endif
 }
 
-bool fragment_exists(uint face, vec2 b) {
+float fragment_alpha(uint face, vec2 b) {
   FacePatch at = patch_of(face);
   LatticeCell cell = lattice_cell(at.level, b);
   uint index = at.first_cell + lattice_texel_index(cell.x, cell.y);
@@ -39,8 +39,12 @@ bool fragment_exists(uint face, vec2 b) {
   vec3 weights = lattice_weights(cell.p, upper);
   // In the form that returns a constant exactly: an alpha of 1/2 throughout has no holes.
   float third = upper ? alpha.w : alpha.z;
-  return third + weights.x * (alpha.x - third) + weights.y * (alpha.y - third) >= ALPHA_THRESHOLD;
+  return third + weights.x * (alpha.x - third) + weights.y * (alpha.y - third);
 }
+
+bool fragment_exists(uint face, vec2 b) { return fragment_alpha(face, b) >= ALPHA_THRESHOLD; }
+
+float alpha_margin(uint face, vec2 b) { return fragment_alpha(face, b) - ALPHA_THRESHOLD; }
 
 vec4 lattice_sample(sampler2DArray store, LatticeFootprint at) {
   return at.weights.x * texelFetch(store, texel_position(at.texels.x), 0) +
@@ -52,18 +56,31 @@ vec4 lattice_sample(sampler2DArray store, LatticeFootprint at) {
 vec3 color_mlp(vec4 features0, vec4 features1, vec3 to_eye);
 #endif
 
-vec3 fragment_color(uint face, vec2 b, vec3 to_eye) {
+LatticeFootprint footprint_on(uint face, vec2 b) {
   FacePatch of_face = patch_of(face);
   LatticeFootprint at = lattice_footprint(of_face.level, b);
   at.texels += of_face.first_texel;
-  vec4 f = lattice_sample(features0, at);
+  return at;
+}
+
 #if COLOR_MLP
+void fragment_features(uint face, vec2 b, out vec4 first, out vec4 second) {
+  LatticeFootprint at = footprint_on(face, b);
+  first = lattice_sample(features0, at);
 #if LATENT_FEATURES
-  return color_mlp(f, lattice_sample(features1, at), to_eye);
+  second = lattice_sample(features1, at);
 #else
-  return color_mlp(f, vec4(0.0), to_eye);
+  second = vec4(0.0);
 #endif
+}
+#endif
+
+vec3 fragment_color(uint face, vec2 b, vec3 to_eye) {
+#if COLOR_MLP
+  vec4 first, second;
+  fragment_features(face, b, first, second);
+  return color_mlp(first, second, to_eye);
 #else
-  return f.rgb;
+  return lattice_sample(features0, footprint_on(face, b)).rgb;
 #endif
 }

@@ -12,4 +12,6 @@ vec4 interpolated_color(uint face, vec2 b) {
 
 bool fragment_exists(uint face, vec2 b) { return interpolated_color(face, b).a >= ALPHA_THRESHOLD; }
 
+float alpha_margin(uint face, vec2 b) { return interpolated_color(face, b).a - ALPHA_THRESHOLD; }
+
 vec3 fragment_color(uint face, vec2 b, vec3 to_eye) { return interpolated_color(face, b).rgb; }

@@ -51,6 +51,19 @@ Camera resized(const Camera& camera, int width, int height) {
   return result;
 }
 
+Camera resampled(const Camera& camera, int width, int height) {
+  // (cx, cy) is measured from the picture's corner, not from a pixel's centre: it scales as it is.
+  const double x = double(width) / camera.width, y = double(height) / camera.height;
+  Camera result = camera;
+  result.width = width;
+  result.height = height;
+  result.fx *= x;
+  result.cx *= x;
+  result.fy *= y;
+  result.cy *= y;
+  return result;
+}
+
 namespace {
 
 /// The rows that both projections share: x and y of NDC from the pinhole equation.

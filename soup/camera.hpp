@@ -36,6 +36,11 @@ Camera look_at(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 up, double fov_y, i
 /// if they were, and a wider image shows more at the sides.
 Camera resized(const Camera& camera, int width, int height);
 
+/// The very same picture, edge to edge, on a grid of other pixels: each axis scales focal length
+/// and principal point by its own factor, so that a ray through a point of the picture stays the
+/// same. Pixels stay square only where both sizes have one ratio.
+Camera resampled(const Camera& camera, int width, int height);
+
 /// Clip from view for the depth range [near, far] mapped to NDC z in [-1, 1] (OpenGL's default),
 /// with the y axis up, so that row 0 of a read-back image is the bottom row.
 glm::dmat4 clip_from_view(const Camera& camera, double near, double far);

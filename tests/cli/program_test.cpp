@@ -222,6 +222,35 @@ TEST_F(Program, RenderDrawsAndReports) {
   EXPECT_THAT(result.err, HasSubstr("wrote picture.png"));
 }
 
+TEST_F(Program, RenderSmoothsAndScalesWithoutChangingTheSize) {
+  write_scene();
+  const auto draw = [&](const std::vector<std::string>& knob) {
+    std::vector<std::string> arguments = {"render",   "scene.off", "-o",    "picture.png",
+                                          "--size",   "64x48",     "--eye", "0,-5,0",
+                                          "--target", "0,0,0",     "--json"};
+    arguments.insert(arguments.end(), knob.begin(), knob.end());
+    const ChildResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out.find("\"knob: ") != std::string::npos, !knob.empty()) << result.out;
+    const Image8 picture = read_png("picture.png");
+    EXPECT_EQ(picture.width, 64);
+    EXPECT_EQ(picture.height, 48);
+    std::size_t between = 0;  // pixels that are neither red nor background
+    for (const glm::u8vec4& pixel : picture.pixels) between += pixel.r > 0 && pixel.r < 255;
+    return between;
+  };
+  EXPECT_EQ(draw({}), 0u);
+  EXPECT_GT(draw({"--supersample", "4"}), 20u);
+  EXPECT_GT(draw({"--scale", "0.5"}), 20u);
+
+  for (const auto& [knob, value] : {std::pair{"--supersample", "9"}, {"--scale", "0.2"}}) {
+    const ChildResult result = run({"render", "scene.off", knob, value});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, HasSubstr(knob));
+  }
+  EXPECT_EQ(run({"render", "scene.off", "--supersample", "2", "--scale", "0.5"}).exit_code, 2);
+}
+
 TEST_F(Program, RenderShowsItsBackgroundWhereNothingIs) {
   write_scene();
   const auto corner = [&](const std::string& background) {

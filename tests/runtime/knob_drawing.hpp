@@ -1,0 +1,31 @@
+// What tests of the drawing knobs share: pictures drawn with a preset.
+#pragma once
+
+#include "runtime/renderer.hpp"
+#include "support/random_soups.hpp"
+
+namespace tureen::test {
+
+inline PlanPreferences with(const RenderPreset& preset) { return {.site = {}, .preset = preset}; }
+
+inline RenderOptions options_with(const RenderPreset& preset) {
+  return {.plan = with(preset), .limits = {}};
+}
+
+inline TriangleSoup soup_of(Kind kind) {
+  return random_soup(21, {.kind = kind, .faces = 80, .size = 0.3, .degree = 1});
+}
+
+inline Camera camera_of(int width, int height) {
+  Random random(21);
+  return random_camera(random, width, height);
+}
+
+inline Image8 draw(const gl::Context& context, const TriangleSoup& soup, const Camera& camera,
+                   const RenderOptions& options) {
+  Renderer renderer(context, soup, {}, options);
+  renderer.draw(camera);
+  return renderer.read_color();
+}
+
+}  // namespace tureen::test

@@ -1,0 +1,137 @@
+// That supersampling and resolution scale filter as they say, with every other knob.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "runtime/knob_drawing.hpp"
+#include "runtime/resampled_pipeline.hpp"
+#include "soup/error.hpp"
+#include "support/contexts.hpp"
+
+namespace tureen::test {
+namespace {
+
+using testing::HasSubstr;
+using FeatureStorage = RenderPreset::FeatureStorage;
+
+/// The weighted mean of samples as the shaders should take it: colours count as much as they are
+/// opaque, and as they are where nothing is.
+struct WeightedMean {
+  glm::dvec4 sum{0.0};
+  glm::dvec3 plain{0.0};
+
+  void add(glm::u8vec4 sample, double weight) {
+    const glm::dvec4 value = glm::dvec4(sample) / 255.0;
+    sum += weight * glm::dvec4(glm::dvec3(value) * value.a, value.a);
+    plain += weight * glm::dvec3(value);
+  }
+  glm::dvec4 result() const {
+    return sum.a > 0 ? glm::dvec4(glm::dvec3(sum) / sum.a, sum.a) : glm::dvec4(plain, 0.0);
+  }
+};
+
+/// Half a step of rounding, and what float and two roundings near a half may add.
+void expect_filtered(const Image8& drawn, const std::function<glm::dvec4(int, int)>& expected) {
+  double worst = 0;
+  for (int y = 0; y < drawn.height; ++y)
+    for (int x = 0; x < drawn.width; ++x)
+      for (int c = 0; c < 4; ++c)
+        worst = std::max(worst, std::abs(255 * expected(x, y)[c] - drawn.at(x, y)[c]));
+  EXPECT_LE(worst, 0.5 + 1e-3);
+}
+
+struct Variant {
+  const char* name;
+  RenderPreset preset;
+  PipelineKind pipeline = PipelineKind::tureen;
+};
+
+const Variant variants[] = {
+    {"faithful", {}},
+    {"rgba16f", {.feature_storage = FeatureStorage::rgba16f}},
+    {"rgba8", {.feature_storage = FeatureStorage::rgba8}},
+    {"forward", {.site = RenderPreset::Site::forward}},
+    {"coverage", {.alpha_to_coverage = 4}},
+    {"published", {}, PipelineKind::published},
+};
+
+class Resampling : public testing::TestWithParam<NamedContext> {
+ protected:
+  static RenderOptions options(const Variant& variant, float background_alpha) {
+    RenderOptions result = options_with(variant.preset);
+    result.plan.pipeline = variant.pipeline;
+    result.background = glm::vec4(0.9f, 0.2f, 0.5f, background_alpha);
+    return result;
+  }
+  const TriangleSoup soup = random_soup(22, {.kind = Kind::lattice_mlp, .size = 0.3, .level = 2});
+};
+
+// With every other knob, a supersampled picture is the mean of the same picture n times as large.
+TEST_P(Resampling, SupersamplingIsTheMeanOfALargerPicture) {
+  const gl::Context context = gl::Context::create(GetParam().request);
+  const Camera camera = camera_of(61, 43);
+  for (const Variant& variant : variants)
+    for (const int n : {2, 3, 8}) {
+      SCOPED_TRACE(std::string(variant.name) + " " + std::to_string(n));
+      RenderOptions all = options(variant, n == 3 ? 0.0f : 1.0f);
+      const Image8 large = draw(context, soup, resampled(camera, 61 * n, 43 * n), all);
+      all.plan.preset->supersampling = n;
+      expect_filtered(draw(context, soup, camera, all), [&](int x, int y) {
+        WeightedMean mean;
+        for (int i = 0; i < n * n; ++i)
+          mean.add(large.at(n * x + i % n, n * y + i / n), 1.0 / (n * n));
+        return mean.result();
+      });
+    }
+}
+
+TEST_P(Resampling, ScaleInterpolatesASmallerPicture) {
+  const gl::Context context = gl::Context::create(GetParam().request);
+  const Camera camera = camera_of(61, 43);
+  for (const Variant& variant : variants)
+    for (const double scale : {0.25, 0.5, 0.9}) {
+      SCOPED_TRACE(std::string(variant.name) + " " + std::to_string(scale));
+      RenderOptions all = options(variant, scale == 0.5 ? 0.0f : 1.0f);
+      const auto width = int(std::lround(61 * scale)), height = int(std::lround(43 * scale));
+      const Image8 small = draw(context, soup, resampled(camera, width, height), all);
+      all.plan.preset->resolution_scale = scale;
+      expect_filtered(draw(context, soup, camera, all), [&](int x, int y) {
+        const double u = std::clamp((x + 0.5) * width / 61.0 - 0.5, 0.0, width - 1.0);
+        const double v = std::clamp((y + 0.5) * height / 43.0 - 0.5, 0.0, height - 1.0);
+        const int left = int(u), top = int(v);
+        const int right = std::min(left + 1, width - 1), bottom = std::min(top + 1, height - 1);
+        WeightedMean mean;
+        mean.add(small.at(left, top), (1 - u + left) * (1 - v + top));
+        mean.add(small.at(right, top), (u - left) * (1 - v + top));
+        mean.add(small.at(left, bottom), (1 - u + left) * (v - top));
+        mean.add(small.at(right, bottom), (u - left) * (v - top));
+        return mean.result();
+      });
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Everywhere, Resampling, testing::ValuesIn(every_context),
+                         [](const auto& i) { return i.param.name; });
+
+TEST(DrawingKnobs, MoreSamplesThanTheDeviceDrawsAreRefusedAndTheNextFrameIsDrawn) {
+  const gl::Context context = gl::Context::create(osmesa);
+  const TriangleSoup soup = soup_of(Kind::face_colors);
+  Renderer renderer(context, soup, {}, options_with({.supersampling = 8}));
+  const int side = context.capabilities().max_picture_side;
+  renderer.draw(camera_of(16, 12));
+  const Image8 before = renderer.read_color();
+  try {
+    renderer.draw(camera_of(side / 8 + 1, 10));
+    FAIL();
+  } catch (const DeviceLimitError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(std::to_string(8 * (side / 8 + 1)) + "x80"));
+    EXPECT_THAT(error.what(), HasSubstr(std::to_string(side)));
+  }
+  renderer.draw(camera_of(16, 12));
+  EXPECT_EQ(renderer.read_color().pixels, before.pixels);
+}
+
+}  // namespace
+}  // namespace tureen::test
