@@ -17,6 +17,15 @@ std::string refuse_scale(const std::string& text) {
 
 }  // namespace
 
+CLI::Option* add_scale_option(CLI::App& command, DatasetArgument& argument) {
+  return command
+      .add_option("--scale", argument.options.scale,
+                  "the size at which photographs are used, as a fraction of their own: 0.5 halves "
+                  "both sides, each pixel the mean of those that it covers")
+      ->check(refuse_scale)
+      ->option_text("FRACTION");
+}
+
 void add_dataset_argument(CLI::App& command, DatasetArgument& argument) {
   command
       .add_option("DATASET", argument.path,
@@ -24,12 +33,7 @@ void add_dataset_argument(CLI::App& command, DatasetArgument& argument) {
                   "transforms_test.json, or a COLMAP model and images")
       ->required()
       ->type_name("");
-  command
-      .add_option("--scale", argument.options.scale,
-                  "the size at which photographs are used, as a fraction of their own: 0.5 halves "
-                  "both sides, each pixel the mean of those that it covers")
-      ->check(refuse_scale)
-      ->option_text("FRACTION");
+  add_scale_option(command, argument);
   command
       .add_option("--images", argument.options.images_folder,
                   "take the photographs of the folder images_N, which some datasets have beside "

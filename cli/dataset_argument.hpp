@@ -17,6 +17,9 @@ struct DatasetArgument {
 /// parsed.
 void add_dataset_argument(CLI::App& command, DatasetArgument& argument);
 
+/// --scale alone.
+CLI::Option* add_scale_option(CLI::App& command, DatasetArgument& argument);
+
 /// Throws InputError, with a suggestion where the path does not exist, and Interrupted.
 Dataset read(const DatasetArgument& argument, DatasetPart part);
 

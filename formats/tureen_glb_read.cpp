@@ -9,6 +9,8 @@
 #include "formats/image_budget.hpp"
 #include "formats/json_view.hpp"
 #include "formats/png.hpp"
+#include "formats/slim_geometry.hpp"
+#include "formats/slim_texels.hpp"
 #include "formats/tureen_glb.hpp"
 #include "formats/tureen_glb_layout.hpp"
 #include "soup/lattice.hpp"
@@ -34,10 +36,12 @@ class Reader {
 
   Scene scene() {
     const std::uint64_t version = extension_["version"].natural();
-    if (version != std::uint64_t(tureen_extension_version))
+    if (version < std::uint64_t(tureen_extension_version) ||
+        version > std::uint64_t(tureen_slim_version))
       extension_["version"].fail("this file has version " + std::to_string(version) + " of " +
-                                 tureen_extension + "; only version " +
-                                 std::to_string(tureen_extension_version) + " is read");
+                                 tureen_extension + "; only versions " +
+                                 std::to_string(tureen_extension_version) + " to " +
+                                 std::to_string(tureen_slim_version) + " are read");
     Scene scene;
     read_info(scene);
     const JsonView appearance = extension_["appearance"];
@@ -138,6 +142,15 @@ class Reader {
     return array<T>(holder, key, format, component);
   }
 
+  /// The bytes of the buffer view that `reference` names.
+  std::vector<std::byte> buffer_view(const JsonView& reference) {
+    const Location location = view_location(root_["bufferViews"].at(index(reference)));
+    input_.seek(location.offset);
+    auto bytes = input_.read_values<std::byte>(location.size, "slim bytes");
+    progress();
+    return bytes;
+  }
+
   std::vector<glm::vec4> colors(const JsonView& holder, std::uint64_t count) {
     static constexpr Format vec4{"VEC4", 4};
     const auto reference = holder.find("rgba");
@@ -216,6 +229,13 @@ class Reader {
   void read_geometry(TriangleSoup& soup) {
     const std::uint64_t vertices = extension_["vertex_count"].natural(max_count);
     const std::uint64_t faces = extension_["face_count"].natural(max_count);
+    if (const auto slim = extension_.find("slim_geometry")) {
+      SlimGeometry geometry = decode_slim_geometry(buffer_view(*slim), std::size_t(vertices),
+                                                   std::size_t(faces), input_.name());
+      soup.positions = std::move(geometry.positions);
+      soup.triangles = std::move(geometry.triangles);
+      return;
+    }
     soup.positions =
         array_of<glm::vec3>(extension_, "positions", vertices, {"VEC3", 3}, layout::float32);
     if (faces > 0 && !extension_.find("triangles")) {
@@ -305,6 +325,14 @@ class Reader {
   }
 
   LatticeTexture lattice_texture(const JsonView& view, const TriangleSoup& soup) {
+    if (const auto slim = view.find("slim_texels")) {
+      // The network lies before the texels.
+      std::optional<ColorMlp> mlp = color_mlp(view);
+      LatticeTexture texture =
+          decode_slim_texels(buffer_view(*slim), soup.triangles.size(), input_.name());
+      texture.mlp = std::move(mlp);
+      return texture;
+    }
     LatticeTexture texture;
     texture.patches = patches(view, soup.triangles.size());
     texture.mlp = color_mlp(view);

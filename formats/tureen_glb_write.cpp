@@ -12,6 +12,7 @@
 #include "formats/png.hpp"
 #include "formats/tureen_glb.hpp"
 #include "formats/tureen_glb_layout.hpp"
+#include "formats/tureen_glb_writing.hpp"
 #include "soup/lattice.hpp"
 #include "soup/mean_color.hpp"
 #include "soup/spherical_harmonics.hpp"
@@ -19,88 +20,9 @@
 
 namespace tureen {
 
+using namespace glb_writing;
+
 namespace {
-
-using nlohmann::json;
-namespace layout = glb_layout;
-
-template <class T>
-std::span<const std::byte> bytes_of(const std::vector<T>& values) {
-  return std::as_bytes(std::span(values));
-}
-
-/// The binary chunk as pieces, and the glTF arrays that describe it.
-class BinaryPlan {
- public:
-  /// The bytes must outlive the plan. Returns the buffer view's index.
-  std::size_t view(std::span<const std::byte> bytes) {
-    buffer_views.push_back({{"buffer", 0}, {"byteOffset", size_}, {"byteLength", bytes.size()}});
-    pieces_.push_back(bytes);
-    // Every piece begins at a multiple of 4, as glTF asks of accessors.
-    size_ += (bytes.size() + 3) / 4 * 4;
-    return buffer_views.size() - 1;
-  }
-
-  std::size_t owned_view(std::vector<std::byte> bytes) {
-    owned_.push_back(std::move(bytes));
-    return view(owned_.back());
-  }
-
-  struct Format {
-    const char* type;
-    int component;
-    std::size_t components;
-    bool normalized = false;
-  };
-
-  /// glTF allows no accessor without elements: an empty array gets none, and its key is left out.
-  void accessor(json& holder, const char* key, std::span<const std::byte> bytes,
-                const Format& format) {
-    if (bytes.empty()) return;
-    const std::size_t component_bytes = format.component == layout::unsigned_byte    ? 1
-                                        : format.component == layout::unsigned_short ? 2
-                                                                                     : 4;
-    json accessor = {{"bufferView", view(bytes)},
-                     {"componentType", format.component},
-                     {"count", bytes.size() / (component_bytes * format.components)},
-                     {"type", format.type}};
-    if (format.normalized) accessor["normalized"] = true;
-    holder[key] = accessors.size();
-    accessors.push_back(std::move(accessor));
-  }
-
-  template <class T>
-  void owned_accessor(json& holder, const char* key, const std::vector<T>& values,
-                      const Format& format) {
-    const auto bytes = bytes_of(values);
-    owned_.emplace_back(bytes.begin(), bytes.end());
-    accessor(holder, key, owned_.back(), format);
-  }
-
-  std::size_t image(const Image8& image) {
-    images.push_back({{"bufferView", owned_view(encode_png(image))}, {"mimeType", "image/png"}});
-    return images.size() - 1;
-  }
-
-  std::uint64_t size() const { return size_; }
-
-  void write(Output& output) const {
-    static constexpr std::byte zeros[4]{};
-    for (const auto& piece : pieces_) {
-      output.write(piece);
-      output.write(std::span(zeros).first((4 - piece.size() % 4) % 4));
-    }
-  }
-
-  json buffer_views = json::array();
-  json accessors = json::array();
-  json images = json::array();
-
- private:
-  std::uint64_t size_ = 0;
-  std::vector<std::span<const std::byte>> pieces_;
-  std::deque<std::vector<std::byte>> owned_;  // a deque: its elements never move
-};
 
 constexpr BinaryPlan::Format scalar_u32{"SCALAR", layout::unsigned_int, 1};
 constexpr BinaryPlan::Format scalar_u8{"SCALAR", layout::unsigned_byte, 1};
@@ -144,21 +66,6 @@ json array_of(const glm::vec<N, Real>& v, const std::string& what) {
   for (int i = 0; i < N; ++i) numbers.push_back(v[i]);
   require_finite(numbers, what);
   return numbers;
-}
-
-json mlp_json(BinaryPlan& plan, const ColorMlp& mlp) {
-  json layers = json::array();
-  for (const DenseLayer& layer : mlp.layers) {
-    json entry = {{"inputs", layer.inputs}, {"outputs", layer.outputs}};
-    plan.accessor(entry, "weights", bytes_of(layer.weights), scalar_float);
-    plan.accessor(entry, "biases", bytes_of(layer.biases), scalar_float);
-    layers.push_back(std::move(entry));
-  }
-  json result = {{"layers", std::move(layers)},
-                 {"encoding", layout::direction_encodings[int(mlp.encoding)]},
-                 {"view", layout::view_conventions[int(mlp.view)]}};
-  if (mlp.blend_channel) result["blend_channel"] = *mlp.blend_channel;
-  return result;
 }
 
 /// Each appearance in two steps, so that the small arrays of all of it (colours, MLP) come before
@@ -371,6 +278,47 @@ std::string utf8(const std::string& text, std::vector<std::string>& losses) {
   }
 }
 
+/// The soft triangles' shapes with their harmonics, for the mesh alone.
+TriangleSoup hard_shapes(const SoftTriangles& soft) {
+  TriangleSoup soup;
+  soup.positions = soft.positions;
+  soup.triangles.resize(soft.sigma.size());
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    soup.triangles[t] = glm::uvec3(3 * t, 3 * t + 1, 3 * t + 2);
+  soup.appearance = Harmonics{.domain = Harmonics::Domain::face,
+                              .degree = soft.degree,
+                              .view = ViewConvention::eye_to_surface,
+                              .coefficients = soft.coefficients};
+  return soup;
+}
+
+json soft_json(BinaryPlan& plan, const SoftTriangles& soft) {
+  json result = {{"type", "soft_triangles"}, {"degree", soft.degree}};
+  plan.accessor(result, "coefficients", bytes_of(soft.coefficients), vec3_float);
+  plan.accessor(result, "sigma", bytes_of(soft.sigma), scalar_float);
+  plan.accessor(result, "opacity", bytes_of(soft.opacity), scalar_float);
+  return result;
+}
+
+}  // namespace
+
+namespace glb_writing {
+
+json mlp_json(BinaryPlan& plan, const ColorMlp& mlp) {
+  json layers = json::array();
+  for (const DenseLayer& layer : mlp.layers) {
+    json entry = {{"inputs", layer.inputs}, {"outputs", layer.outputs}};
+    plan.accessor(entry, "weights", bytes_of(layer.weights), scalar_float);
+    plan.accessor(entry, "biases", bytes_of(layer.biases), scalar_float);
+    layers.push_back(std::move(entry));
+  }
+  json result = {{"layers", std::move(layers)},
+                 {"encoding", layout::direction_encodings[int(mlp.encoding)]},
+                 {"view", layout::view_conventions[int(mlp.view)]}};
+  if (mlp.blend_channel) result["blend_channel"] = *mlp.blend_channel;
+  return result;
+}
+
 json info_json(const Scene& scene, std::vector<std::string>& losses) {
   const SceneInfo& info = scene.info;
   if (info.up == glm::vec3(0.0f)) throw UsageError("a GLB cannot hold an up axis of no direction");
@@ -406,29 +354,38 @@ json info_json(const Scene& scene, std::vector<std::string>& losses) {
   return extension;
 }
 
-/// The soft triangles' shapes with their harmonics, for the mesh alone.
-TriangleSoup hard_shapes(const SoftTriangles& soft) {
-  TriangleSoup soup;
-  soup.positions = soft.positions;
-  soup.triangles.resize(soft.sigma.size());
-  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
-    soup.triangles[t] = glm::uvec3(3 * t, 3 * t + 1, 3 * t + 2);
-  soup.appearance = Harmonics{.domain = Harmonics::Domain::face,
-                              .degree = soft.degree,
-                              .view = ViewConvention::eye_to_surface,
-                              .coefficients = soft.coefficients};
-  return soup;
+void write_glb(json document, const BinaryPlan& plan, const std::filesystem::path& path) {
+  if (!plan.accessors.empty()) document["accessors"] = plan.accessors;
+  if (!plan.images.empty()) document["images"] = plan.images;
+  if (!plan.buffer_views.empty()) {
+    document["bufferViews"] = plan.buffer_views;
+    document["buffers"] = json::array({{{"byteLength", plan.size()}}});
+  }
+
+  std::string text = document.dump();
+  text.append((4 - text.size() % 4) % 4, ' ');
+  const bool has_binary = plan.size() > 0;
+  const std::uint64_t length = 12 + 8 + text.size() + (has_binary ? 8 + plan.size() : 0);
+  if (length > std::numeric_limits<std::uint32_t>::max())
+    throw UsageError("the scene takes " + std::to_string(length) +
+                     " bytes, and a GLB holds at most 4 GiB");
+
+  Output output(path);
+  output.write(std::string_view("glTF"));
+  output.write_value(std::uint32_t(2));
+  output.write_value(static_cast<std::uint32_t>(length));
+  output.write_value(static_cast<std::uint32_t>(text.size()));
+  output.write(std::string_view("JSON"));
+  output.write(std::string_view(text));
+  if (has_binary) {
+    output.write_value(static_cast<std::uint32_t>(plan.size()));
+    output.write(std::string_view("BIN\0", 4));
+    plan.write(output);
+  }
+  output.commit();
 }
 
-json soft_json(BinaryPlan& plan, const SoftTriangles& soft) {
-  json result = {{"type", "soft_triangles"}, {"degree", soft.degree}};
-  plan.accessor(result, "coefficients", bytes_of(soft.coefficients), vec3_float);
-  plan.accessor(result, "sigma", bytes_of(soft.sigma), scalar_float);
-  plan.accessor(result, "opacity", bytes_of(soft.opacity), scalar_float);
-  return result;
-}
-
-}  // namespace
+}  // namespace glb_writing
 
 std::vector<std::string> write_tureen_glb(const Scene& scene, const std::filesystem::path& path) {
   std::vector<std::string> losses;
@@ -475,34 +432,7 @@ std::vector<std::string> write_tureen_glb(const Scene& scene, const std::filesys
     document["nodes"] = json::array({std::move(node)});
     document["meshes"] = json::array({{{"primitives", json::array({std::move(primitive)})}}});
   }
-  if (!plan.accessors.empty()) document["accessors"] = std::move(plan.accessors);
-  if (!plan.images.empty()) document["images"] = std::move(plan.images);
-  if (!plan.buffer_views.empty()) {
-    document["bufferViews"] = std::move(plan.buffer_views);
-    document["buffers"] = json::array({{{"byteLength", plan.size()}}});
-  }
-
-  std::string text = document.dump();
-  text.append((4 - text.size() % 4) % 4, ' ');
-  const bool has_binary = plan.size() > 0;
-  const std::uint64_t length = 12 + 8 + text.size() + (has_binary ? 8 + plan.size() : 0);
-  if (length > std::numeric_limits<std::uint32_t>::max())
-    throw UsageError("the scene takes " + std::to_string(length) +
-                     " bytes, and a GLB holds at most 4 GiB");
-
-  Output output(path);
-  output.write(std::string_view("glTF"));
-  output.write_value(std::uint32_t(2));
-  output.write_value(static_cast<std::uint32_t>(length));
-  output.write_value(static_cast<std::uint32_t>(text.size()));
-  output.write(std::string_view("JSON"));
-  output.write(std::string_view(text));
-  if (has_binary) {
-    output.write_value(static_cast<std::uint32_t>(plan.size()));
-    output.write(std::string_view("BIN\0", 4));
-    plan.write(output);
-  }
-  output.commit();
+  write_glb(std::move(document), plan, path);
   return losses;
 }
 

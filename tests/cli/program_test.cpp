@@ -6,6 +6,7 @@
 
 #include "cli/program_fixture.hpp"
 #include "formats/camera_file.hpp"
+#include "formats/scene_file.hpp"
 #include "soup/camera.hpp"
 
 namespace tureen {
@@ -193,6 +194,38 @@ TEST_F(Program, ConvertNeverOverwritesSilently) {
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_THAT(unknown.err, HasSubstr("no format that we write ends in .xyz"));
   EXPECT_FALSE(exists("scene.xyz"));
+}
+
+TEST_F(Program, ConvertSlimIsSmallAndSaysWhatItLost) {
+  Scene scene = read_scene(std::string(TUREEN_SOURCE_DIR) + "/examples/soup.glb");
+  auto& soup = std::get<TriangleSoup>(scene.primitives);
+  soup.triangles.resize(400);
+  std::get<LatticeTexture>(soup.appearance).patches.resize(400);
+  scene.cameras.resize(2);
+  for (Camera& camera : scene.cameras) camera = resized(camera, 160, 120);
+  ASSERT_THAT(tureen::write_scene(scene, folder / "part.glb"), IsEmpty());
+
+  const ChildResult result =
+      run({"convert", "part.glb", "slim.glb", "--slim", "--max-error", "0.3", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_LE(json["loss_db"], 0.3);
+  EXPECT_EQ(json["loss_is_measured"], false);
+  EXPECT_EQ(json["bytes_on_disk"], fs::file_size(folder / "slim.glb"));
+  // As measured for all of the example (docs/slim.md), less what JSON and network take of so few.
+  EXPECT_GT(json["times_smaller"], 3);
+  EXPECT_THAT(result.err, HasSubstr("Slim: of 2 recorded cameras only the first is kept."));
+  EXPECT_THAT(result.err, HasSubstr("times smaller than the published export of the same soup"));
+  EXPECT_FALSE(exists("slim.glb.export"));
+
+  const Scene back = read_scene(folder / "slim.glb");
+  EXPECT_EQ(std::get<TriangleSoup>(back.primitives).triangles.size(), 400u);
+  EXPECT_EQ(back.cameras.size(), 1u);
+  EXPECT_THAT(run({"info", "slim.glb"}).err, HasSubstr("Slim: coded with a loss of"));
+
+  EXPECT_THAT(run({"convert", "part.glb", "slim.ply", "--slim"}).err,
+              HasSubstr("--slim writes .glb files, not slim.ply"));
+  EXPECT_EQ(run({"convert", "part.glb", "other.glb", "--max-error", "1"}).exit_code, 2);
 }
 
 // --- render ---------------------------------------------------------------------------------

@@ -1,0 +1,169 @@
+#include "cli/convert_slim.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "cli/progress.hpp"
+#include "cli/scene_argument.hpp"
+#include "cli/slim.hpp"
+#include "formats/diffsoup_export.hpp"
+#include "soup/error.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder that is gone when this is.
+class ScratchFolder {
+ public:
+  explicit ScratchFolder(fs::path path) : path_(std::move(path)) {}
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// Bytes of the scene as DiffSoup publishes it: two PNGs, a PLY and JSON, written beside `output`
+/// and removed again. None where it cannot be written so.
+std::optional<std::uint64_t> published_bytes(const Scene& scene, const fs::path& output) {
+  const ScratchFolder folder(output.string() + ".export");
+  std::error_code error;
+  if (fs::exists(folder.path(), error))
+    throw UsageError(folder.path().string() +
+                     " is in the way: the export to compare with goes "
+                     "there for a moment");
+  try {
+    write_diffsoup_export(scene, folder.path());
+  } catch (const UsageError&) {
+    return std::nullopt;
+  }
+  return bytes_on_disk(folder.path());
+}
+
+/// Sentences on what a slim file loses; they are stored in it, too.
+std::vector<std::string> losses_of(const SlimResult& result, std::size_t with_photographs) {
+  return {
+      with_photographs
+          ? fmt::format("Slim: coded with a loss of {:.3f} dB of PSNR against {} (from {:.2f} dB); "
+                        "against the scene as it was: {:.2f} dB.",
+                        result.loss.db, result.views, result.model_db, result.loss.render_psnr_db)
+          : fmt::format(
+                "Slim: coded with a loss of {:.3f} dB of PSNR or less, estimated for a scene "
+                "that comes within {:.0f} dB of its photographs; against the scene as it was, "
+                "in {}: {:.2f} dB.",
+                result.loss.db, result.model_db, result.views, result.loss.render_psnr_db),
+      fmt::format("Slim: positions on a grid of {} bits ({:.3f} dB of the loss), colours in "
+                  "steps of {:.1f}/255 in the mean; what no alpha shows is not kept.",
+                  result.position_bits, result.geometry_loss.db, result.color_step),
+      "Slim: only Tureen reads this file; it has no mesh for other glTF viewers."};
+}
+
+}  // namespace
+
+void add_slim_arguments(CLI::App& command, SlimArguments& arguments) {
+  CLI::Option* slim =
+      command.add_flag("--slim", arguments.slim,
+                       "a small GLB with a loss: the smallest that stays within --max-error");
+  command
+      .add_option("--max-error", arguments.max_error_db,
+                  "with --slim: how many decibels of PSNR against photographs may be lost; 0.1 by "
+                  "default")
+      ->check(CLI::Range(1e-4, 20.0))
+      ->option_text("DB")
+      ->needs(slim);
+  CLI::Option* photographs =
+      command
+          .add_option("--photographs", arguments.photographs.path,
+                      "with --slim: the dataset on whose test photographs the loss is measured; "
+                      "without, it is estimated from the scene's own pictures")
+          ->option_text("DATASET")
+          ->needs(slim);
+  add_scale_option(command, arguments.photographs)->needs(photographs);
+  command
+      .add_flag("--keep-unseen", arguments.keep_unseen,
+                "with --slim: keep faces that no recorded camera and no view from above and "
+                "around sees")
+      ->needs(slim);
+  command
+      .add_flag("--keep-cameras", arguments.keep_cameras,
+                "with --slim: keep all recorded cameras, not only the first")
+      ->needs(slim);
+}
+
+void check_slim(const SlimArguments& arguments, const fs::path& output) {
+  if (arguments.slim && output.extension() != ".glb")
+    throw UsageError("--slim writes .glb files, not " + output.string());
+}
+
+Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& output) {
+  SlimRequest request{.max_loss_db = arguments.max_error_db, .keep_unseen = arguments.keep_unseen};
+  if (!arguments.photographs.path.empty()) {
+    request.photographs = read(arguments.photographs, DatasetPart::test).test;
+    if (request.photographs.empty())
+      throw InputError({arguments.photographs.path, {}, {}}, "it holds no test photographs");
+  }
+  const std::optional<std::uint64_t> published = published_bytes(scene, output);
+  SlimResult result;
+  {
+    Progress progress("slimming");
+    request.progress = [&](double fraction) { progress.update(fraction); };
+    result = slim(scene, request);
+  }
+  std::vector<std::string> lost = losses_of(result, request.photographs.size());
+  const auto all_faces = std::get<TriangleSoup>(scene.primitives).triangles.size();
+  if (result.unseen > 0)
+    lost.push_back(fmt::format(
+        "Slim: {} OF {} FACES ARE LEFT OUT: no pixel of {} views (recorded cameras, and from above "
+        "and around) shows them. Seen from elsewhere, or from nearer, there may be holes.",
+        counted(result.unseen), counted(all_faces), result.seeing_views));
+  scene.primitives = std::move(result.kept);
+  const std::size_t cameras = scene.cameras.size();
+  if (!arguments.keep_cameras && cameras > 1) {
+    scene.cameras.resize(1);
+    lost.push_back(fmt::format("Slim: of {} recorded cameras only the first is kept.", cameras));
+  }
+  scene.info.notes.insert(scene.info.notes.end(), lost.begin(), lost.end());
+  for (std::string& sentence : write_slim_glb(scene, result.soup, output))
+    lost.push_back(std::move(sentence));
+
+  const std::uint64_t bytes = bytes_on_disk(output);
+  say_list("Lost in " + output.string() + ":", lost);
+  const auto faces = std::get<TriangleSoup>(scene.primitives).triangles.size();
+  say(fmt::format("wrote {}, {}: positions {}, texels {}, {:.1f} bytes a triangle", output.string(),
+                  bytes_text(bytes), bytes_text(result.soup.geometry.size()),
+                  bytes_text(result.soup.texels.size()),
+                  double(bytes) / double(std::max<std::size_t>(faces, 1))));
+  if (published)
+    say(
+        fmt::format("{:.2f} times smaller than the published export of the same soup ({}: two "
+                    "PNGs, PLY and JSON)",
+                    double(*published) / double(bytes), bytes_text(*published)));
+  Json json = {{"output", output.string()},
+               {"bytes_on_disk", bytes},
+               {"geometry_bytes", result.soup.geometry.size()},
+               {"texel_bytes", result.soup.texels.size()},
+               {"position_bits", result.position_bits},
+               {"color_step", result.color_step},
+               {"loss_db", result.loss.db},
+               {"loss_is_measured", !request.photographs.empty()},
+               {"render_psnr_db", result.loss.render_psnr_db},
+               {"views", result.views},
+               {"faces_left_out", result.unseen},
+               {"lost", lost}};
+  if (published) {
+    json["published_bytes"] = *published;
+    json["times_smaller"] = double(*published) / double(bytes);
+  }
+  return json;
+}
+
+}  // namespace tureen::cli

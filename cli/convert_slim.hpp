@@ -1,0 +1,35 @@
+// `tureen convert --slim`: its options, what it writes and what it says about that.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/dataset_argument.hpp"
+#include "cli/report.hpp"
+#include "soup/scene.hpp"
+
+namespace tureen::cli {
+
+struct SlimArguments {
+  bool slim = false;
+  bool keep_cameras = false;
+  bool keep_unseen = false;
+  double max_error_db = 0.1;
+  DatasetArgument photographs;  // no path: none
+};
+
+/// --slim, --max-error, --photographs, --scale, --keep-unseen and --keep-cameras. `arguments` must
+/// live until the arguments are parsed.
+void add_slim_arguments(CLI::App& command, SlimArguments& arguments);
+
+/// Throws UsageError for what can be known to be wrong before the scene is read.
+void check_slim(const SlimArguments& arguments, const std::filesystem::path& output);
+
+/// Writes the slim file; says in full what was lost, and how small it is beside the published
+/// export of the same soup. Returns the same as JSON. Throws what slim() and write_slim_glb()
+/// throw, and Interrupted.
+Json convert_slim(Scene scene, const SlimArguments& arguments, const std::filesystem::path& output);
+
+}  // namespace tureen::cli

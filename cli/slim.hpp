@@ -1,0 +1,52 @@
+// How coarse a slim file may be: the search for the smallest one whose loss stays within a bound
+// (`tureen convert --slim`). formats/tureen_glb_slim.hpp writes it; docs/slim.md tells how it works
+// and what it reaches.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cli/slim_judge.hpp"
+#include "formats/tureen_glb_slim.hpp"
+
+namespace tureen::cli {
+
+struct SlimRequest {
+  /// In decibels, above 0.
+  double max_loss_db = 0.1;
+  /// Faces that no view sees stay, too.
+  bool keep_unseen = false;
+  /// Empty: the loss is estimated from the scene's own pictures.
+  std::vector<Photograph> photographs = {};
+  gl::ContextRequest context = {};
+  /// Called now and then with the fraction done, 0..1; may throw to end the search.
+  std::function<void(double)> progress = {};
+};
+
+struct SlimResult {
+  /// The faces that are kept; other than that the scene's soup.
+  TriangleSoup kept;
+  SlimSoup soup;                 // of them
+  std::size_t unseen = 0;        // faces that are left out
+  std::size_t seeing_views = 0;  // that see none of those
+  SlimLoss loss;
+  SlimLoss geometry_loss;  // the part of positions alone
+  int position_bits = 0;
+  double color_step = 0;  // slim_basis
+  double model_db = 0;    // of the scene itself: SlimJudge::model_db
+  std::string views;      // that it was measured on: SlimJudge::views
+};
+
+/// Where the scene has recorded cameras, faces that neither they (200 at most) nor 64 views from
+/// the upper half of a sphere around it show in any pixel are left out; without them nobody knows
+/// where the scene is looked at from, and all faces stay. Positions may take a quarter of the loss:
+/// they get the fewest bits that keep within it. Then the largest step of colour that keeps all of
+/// it within the bound is found by bisection. Faces that cover few pixels of the recorded views, or
+/// whose features hardly move the colour, get larger steps than others.
+///
+/// Throws UsageError where the scene has no lattice texture or nothing keeps within the bound, and
+/// what drawing throws.
+SlimResult slim(const Scene& scene, const SlimRequest& request);
+
+}  // namespace tureen::cli

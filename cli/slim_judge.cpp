@@ -1,0 +1,97 @@
+#include "cli/slim_judge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/interrupt.hpp"
+#include "runtime/camera_sets.hpp"
+#include "runtime/renderer.hpp"
+#include "soup/metrics.hpp"
+#include "soup/render_error.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+constexpr std::size_t judged_views = 24;
+constexpr std::size_t views_around = 64;
+constexpr int most_pixels = 800;  // a side
+
+Camera limited(const Camera& camera) {
+  const double scale = double(most_pixels) / std::max(camera.width, camera.height);
+  if (scale >= 1) return camera;
+  return resized(camera, std::max(1, int(camera.width * scale)),
+                 std::max(1, int(camera.height * scale)));
+}
+
+}  // namespace
+
+std::vector<Camera> slim_views(const Scene& scene, std::size_t count) {
+  std::vector<Camera> views;
+  const std::size_t recorded = scene.cameras.size();
+  if (recorded == 0)
+    return hemisphere(subject_of(scene), int(std::min(count, views_around)),
+                      {.width = most_pixels, .height = 600});
+  const std::size_t some = std::min(count, recorded);
+  for (std::size_t i = 0; i < some; ++i)
+    views.push_back(limited(scene.cameras[i * recorded / some]));
+  return views;
+}
+
+SlimJudge::SlimJudge(const gl::Context& context, const Scene& scene,
+                     std::vector<Photograph> photographs)
+    : context_(context), origin_(scene.origin), background_(scene.info.background) {
+  for (const Photograph& photograph : photographs) {
+    cameras_.push_back(photograph.camera);
+    photographs_.push_back(composited(to_float(photograph.image), background_));
+  }
+  if (!photographs_.empty()) {
+    views_ = fmt::format("{} photographs", photographs_.size());
+  } else {
+    cameras_ = slim_views(scene, judged_views);
+    views_ = scene.cameras.empty() ? fmt::format("{} views from above and around", cameras_.size())
+                                   : fmt::format("{} of its {} recorded cameras", cameras_.size(),
+                                                 scene.cameras.size());
+  }
+  std::vector<double> errors;
+  draw(std::get<TriangleSoup>(scene.primitives), [&](std::size_t i, const ImageF& picture) {
+    pictures_.push_back(picture);
+    if (!photographs_.empty()) errors.push_back(mean_squared_error(photographs_[i], picture));
+  });
+  if (!photographs_.empty()) model_db_ = model_db(errors);
+}
+
+SlimLoss SlimJudge::loss(const TriangleSoup& soup) const {
+  double squared = 0, pixels = 0;
+  std::vector<double> errors;
+  draw(soup, [&](std::size_t i, const ImageF& picture) {
+    const auto weight = double(cameras_[i].width) * cameras_[i].height;
+    squared += weight * mean_squared_error(pictures_[i], picture);
+    pixels += weight;
+    if (!photographs_.empty()) errors.push_back(mean_squared_error(photographs_[i], picture));
+  });
+  SlimLoss result;
+  result.render_psnr_db = psnr_from_mse(squared / pixels);
+  result.db = photographs_.empty() ? decibels_lost(model_db_, result.render_psnr_db)
+                                   : model_db_ - model_db(errors);
+  return result;
+}
+
+double SlimJudge::model_db(const std::vector<double>& squared_errors) const {
+  double sum = 0;
+  for (const double mse : squared_errors) sum += psnr_from_mse(mse);
+  return sum / double(squared_errors.size());
+}
+
+void SlimJudge::draw(const TriangleSoup& soup,
+                     const std::function<void(std::size_t, const ImageF&)>& visit) const {
+  Renderer renderer(context_, soup, origin_, {.background = {background_, 1.0f}});
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    throw_if_interrupted();
+    renderer.draw(cameras_[i]);
+    visit(i, to_float(renderer.read_color()));
+  }
+}
+
+}  // namespace tureen::cli

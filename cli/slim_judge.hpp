@@ -1,0 +1,61 @@
+// What a scene loses when its soup is coded slimly: against photographs, or, where there are none,
+// against its own pictures.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "formats/dataset.hpp"
+#include "runtime/gl/context.hpp"
+#include "soup/scene.hpp"
+
+namespace tureen::cli {
+
+struct SlimLoss {
+  /// By how much the scene comes less near to its photographs, mean PSNR over the views: measured
+  /// where there are photographs, else decibels_lost() of a model of assumed_model_db.
+  double db = 0;
+  /// Against the scene's own pictures, all views together.
+  double render_psnr_db = 100;
+};
+
+class SlimJudge {
+ public:
+  /// Above what trained soups reach: better models lose more by the same error.
+  static constexpr double assumed_model_db = 32;
+
+  /// Draws the scene from where the photographs were taken, or, where there are none, from up to 24
+  /// of its recorded cameras, or of a half sphere around it. `context` must outlive the judge and
+  /// be current. The scene holds a soup without defect().
+  SlimJudge(const gl::Context& context, const Scene& scene, std::vector<Photograph> photographs);
+
+  SlimLoss loss(const TriangleSoup& soup) const;
+
+  /// Mean PSNR of the scene itself against the photographs; assumed_model_db without them.
+  double model_db() const { return model_db_; }
+  /// "25 photographs", "24 of its 100 recorded cameras", ..
+  const std::string& views() const { return views_; }
+
+ private:
+  /// Calls visit(view, picture) for each.
+  void draw(const TriangleSoup& soup,
+            const std::function<void(std::size_t, const ImageF&)>& visit) const;
+  double model_db(const std::vector<double>& squared_errors) const;
+
+  const gl::Context& context_;
+  glm::dvec3 origin_;
+  glm::vec3 background_;
+  std::vector<Camera> cameras_;
+  std::vector<ImageF> photographs_;  // over the background
+  std::vector<ImageF> pictures_;     // of the scene itself
+  std::string views_;
+  double model_db_ = assumed_model_db;
+};
+
+/// Recorded cameras of the scene, at most `count`, evenly spread over their order; where it has
+/// none, so many, but no more than 64, on the upper half of a sphere around it. None is larger than
+/// 800 pixels a side.
+std::vector<Camera> slim_views(const Scene& scene, std::size_t count);
+
+}  // namespace tureen::cli

@@ -1,0 +1,60 @@
+// Lattice textures in few bytes, with a loss that the caller sets: the texels of a slim file
+// (docs/format.md, version 2).
+//
+// Features become values of a SlimBasis. Level by level, so that coarse data come first: the
+// corners of a face are predicted from the face before it, each texel of a finer level as the mean
+// of the two that it lies between. What the prediction misses is divided by a step and coded by a
+// range coder whose probabilities depend on the channel, the level and what was missed nearby.
+// Predictions are made from what the decoder has, so errors never add up: a value is off by a step
+// at most, however fine its level. A face that is smooth on a level takes next to nothing for it.
+//
+// Nothing that nobody sees is kept: features where no alpha around reaches 1/2, and alpha where
+// everything around is on one side of 1/2 but for the side.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "formats/slim_basis.hpp"
+#include "soup/triangle_soup.hpp"
+
+namespace tureen {
+
+/// Quarters, by which a face's steps of features are multiplied.
+inline constexpr std::array<std::uint8_t, 8> slim_multipliers{2, 3, 4, 6, 8, 12, 16, 32};
+/// The index of the multiplier that changes nothing.
+inline constexpr std::uint8_t one_step = 2;
+
+/// How much a texel may be off. The defaults lose nothing that shows.
+struct SlimTexelOptions {
+  SlimBasis basis = SlimBasis::identity();
+  /// Values of the basis a step, 1..255; alphas a step, 1..127.
+  std::uint8_t feature_step = 1;
+  std::uint8_t alpha_step = 1;
+  /// Of each face: an index into slim_multipliers. Empty: one_step for all. Faces that share texels
+  /// get the smaller one.
+  std::vector<std::uint8_t> coarseness = {};
+  /// Values that do not show are kept as well as those that do.
+  bool keep_hidden = false;
+  /// Misses below 1 - rounding of a step become none, and larger ones are rounded alike: 1/2 is the
+  /// nearest multiple, less spends fewer bytes for what it loses.
+  double rounding = 0.5;
+};
+
+/// The texture's patches and texels as bytes; float texels are rounded to bytes first. Equal
+/// patches are stored once. The texture has no defect(). Throws UsageError
+/// for more than 2^32 texels.
+std::vector<std::byte> encode_slim_texels(const LatticeTexture& texture,
+                                          const SlimTexelOptions& options);
+
+/// What encode_slim_texels made them of, without a color MLP: byte texels, patches in the order of
+/// their first face. Throws InputError, which names `file`, for bytes that were cut short or hold
+/// another number of faces. At most 4,096 bytes are allocated for each one that is there.
+LatticeTexture decode_slim_texels(std::span<const std::byte> bytes, std::size_t faces,
+                                  const std::string& file);
+
+}  // namespace tureen

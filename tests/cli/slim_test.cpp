@@ -1,0 +1,117 @@
+// The search for a slim file: what it promises holds, and what it is allowed to lose it uses.
+#include "cli/slim.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "formats/scene_file.hpp"
+#include "soup/error.hpp"
+#include "soup/lattice.hpp"
+
+namespace tureen::cli {
+namespace {
+
+/// The first faces of the example, from three of its cameras at a fifth of their size.
+Scene part_of_the_example(std::size_t faces) {
+  Scene scene = read_scene(std::string(TUREEN_SOURCE_DIR) + "/examples/soup.glb");
+  auto& soup = std::get<TriangleSoup>(scene.primitives);
+  soup.triangles.resize(faces);
+  auto& texture = std::get<LatticeTexture>(soup.appearance);
+  texture.patches.resize(faces);
+  scene.cameras.resize(3);
+  for (Camera& camera : scene.cameras)
+    camera = resized(camera, camera.width / 5, camera.height / 5);
+  return scene;
+}
+
+std::vector<Photograph> grey_photographs(const Scene& scene) {
+  std::vector<Photograph> photographs;
+  for (const Camera& camera : scene.cameras) {
+    Image8 image(camera.width, camera.height);
+    for (glm::u8vec4& pixel : image.pixels) pixel = {120, 130, 140, 255};
+    photographs.push_back({camera, image});
+  }
+  return photographs;
+}
+
+TEST(Slim, KeepsWithinItsBoundAndUsesIt) {
+  const Scene scene = part_of_the_example(500);
+  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  const SlimResult large = slim(scene, {.max_loss_db = 0.1});
+  const SlimResult small = slim(scene, {.max_loss_db = 1});
+  EXPECT_LE(large.loss.db, 0.1);
+  EXPECT_LE(small.loss.db, 1);
+  EXPECT_GT(large.loss.render_psnr_db, small.loss.render_psnr_db);
+  // A step of quality is 2 % of the step's size; half of what is allowed is far beyond that.
+  EXPECT_GT(large.loss.db, 0.05);
+  EXPECT_GT(small.loss.db, 0.5);
+  EXPECT_LT(small.soup.texels.size(), large.soup.texels.size());
+  EXPECT_LE(small.position_bits, large.position_bits);
+  EXPECT_EQ(large.views, "3 of its 3 recorded cameras");
+
+  // What is in the file loses just that.
+  const gl::Context context = gl::Context::create({});
+  const SlimJudge judge(context, scene, {});
+  EXPECT_EQ(judge.loss(decode_slim(small.soup, small.kept)).db, small.loss.db);
+  EXPECT_EQ(judge.loss(soup).render_psnr_db, 100);
+}
+
+TEST(Slim, MeasuresAgainstPhotographsWhereThereAreSome) {
+  const Scene scene = part_of_the_example(500);
+  const SlimResult result =
+      slim(scene, {.max_loss_db = 0.05, .photographs = grey_photographs(scene)});
+  EXPECT_LE(result.loss.db, 0.05);
+  EXPECT_EQ(result.views, "3 photographs");
+  // Grey pictures are far from any scene, so much may be lost before it shows against them.
+  EXPECT_LT(result.model_db, 30);
+  EXPECT_LT(result.loss.render_psnr_db, 45);
+}
+
+TEST(Slim, LeavesOutWhatNoViewSees) {
+  Scene scene = part_of_the_example(300);
+  auto& soup = std::get<TriangleSoup>(scene.primitives);
+  // Three faces that are points.
+  auto& texture = std::get<LatticeTexture>(soup.appearance);
+  for (int i = 0; i < 3; ++i) {
+    soup.triangles.push_back(glm::uvec3(soup.triangles[0].x));
+    texture.patches.push_back(texture.patches[0]);
+  }
+  const SlimResult some = slim(scene, {.max_loss_db = 1});
+  EXPECT_GE(some.unseen, 3u);
+  EXPECT_EQ(some.kept.triangles.size() + some.unseen, 303u);
+  EXPECT_EQ(some.seeing_views, 3u + 64u);
+  const SlimResult all = slim(scene, {.max_loss_db = 1, .keep_unseen = true});
+  EXPECT_EQ(all.unseen, 0u);
+  EXPECT_EQ(all.kept.triangles, soup.triangles);
+  // Nobody knows from where it is seen.
+  const auto photographs = grey_photographs(scene);
+  scene.cameras.clear();
+  EXPECT_EQ(slim(scene, {.max_loss_db = 1, .photographs = photographs}).unseen, 0u);
+}
+
+TEST(Slim, RefusesWhatItCannotHold) {
+  Scene scene = part_of_the_example(2);
+  std::get<TriangleSoup>(scene.primitives).appearance = FaceColors{{glm::vec4(1), glm::vec4(1)}};
+  try {
+    slim(scene, {});
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_STREQ(error.what(),
+                 "a slim file holds lattice textures only; this scene has face colours");
+  }
+}
+
+TEST(Slim, ViewsAreRecordedCamerasOrAround) {
+  Scene scene = part_of_the_example(2);
+  EXPECT_EQ(slim_views(scene, 2).size(), 2u);
+  EXPECT_EQ(slim_views(scene, 9).size(), 3u);
+  scene.cameras[0] = resized(scene.cameras[0], 4000, 2000);
+  EXPECT_EQ(slim_views(scene, 1)[0].width, 800);
+  EXPECT_EQ(slim_views(scene, 1)[0].height, 400);
+  scene.cameras.clear();
+  EXPECT_EQ(slim_views(scene, 9).size(), 9u);
+  EXPECT_EQ(slim_views(scene, 200).size(), 64u);
+}
+
+}  // namespace
+}  // namespace tureen::cli

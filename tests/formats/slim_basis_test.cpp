@@ -1,0 +1,97 @@
+// The basis of slim features: it comes back from whole numbers, and its axes do what they promise.
+#include "formats/slim_basis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "formats/random_scene.hpp"
+
+namespace tureen {
+namespace {
+
+constexpr int features = LatticeTexture::features;
+constexpr int channels = LatticeTexture::channels;
+
+/// Of a random map from features to three colours, plus a little of everything, so that no axis
+/// counts less than a tenth of the first.
+FeatureMatrix random_sensitivity(std::mt19937& random) {
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  FeatureMatrix result{};
+  for (int row = 0; row < 3; ++row) {
+    double slope[features];
+    for (double& s : slope) s = uniform(random);
+    for (std::size_t i = 0; i < features; ++i)
+      for (std::size_t j = 0; j < features; ++j) result[i][j] += slope[i] * slope[j];
+  }
+  for (std::size_t i = 0; i < features; ++i) result[i][i] += 0.2;
+  return result;
+}
+
+TEST(SlimBasis, IdentityLosesNothing) {
+  testing::RandomScene random(81);
+  const LatticeTexture texture = random.lattice_texture(5, 3, false);
+  const auto& texels = std::get<std::vector<std::uint8_t>>(texture.texels);
+  const SlimBasis basis = SlimBasis::identity();
+  const auto values = basis.values_of(texels);
+  for (std::size_t t = 0; t < texels.size(); t += channels)
+    for (int f = 0; f < features; ++f)
+      ASSERT_EQ(basis.feature(f, std::span(values).subspan(t, features)),
+                texels[t + std::size_t(f)]);
+}
+
+TEST(SlimBasis, ValuesSayTheFeatures) {
+  const unsigned seed = 82;
+  SCOPED_TRACE(::testing::Message() << "seed " << seed);
+  std::mt19937 engine(seed);
+  testing::RandomScene random(seed);
+  const LatticeTexture texture = random.lattice_texture(20, 3, false);
+  const auto& texels = std::get<std::vector<std::uint8_t>>(texture.texels);
+  const SlimBasis basis = slim_basis(texture, random_sensitivity(engine), 2.0);
+  const auto values = basis.values_of(texels);
+  for (std::size_t t = 0; t < texels.size(); t += channels) {
+    for (int f = 0; f < features; ++f)
+      // Half a value on each of seven axes, of which each moves a feature by less than a third
+      // (2 / 16 of a byte over the root of the least sensitivity, 0.2), and half a byte.
+      ASSERT_NEAR(basis.feature(f, std::span(values).subspan(t, features)),
+                  texels[t + std::size_t(f)], 0.5 + 7 * 0.5 * 0.3);
+    ASSERT_EQ(values[t + features], texels[t + features]);
+  }
+}
+
+TEST(SlimBasis, EveryAxisMovesTheColourAlike) {
+  const unsigned seed = 83;
+  SCOPED_TRACE(::testing::Message() << "seed " << seed);
+  std::mt19937 engine(seed);
+  testing::RandomScene random(seed);
+  const LatticeTexture texture = random.lattice_texture(20, 3, false);
+  const FeatureMatrix sensitivity = random_sensitivity(engine);
+  const double step = 6;
+  const SlimBasis basis = slim_basis(texture, sensitivity, step);
+  for (std::size_t a = 0; a < features; ++a)
+    for (std::size_t b = 0; b < features; ++b) {
+      double moved = 0;  // x_a^T S x_b: squared movement, and none of one along the other
+      for (std::size_t i = 0; i < features; ++i)
+        for (std::size_t j = 0; j < features; ++j)
+          moved += basis.rows[i][a] / 65536.0 * sensitivity[i][j] * basis.rows[j][b] / 65536.0;
+      // The rounding of the fixed point is 2^-17 of values about one.
+      EXPECT_NEAR(moved * slim_fraction * slim_fraction, a == b ? step * step : 0.0, 1e-2)
+          << a << ", " << b;
+    }
+}
+
+TEST(SlimBasis, AColourThatNothingMovesStillHasABasis) {
+  testing::RandomScene random(84);
+  const LatticeTexture texture = random.lattice_texture(3, 2, false);
+  const auto& texels = std::get<std::vector<std::uint8_t>>(texture.texels);
+  const SlimBasis basis = slim_basis(texture, FeatureMatrix{}, 4.0);
+  const auto values = basis.values_of(texels);
+  for (int f = 0; f < features; ++f)
+    // As above, with a sensitivity of 1.
+    EXPECT_NEAR(basis.feature(f, std::span(values).first(features)), texels[std::size_t(f)],
+                0.5 + 7 * 0.5 * 0.25);
+}
+
+}  // namespace
+}  // namespace tureen

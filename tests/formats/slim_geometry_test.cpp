@@ -1,0 +1,129 @@
+// Geometry of slim files: the same triangles, each corner within half a step of where it was.
+#include "formats/slim_geometry.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "formats/random_scene.hpp"
+#include "formats/truncation.hpp"
+#include "soup/error.hpp"
+
+namespace tureen {
+namespace {
+
+using testing::RandomScene;
+
+SlimGeometry random_geometry(unsigned seed, std::size_t faces, bool shared) {
+  RandomScene random(seed);
+  const TriangleSoup soup = random.geometry(faces, shared);
+  return {soup.positions, soup.triangles};
+}
+
+class SlimGeometryBits : public ::testing::TestWithParam<int> {};
+
+TEST_P(SlimGeometryBits, CornersStayWithinHalfAStep) {
+  const int bits = GetParam();
+  for (const bool shared : {false, true}) {
+    const unsigned seed = 61 + unsigned(bits);
+    SCOPED_TRACE(::testing::Message() << "seed " << seed << ", shared " << shared);
+    const SlimGeometry before = random_geometry(seed, 200, shared);
+    const auto bytes = encode_slim_geometry(before, bits);
+    const SlimGeometry after =
+        decode_slim_geometry(bytes, used_vertices(before.triangles), 200, "slim");
+    ASSERT_EQ(after.triangles.size(), 200u);
+    // Random positions in a box of side 4 at most; and the rounding of floats below 2 in the box's
+    // corner, the step and the result.
+    const double half = 0.5 * 4.0 / double((1 << bits) - 1) + 3 * std::ldexp(1.0, -23);
+    std::vector<std::uint32_t> became(before.positions.size(), 0xffffffffu);
+    for (std::size_t t = 0; t < 200; ++t)
+      for (int k = 0; k < 3; ++k) {
+        const std::uint32_t b = before.triangles[t][k], a = after.triangles[t][k];
+        for (int axis = 0; axis < 3; ++axis)
+          ASSERT_NEAR(before.positions[b][axis], after.positions[a][axis], half) << t;
+        // Corners that were one vertex still are.
+        if (became[b] == 0xffffffffu) became[b] = a;
+        ASSERT_EQ(became[b], a) << "face " << t;
+      }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Bits, SlimGeometryBits, ::testing::Values(1, 8, 14, 16, max_slim_bits));
+
+TEST(SlimGeometry, NeighboursTakeLittle) {
+  // A strip of small triangles along a line: far fewer than the 9 x 14 bits of three corners.
+  const unsigned seed = 71;
+  SCOPED_TRACE(::testing::Message() << "seed " << seed);
+  RandomScene random(seed);
+  SlimGeometry strip;
+  for (unsigned t = 0; t < 1000; ++t) {
+    for (int k = 0; k < 3; ++k)
+      strip.positions.emplace_back(float(t) / 1000 + random.real(0, 0.002f), random.real(0, 0.002f),
+                                   random.real(0, 0.002f));
+    strip.triangles.emplace_back(3 * t, 3 * t + 1, 3 * t + 2);
+  }
+  EXPECT_LT(encode_slim_geometry(strip, 14).size(), 1000u * 9 * 14 / 8 / 2);
+}
+
+TEST(SlimGeometry, APointAndNothingComeBack) {
+  SlimGeometry point{{glm::vec3(3, -1, 2)}, {glm::uvec3(0)}};
+  const SlimGeometry back = decode_slim_geometry(encode_slim_geometry(point, 16), 1, 1, "slim");
+  EXPECT_EQ(back.positions[0], point.positions[0]);
+  EXPECT_TRUE(decode_slim_geometry(encode_slim_geometry({}, 16), 0, 0, "slim").triangles.empty());
+}
+
+TEST(SlimGeometry, HugeBoxesAreNoProblem) {
+  constexpr float most = std::numeric_limits<float>::max();
+  const SlimGeometry huge{{glm::vec3(-most), glm::vec3(most), glm::vec3(0)}, {glm::uvec3(0, 1, 2)}};
+  const SlimGeometry back = decode_slim_geometry(encode_slim_geometry(huge, 16), 3, 1, "slim");
+  for (const glm::vec3& p : back.positions)
+    for (int k = 0; k < 3; ++k) EXPECT_TRUE(std::isfinite(p[k]));
+}
+
+TEST(SlimGeometry, RefusesWhatIsNowhere) {
+  SlimGeometry geometry = random_geometry(72, 2, false);
+  geometry.positions[4].y = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(encode_slim_geometry(geometry, 16), UsageError);
+}
+
+TEST(SlimGeometryBytes, SurviveDamage) {
+  const SlimGeometry geometry = random_geometry(73, 20, true);
+  const std::size_t vertices = used_vertices(geometry.triangles);
+  const auto bytes = encode_slim_geometry(geometry, 12);
+  const auto read = [&](std::span<const std::byte> b) {
+    const SlimGeometry back = decode_slim_geometry(b, vertices, 20, "slim");
+    ASSERT_EQ(back.triangles.size(), 20u);
+    ASSERT_EQ(back.positions.size(), vertices);
+    for (const glm::uvec3& triangle : back.triangles)
+      for (int k = 0; k < 3; ++k) ASSERT_LT(triangle[k], vertices);
+  };
+  const auto cut = testing::survive_truncation(bytes, read);
+  EXPECT_EQ(cut.read, 0u);
+  const auto damaged = testing::survive_damage(bytes, read);
+  EXPECT_GT(damaged.refused, 0u);
+}
+
+TEST(SlimGeometryBytes, SurviveAnything) {
+  const unsigned seed = 74;
+  SCOPED_TRACE(::testing::Message() << "seed " << seed);
+  std::mt19937 random(seed);
+  const auto read = [](std::span<const std::byte> b) { decode_slim_geometry(b, 60, 30, "slim"); };
+  testing::Survival survival;
+  for (int run = 0; run < 300; ++run) {
+    std::vector<std::byte> bytes(random() % 600);
+    for (std::byte& b : bytes) b = std::byte(random());
+    testing::expect_survival(bytes, read, "random bytes " + std::to_string(run), survival);
+  }
+  EXPECT_GT(survival.refused, 0u);
+}
+
+TEST(SlimGeometryBytes, FewCannotAskForMuch) {
+  const std::vector<std::byte> bytes(100, std::byte{1});
+  EXPECT_THROW(decode_slim_geometry(bytes, 3, std::size_t(1) << 32, "slim"), InputError);
+  EXPECT_THROW(decode_slim_geometry(bytes, 1000, 30, "slim"), InputError);
+}
+
+}  // namespace
+}  // namespace tureen

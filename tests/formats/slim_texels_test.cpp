@@ -1,0 +1,218 @@
+// Texels of slim files: exact where they lose nothing, within their step where they do, and no
+// bytes do worse than an InputError.
+#include "formats/slim_texels.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "formats/random_scene.hpp"
+#include "formats/truncation.hpp"
+#include "soup/lattice.hpp"
+
+namespace tureen {
+namespace {
+
+using testing::RandomScene;
+
+constexpr int channels = LatticeTexture::channels;
+constexpr int alpha = LatticeTexture::features;
+
+LatticeTexture decoded(const LatticeTexture& texture, const SlimTexelOptions& options) {
+  return decode_slim_texels(encode_slim_texels(texture, options), texture.patches.size(), "slim");
+}
+
+int byte_of(const LatticeTexture& texture, std::size_t face, std::uint32_t i, int c) {
+  const std::size_t at = (texture.patches[face].first_texel + i) * std::size_t(channels);
+  return std::get<std::vector<std::uint8_t>>(texture.texels)[at + std::size_t(c)];
+}
+
+/// Calls visit(face, texel of the face, channel, byte before, byte after).
+template <class Visit>
+void for_each_value(const LatticeTexture& before, const LatticeTexture& after, Visit&& visit) {
+  ASSERT_EQ(before.patches.size(), after.patches.size());
+  for (std::size_t t = 0; t < before.patches.size(); ++t) {
+    ASSERT_EQ(before.patches[t].level, after.patches[t].level) << "face " << t;
+    for (std::uint32_t i = 0; i < lattice::texel_count(int(before.patches[t].level)); ++i)
+      for (int c = 0; c < channels; ++c)
+        visit(t, i, c, byte_of(before, t, i, c), byte_of(after, t, i, c));
+  }
+}
+
+/// Smooth all over: every value is affine over the face.
+LatticeTexture smooth(std::size_t faces, int level, std::mt19937& random) {
+  LatticeTexture texture;
+  std::vector<std::uint8_t> texels;
+  for (std::size_t t = 0; t < faces; ++t) {
+    texture.patches.push_back(
+        {std::uint32_t(t * lattice::texel_count(level)), std::uint32_t(level)});
+    const int n = lattice::resolution(level);
+    int corner[3][channels];
+    for (auto& values : corner)
+      for (int& value : values) value = 128 + int(random() % 127);
+    for (std::uint32_t i = 0; i < lattice::texel_count(level); ++i) {
+      const auto at = lattice::texel_coordinates(i);
+      for (int c = 0; c < channels; ++c)
+        texels.push_back(std::uint8_t(
+            (corner[0][c] * at.x + corner[1][c] * at.y + corner[2][c] * (n - at.x - at.y)) / n));
+    }
+  }
+  texture.texels = std::move(texels);
+  return texture;
+}
+
+class SlimTexels : public ::testing::TestWithParam<int> {};
+
+TEST_P(SlimTexels, LoseNothingAtStepsOfOne) {
+  const unsigned seed = 31 + unsigned(GetParam());
+  SCOPED_TRACE(::testing::Message() << "seed " << seed);
+  RandomScene random(seed);
+  const std::optional<int> level =
+      GetParam() > lattice::max_level ? std::nullopt : std::optional<int>(GetParam());
+  const LatticeTexture texture =
+      random.lattice_texture(level.value_or(0) > 5 ? 2 : 11, level, false);
+  for_each_value(texture, decoded(texture, {.keep_hidden = true}),
+                 [](std::size_t t, std::uint32_t i, int c, int before, int after) {
+                   ASSERT_EQ(before, after) << "face " << t << ", texel " << i << ", channel " << c;
+                 });
+}
+
+TEST_P(SlimTexels, AreOffByHalfAStepAtMost) {
+  const unsigned seed = 41 + unsigned(GetParam());
+  SCOPED_TRACE(::testing::Message() << "seed " << seed);
+  RandomScene random(seed);
+  const std::optional<int> level =
+      GetParam() > lattice::max_level ? std::nullopt : std::optional<int>(GetParam());
+  const LatticeTexture texture =
+      random.lattice_texture(level.value_or(0) > 5 ? 2 : 11, level, false);
+  SlimTexelOptions options{.feature_step = 12, .alpha_step = 40, .keep_hidden = true};
+  // Each face has a coarseness of its own; those that share texels have the smallest of theirs.
+  std::vector<int> step(texture.patches.size());
+  for (std::size_t t = 0; t < texture.patches.size(); ++t)
+    options.coarseness.push_back(std::uint8_t(random.whole(8)));
+  for (std::size_t t = 0; t < texture.patches.size(); ++t) {
+    int least = 7;
+    for (std::size_t u = 0; u < texture.patches.size(); ++u)
+      if (texture.patches[u].first_texel == texture.patches[t].first_texel)
+        least = std::min<int>(least, options.coarseness[u]);
+    step[t] = 12 * slim_multipliers[std::size_t(least)] / 4;
+  }
+  const LatticeTexture back = decoded(texture, options);
+  for_each_value(texture, back, [&](std::size_t t, std::uint32_t i, int c, int before, int after) {
+    ASSERT_LE(2 * std::abs(before - after), c == alpha ? 2 * 40 : step[t])
+        << "face " << t << ", texel " << i << ", channel " << c;
+    // Alpha is never moved across 1/2.
+    if (c == alpha) {
+      ASSERT_EQ(before >= 128, after >= 128) << "face " << t << ", " << i;
+    }
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(LevelOrMixed, SlimTexels, ::testing::Range(0, lattice::max_level + 2));
+
+TEST(SlimTexelsOf, FloatsAreThoseOfTheirBytes) {
+  RandomScene random(51);
+  const LatticeTexture floats = random.lattice_texture(7, 2, true);
+  const LatticeTexture back = decoded(floats, {.keep_hidden = true});
+  for (std::size_t t = 0; t < floats.patches.size(); ++t)
+    for (std::uint32_t i = 0; i < lattice::texel_count(2); ++i)
+      for (int c = 0; c < channels; ++c)
+        // Half a byte; alpha near 1/2 may be a whole one off to stay on its side.
+        ASSERT_NEAR(back.value(back.patches[t].first_texel + i, c),
+                    floats.value(floats.patches[t].first_texel + i, c),
+                    (c == alpha ? 1.01 : 0.51) / 255.0);
+}
+
+TEST(SlimTexelsOf, WhatNobodySeesIsNotKept) {
+  const unsigned seed = 52;
+  SCOPED_TRACE(::testing::Message() << "seed " << seed);
+  RandomScene random(seed);
+  LatticeTexture texture = random.lattice_texture(40, 3, false);
+  auto& texels = std::get<std::vector<std::uint8_t>>(texture.texels);
+  // Half of the faces are transparent or opaque all over, the others cut at random.
+  for (std::size_t t = 0; t < 20; ++t)
+    for (std::size_t i = 0; i < 45; ++i) {
+      std::uint8_t& a = texels[(t * 45 + i) * channels + alpha];
+      a = std::uint8_t(t % 2 ? 128 + a / 2 : a / 2);
+    }
+  const auto all = encode_slim_texels(texture, {.keep_hidden = true});
+  const auto seen = encode_slim_texels(texture, {});
+  // Ten of forty faces have no features, and twenty no alpha worth the name.
+  EXPECT_LT(double(seen.size()), 0.8 * double(all.size()));
+  const LatticeTexture back = decode_slim_texels(seen, 40, "slim");
+  for_each_value(texture, back, [&](std::size_t t, std::uint32_t i, int c, int before, int after) {
+    if (c == alpha) {
+      ASSERT_EQ(before >= 128, after >= 128) << "face " << t << ", texel " << i;
+      if (t >= 20) return;
+    } else if (t % 2 == 1 && t < 20) {
+      ASSERT_EQ(before, after) << "face " << t << ", texel " << i << ", channel " << c;
+    }
+  });
+}
+
+TEST(SlimTexelsOf, SmoothOrEqualFacesTakeLittle) {
+  const unsigned seed = 53;
+  SCOPED_TRACE(::testing::Message() << "seed " << seed);
+  std::mt19937 random(seed);
+  LatticeTexture texture = smooth(300, 4, random);
+  const SlimTexelOptions options{.feature_step = 8, .alpha_step = 85};
+  const std::size_t own = encode_slim_texels(texture, options).size();
+  // Texels are 1224 bytes a face. Its corners alone, 21 random features of 4 bits after the step,
+  // are 10.5; what lies between them is missed now and then, as corners are off by half a step.
+  EXPECT_LT(own, 300u * 1224u / 30u);
+  for (std::size_t t = 10; t < 300; ++t) texture.patches[t] = texture.patches[t % 10];
+  const auto shared = encode_slim_texels(texture, options);
+  // Ten faces, and 290 names of one of them: less than a single face as it was.
+  EXPECT_LT(shared.size(), 1224u);
+  const LatticeTexture back = decode_slim_texels(shared, 300, "slim");
+  EXPECT_EQ(back.texel_count(), 10u * 153u);
+  for (std::size_t t = 0; t < 300; ++t)
+    EXPECT_EQ(back.patches[t].first_texel, back.patches[t % 10].first_texel);
+}
+
+TEST(SlimTexelsOf, NothingIsAnEmptyTexture) {
+  LatticeTexture texture;
+  texture.texels = std::vector<std::uint8_t>();
+  EXPECT_EQ(decoded(texture, {}).texel_count(), 0u);
+}
+
+TEST(SlimTexelBytes, SurviveDamage) {
+  RandomScene random(54);
+  const LatticeTexture texture = random.lattice_texture(3, 1, false);
+  const auto bytes = encode_slim_texels(texture, {.feature_step = 16, .alpha_step = 85});
+  const auto read = [&](std::span<const std::byte> b) {
+    const LatticeTexture back = decode_slim_texels(b, 3, "slim");
+    ASSERT_EQ(back.patches.size(), 3u);
+    for (const LatticePatch& patch : back.patches)
+      ASSERT_LE(patch.first_texel + lattice::texel_count(int(patch.level)), back.texel_count());
+  };
+  const auto cut = testing::survive_truncation(bytes, read);
+  EXPECT_EQ(cut.read, 0u);
+  EXPECT_EQ(cut.refused, bytes.size());
+  // Most damage makes other texels, which nobody can tell from wrong ones.
+  const auto damaged = testing::survive_damage(bytes, read);
+  EXPECT_GT(damaged.read, 0u);
+}
+
+TEST(SlimTexelBytes, SurviveAnything) {
+  const unsigned seed = 55;
+  SCOPED_TRACE(::testing::Message() << "seed " << seed);
+  std::mt19937 random(seed);
+  const auto read = [](std::span<const std::byte> b) { decode_slim_texels(b, 50, "slim"); };
+  testing::Survival survival;
+  for (int run = 0; run < 100; ++run) {
+    std::vector<std::byte> bytes(random() % 1000);
+    for (std::byte& b : bytes) b = std::byte(random());
+    testing::expect_survival(bytes, read, "random bytes " + std::to_string(run), survival);
+  }
+  EXPECT_GT(survival.refused, 0u);
+}
+
+TEST(SlimTexelBytes, FewCannotAskForMuch) {
+  const std::vector<std::byte> bytes(300, std::byte{1});
+  EXPECT_THROW(decode_slim_texels(bytes, std::size_t(1) << 32, "slim"), InputError);
+  EXPECT_THROW(decode_slim_texels(bytes, 300 * 64 + 1, "slim"), InputError);
+}
+
+}  // namespace
+}  // namespace tureen

@@ -1,0 +1,154 @@
+// Slim files: what a reader makes of them is what the encoder said it would.
+#include "formats/tureen_glb_slim.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "formats/random_scene.hpp"
+#include "formats/truncation.hpp"
+#include "formats/tureen_glb.hpp"
+
+namespace tureen {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::RandomScene;
+
+Scene random_scene(unsigned seed, std::size_t faces, std::optional<int> level, bool shared) {
+  RandomScene random(seed);
+  Scene scene = random.scene();
+  TriangleSoup soup = random.geometry(faces, shared);
+  LatticeTexture texture = random.lattice_texture(faces, level, false);
+  texture.mlp = random.diffsoup_mlp();
+  soup.appearance = std::move(texture);
+  scene.primitives = std::move(soup);
+  return scene;
+}
+
+std::vector<std::byte> bytes_of_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
+}
+
+std::vector<std::byte> written(const Scene& scene, const SlimSoup& slim, const std::string& name) {
+  const auto path = std::filesystem::path(::testing::TempDir()) / ("slim_" + name + ".glb");
+  EXPECT_TRUE(write_slim_glb(scene, slim, path).empty());
+  auto bytes = bytes_of_file(path);
+  std::filesystem::remove(path);
+  return bytes;
+}
+
+Scene read_back(std::span<const std::byte> bytes) {
+  Input input = Input::memory("memory.glb", bytes);
+  return read_tureen_glb(input);
+}
+
+nlohmann::json json_of(std::span<const std::byte> bytes) {
+  std::uint32_t length = 0;
+  std::memcpy(&length, &bytes[12], 4);
+  return nlohmann::json::parse(
+      std::string_view(reinterpret_cast<const char*>(bytes.data()) + 20, length));
+}
+
+TEST(SlimGlb, IsReadAsTheEncoderSaid) {
+  for (unsigned seed = 91; seed < 97; ++seed) {
+    const bool shared = seed % 2 == 0;
+    SCOPED_TRACE(::testing::Message() << "seed " << seed);
+    Scene scene = random_scene(seed, 30, seed % 3 ? std::optional<int>(2) : std::nullopt, shared);
+    const auto& soup = std::get<TriangleSoup>(scene.primitives);
+    const SlimSoup slim =
+        encode_slim(soup, {.position_bits = 12, .texels = {.feature_step = 9, .alpha_step = 85}});
+    TriangleSoup promised = decode_slim(slim, soup);
+    EXPECT_EQ(promised.triangles.size(), 30u);
+    EXPECT_FALSE(defect(promised));
+    const Scene back = read_back(written(scene, slim, std::to_string(seed)));
+    scene.primitives = std::move(promised);
+    EXPECT_EQ(testing::difference(scene, back), "");
+  }
+}
+
+TEST(SlimGlb, TellsOtherViewersThatItIsNotForThem) {
+  Scene scene = random_scene(98, 4, 1, false);
+  const SlimSoup slim = encode_slim(std::get<TriangleSoup>(scene.primitives), {});
+  const auto json = json_of(written(scene, slim, "required"));
+  EXPECT_EQ(json["extensionsRequired"], nlohmann::json::array({tureen_extension}));
+  EXPECT_EQ(json["extensions"][tureen_extension]["version"], tureen_slim_version);
+  EXPECT_FALSE(json.contains("meshes"));
+}
+
+TEST(SlimGlb, HoldsLatticeTexturesOnly) {
+  RandomScene random(99);
+  Scene scene = random.scene();
+  TriangleSoup soup = random.geometry(2, false);
+  soup.appearance = FaceColors{random.colors(2, true)};
+  scene.primitives = std::move(soup);
+  EXPECT_THROW(write_slim_glb(scene, {}, "never_written.glb"), UsageError);
+  EXPECT_FALSE(std::filesystem::exists("never_written.glb"));
+}
+
+TEST(SlimGlb, AnEmptySoupComesBackEmpty) {
+  Scene scene;
+  TriangleSoup soup;
+  soup.appearance = LatticeTexture{};
+  scene.primitives = soup;
+  const SlimSoup slim = encode_slim(soup, {});
+  const Scene back = read_back(written(scene, slim, "empty"));
+  EXPECT_TRUE(std::get<TriangleSoup>(back.primitives).triangles.empty());
+}
+
+TEST(SlimGlb, SurvivesDamage) {
+  Scene scene = random_scene(100, 3, 0, false);
+  scene.cameras.clear();
+  // The network is as in other files, and thousands of bytes.
+  std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance).mlp.reset();
+  const SlimSoup slim = encode_slim(std::get<TriangleSoup>(scene.primitives),
+                                    {.texels = {.feature_step = 16, .alpha_step = 85}});
+  const auto bytes = written(scene, slim, "damage");
+  const auto read = [](std::span<const std::byte> b) {
+    const Scene back = read_back(b);
+    ASSERT_FALSE(defect(std::get<TriangleSoup>(back.primitives)));
+  };
+  EXPECT_EQ(testing::survive_truncation(bytes, read).read, 0u);
+  EXPECT_GT(testing::survive_damage(bytes, read).refused, 0u);
+}
+
+TEST(SlimGlb, CountsThatDoNotFitAreRefused) {
+  Scene scene = random_scene(101, 5, 1, false);
+  const SlimSoup slim = encode_slim(std::get<TriangleSoup>(scene.primitives), {});
+  const auto bytes = written(scene, slim, "counts");
+  auto json = json_of(bytes);
+  for (const auto& [key, value] :
+       {std::pair("face_count", 4000000000u), std::pair("vertex_count", 4000000000u),
+        std::pair("vertex_count", 14u)}) {
+    auto changed = json;
+    changed["extensions"][tureen_extension][key] = value;
+    std::string text = changed.dump();
+    std::uint32_t old_length = 0;
+    std::memcpy(&old_length, &bytes[12], 4);
+    text.append((4 - text.size() % 4) % 4, ' ');
+    std::vector<std::byte> again(bytes.begin(), bytes.begin() + 20);
+    const auto length = std::uint32_t(text.size());
+    std::memcpy(&again[12], &length, 4);
+    const auto chunk = std::as_bytes(std::span(text));
+    again.insert(again.end(), chunk.begin(), chunk.end());
+    again.insert(again.end(), bytes.begin() + 20 + old_length, bytes.end());
+    const auto total = std::uint32_t(again.size());
+    std::memcpy(&again[8], &total, 4);
+    try {
+      read_back(again);
+      ADD_FAILURE() << key << " of " << value << " was accepted";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.reason(), HasSubstr("the slim geometry is cut short or damaged"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tureen
