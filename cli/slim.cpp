@@ -26,11 +26,13 @@ constexpr double least_step = 0.5, largest_step = 64;
 constexpr int bisections = 8;
 /// Alpha is seen only by where it reaches 1/2: 0, 85, 170, 255 do.
 constexpr std::uint8_t alpha_step = 85;
-/// Measured on the example and on the bulldozer: a third less rounding up saves 5 % of the bytes at
-/// the same loss.
+/// A dead zone: misses below two thirds of a step become none. Between 0.25 and 0.4 the bytes at
+/// the same loss differ by 1 % (15,000 triangles of lego).
 constexpr double rounding = 0.33;
 /// How much of what a face's pixels and sensitivity differ from the mean its step follows. 1/2 each
-/// would be right where every value took bits; most are zero. Measured as above: saves 7 %.
+/// would be right where every value took bits; most are zero. Saves 9 % of the bytes at the same
+/// loss against one step for all faces (6 % by pixels alone), measured as above; 0.45 saves no
+/// more.
 constexpr double follow = 0.3;
 
 std::vector<std::uint64_t> count_pixels(const gl::Context& context, const TriangleSoup& soup,
