@@ -1,6 +1,7 @@
 #include "cli/config_options.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -21,6 +22,15 @@ template <class T>
 CLI::Option* add_number(CLI::App& command, const std::string& name, std::optional<T>& value,
                         const std::string& help) {
   return command.add_option(name, value, help)->option_text("N");
+}
+
+/// Signs and what 64 bits do not hold would wrap around to other seeds.
+std::string refuse_seed(const std::string& text) {
+  std::uint64_t seed = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, seed);
+  if (error == std::errc() && stop == end) return {};
+  return "a seed is a whole number from 0 to 18446744073709551615, not " + text;
 }
 
 /// The nearest int: beyond an int is beyond every range as well, and is refused with its range.
@@ -49,7 +59,8 @@ void add_config_options(CLI::App& command, ConfigOptions& options) {
   add_number(command, "--triangles", options.triangles, "so many in the end; 15,000 by default");
   add_number(command, "--steps", options.steps, "steps of the optimiser; 10,000 by default");
   add_number(command, "--batch", options.batch, "views a step; 4 by default");
-  add_number(command, "--seed", options.seed, "of every random number; 0 by default");
+  add_number(command, "--seed", options.seed, "of every random number; 0 by default")
+      ->check(refuse_seed);
   add_number(command, "--level", options.level,
              "the finest level of the textures: a face has (2^N + 1)(2^N + 2) / 2 texels");
   command

@@ -1,5 +1,9 @@
 #include "cli/dataset_argument.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "cli/progress.hpp"
 #include "formats/suggestion.hpp"
 #include "soup/error.hpp"
@@ -46,6 +50,20 @@ void add_dataset_argument(CLI::App& command, DatasetArgument& argument) {
                   "is a test view, from the first on; 8 by default")
       ->check(CLI::Range(2, 1000000))
       ->option_text("N");
+}
+
+void require_sides(const DatasetArgument& argument, const Dataset& dataset, SideLimits limits) {
+  for (const auto* views : {&dataset.train, &dataset.test})
+    for (const Photograph& view : *views) {
+      const auto [shorter, longer] = std::minmax(view.camera.width, view.camera.height);
+      if (shorter >= limits.least && longer <= limits.most) continue;
+      const std::string bound = shorter < limits.least ? fmt::format("at least {}", limits.least)
+                                                       : fmt::format("at most {}", limits.most);
+      throw InputError({argument.path, {}, {}},
+                       fmt::format("{} is {} x {} pixels; there must be {} each way{}",
+                                   view.camera.name, view.camera.width, view.camera.height, bound,
+                                   longer > limits.most ? ": --scale makes it smaller" : ""));
+    }
 }
 
 Dataset read(const DatasetArgument& argument, DatasetPart part) {

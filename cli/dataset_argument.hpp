@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <limits>
 #include <string>
 
 #include "formats/dataset.hpp"
@@ -19,6 +20,18 @@ void add_dataset_argument(CLI::App& command, DatasetArgument& argument);
 
 /// --scale alone.
 CLI::Option* add_scale_option(CLI::App& command, DatasetArgument& argument);
+
+/// The window of the SSIM: smaller pictures cannot be measured.
+inline constexpr int ssim_window = 11;
+
+/// Bounds of a picture's sides, in pixels.
+struct SideLimits {
+  int least = 1;
+  int most = std::numeric_limits<int>::max();
+};
+
+/// Throws InputError with the name and size of the first photograph that is beyond the limits.
+void require_sides(const DatasetArgument& argument, const Dataset& dataset, SideLimits limits);
 
 /// Throws InputError, with a suggestion where the path does not exist, and Interrupted.
 Dataset read(const DatasetArgument& argument, DatasetPart part);

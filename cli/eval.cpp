@@ -58,14 +58,19 @@ Json report(const Options& options, const Evaluation& result) {
 ExitCode evaluate_scene(Options options) {
   // Everything that can be wrong with the arguments is said before anything is read.
   EvaluationOptions& evaluation = options.evaluation;
+  if (options.background == "transparent")
+    throw UsageError("photographs have something behind them: white, black or 0.2,0.4,1");
   if (!options.background.empty())
     evaluation.background = glm::vec3(parse_background(options.background));
   evaluation.folder = options.folder;
+  const std::filesystem::path data = options.dataset.path;
+  evaluation.spared = std::filesystem::is_directory(data) ? data : data.parent_path();
 
   Scene scene = read(options.scene);
   const TriangleSoup& soup = opaque_soup(scene);
   if (options.background.empty()) evaluation.background = scene.info.background;
   Dataset dataset = read(options.dataset, options.split);
+  require_sides(options.dataset, dataset, {.least = ssim_window});
   const std::vector<Photograph> photographs = photographs_of(dataset);
   if (photographs.empty())
     throw InputError({options.dataset.path, {}, {}},

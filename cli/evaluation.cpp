@@ -54,6 +54,22 @@ void make_folder(const fs::path& folder) {
                       "cannot be made a folder" + (error ? ": " + error.message() : std::string()));
 }
 
+/// Nothing that is there already inside `spared` is replaced: it may be a photograph.
+void check_spared(const fs::path& spared, const fs::path& folder,
+                  const std::vector<std::string>& files) {
+  if (spared.empty() || folder.empty()) return;
+  std::error_code error;
+  const fs::path inner = fs::weakly_canonical(folder, error);
+  const fs::path outer = fs::weakly_canonical(spared, error);
+  if (std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first != outer.end())
+    return;
+  for (const std::string& file : files)
+    if (fs::exists(folder / file, error))
+      throw UsageError((folder / file).string() +
+                       " is there already, and in the dataset's folder nothing is replaced; choose "
+                       "another folder for the pictures");
+}
+
 ViewMetrics mean_of(const std::vector<ViewMetrics>& views) {
   ViewMetrics sum;
   for (const ViewMetrics& view : views) {
@@ -97,6 +113,7 @@ Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
                     std::span<const Photograph> photographs, const EvaluationOptions& options) {
   assert(!photographs.empty());
   const std::vector<std::string> files = picture_names(photographs);
+  check_spared(options.spared, options.folder, files);
   if (!options.folder.empty()) make_folder(options.folder);
 
   const gl::Context context = gl::Context::create({.backend = options.drawing.backend});

@@ -30,6 +30,8 @@ struct EvaluationOptions {
   /// Where to put the photograph, the rendering and a heat map of their differences side by side, a
   /// PNG a view, and a contact sheet of them. Empty: no pictures. Made where it does not exist.
   std::filesystem::path folder = {};
+  /// The dataset's own folder: where `folder` lies inside it no file that is there is replaced.
+  std::filesystem::path spared = {};
   /// Called now and then with the fraction done, 0..1; may throw to end the evaluation.
   std::function<void(double)> progress = {};
 };
@@ -52,7 +54,8 @@ struct Evaluation {
 
 /// Views are measured on all cores while others are drawn. There is one photograph at least, and
 /// the soup has no defect(). Throws ContextError, DeviceLimitError, UsageError where the window of
-/// the SSIM does not fit into a view, OutputError; pictures that are there by then stay.
+/// the SSIM does not fit into a view or a picture would replace one of the dataset, OutputError;
+/// pictures that are there by then stay.
 Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
                     std::span<const Photograph> photographs, const EvaluationOptions& options);
 

@@ -13,12 +13,15 @@ namespace {
 
 /// `indent` -1 writes no line's end but the last.
 void print(const Json& document, int indent) {
-  const std::string text = document.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-    throw OutputError({}, "standard output cannot be written");
+  print_text(document.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace
+
+void print_text(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+    throw OutputError({}, "standard output cannot be written");
+}
 
 void say(const std::string& line) {
   std::string safe = line;

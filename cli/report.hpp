@@ -18,6 +18,9 @@ void say(const std::string& line);
 /// Lines under a heading, indented; nothing when there are none.
 void say_list(const std::string& heading, const std::vector<std::string>& lines);
 
+/// Standard output; throws OutputError where it cannot be written, as do the two below.
+void print_text(const std::string& text);
+
 /// The document and a line's end. Text that is not UTF-8 has U+FFFD where it breaks.
 void print_json(const Json& document);
 

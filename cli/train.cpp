@@ -12,12 +12,14 @@
 #include "cli/dataset_argument.hpp"
 #include "cli/evaluation.hpp"
 #include "cli/held_out.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/run_lock.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/training_plot.hpp"
 #include "cli/training_session.hpp"
+#include "formats/diffsoup_export.hpp"
 #include "formats/output.hpp"
 #include "formats/scene_file.hpp"
 #include "formats/suggestion.hpp"
@@ -59,7 +61,9 @@ TrainingFiles files_of(const Options& options) {
   if (options.output.empty()) throw UsageError("-o OUT.glb is required");
   TrainingFiles files = training_files(options.output);
   if (!options.log.empty()) files.log = options.log;
-  files.diffsoup_export = options.diffsoup_export;
+  fs::path folder = options.diffsoup_export;
+  if (!folder.empty() && !folder.has_filename()) folder = folder.parent_path();  // ends in '/'
+  files.diffsoup_export = folder;
   return files;
 }
 
@@ -83,18 +87,8 @@ Config config_of(const Options& options, Preset otherwise, const Checkpoint* che
 }
 
 void check_pictures(const Options& options, const Dataset& dataset) {
-  constexpr int window = 11;  // of the SSIM
-  constexpr int most = trainer::kernels::most_picture_side;
-  for (const auto* views : {&dataset.train, &dataset.test})
-    for (const Photograph& view : *views) {
-      const auto [shorter, longer] = std::minmax(view.camera.width, view.camera.height);
-      if (shorter < window || longer > most)
-        throw InputError(
-            {options.dataset.path, {}, {}},
-            fmt::format("{} is {} x {} pixels; there must be {} to {} each way to train on{}",
-                        view.camera.name, view.camera.width, view.camera.height, window, most,
-                        longer > most ? ": --scale makes it smaller" : ""));
-    }
+  require_sides(options.dataset, dataset,
+                {.least = ssim_window, .most = trainer::kernels::most_picture_side});
 }
 
 trainer::TrainingState first_state(const Dataset& dataset, const Config& config,
@@ -151,7 +145,7 @@ void write_results(const TrainingFiles& files, const Scene& scene, Result& resul
   result.output.push_back(files.scene.string());
   if (!files.diffsoup_export.empty()) {
     say_list("Lost in " + files.diffsoup_export.string() + ":",
-             write_scene(scene, files.diffsoup_export));
+             write_diffsoup_export(scene, files.diffsoup_export));
     result.output.push_back(files.diffsoup_export.string());
   }
   std::error_code ignored;
@@ -231,6 +225,14 @@ void say_beginning(const Dataset& dataset, const Config& config, const trainer::
                   counted(std::uint64_t(config.triangles)), backend.description()));
 }
 
+/// Whether some training picture shows a triangle.
+bool shows_something(trainer::Backend& backend, std::span<const trainer::TrainingView> views) {
+  return std::any_of(views.begin(), views.end(), [&](const trainer::TrainingView& view) {
+    const std::vector<std::uint64_t> pixels = backend.visible_pixels({&view.camera, 1});
+    return std::any_of(pixels.begin(), pixels.end(), [](auto count) { return count > 0; });
+  });
+}
+
 /// The scene of --init.
 std::optional<Scene> read_mesh(const ConfigOptions& options) {
   const fs::path path = options.mesh();
@@ -251,7 +253,7 @@ void check_existing(const Options& options, const TrainingFiles& files) {
     throw UsageError("-o would replace " + mesh.string() +
                      ", from which --init begins; choose another name");
   if (!options.resume && fs::exists(files.scene, error))
-    say(files.scene.string() + " is there and will be replaced in the end");
+    say(files.scene.string() + " is there and will be replaced in the end, its log now");
   if (!options.resume && fs::exists(files.checkpoint, error))
     throw UsageError(files.checkpoint.string() +
                      " is there, of a run that was not finished: --resume goes on with it; remove "
@@ -268,11 +270,13 @@ void make_folder(const fs::path& folder) {
 ExitCode train(const Options& options) {
   // Everything that can be wrong with the arguments is said before the photographs are read.
   TrainingFiles files;
-  std::optional<RunLock> lock;
+  std::optional<RunLock> lock, log_lock;
   if (!options.print_config) {
+    outlive_readers();  // hours of work are worth more than the lines that nobody reads
     files = files_of(options);
     check_writable(files);
     lock.emplace(files.lock);
+    if (!options.log.empty()) log_lock.emplace(fs::path(files.log) += ".lock");
     check_existing(options, files);
     trainer::require_device(options.device);
     if (options.preview_every > 0) make_folder(files.previews);
@@ -288,7 +292,7 @@ ExitCode train(const Options& options) {
   check_pictures(options, dataset);
   const Config config = config_of(options, preset_for(dataset), before);
   if (options.print_config) {
-    std::fputs(trainer::config_to_json(config).c_str(), stdout);
+    print_text(trainer::config_to_json(config));
     return ExitCode::done;
   }
   say_list("Reading " + options.dataset.path + ":", dataset.notes);
@@ -313,6 +317,8 @@ ExitCode train(const Options& options) {
                            trainer::make_backend(views, scaled, options.device, options.threads),
                            run.state);
   say_beginning(dataset, config, trainer.backend());
+  if (!shows_something(trainer.backend(), views))
+    say("No training picture shows a triangle yet: are the cameras where the scene is?");
 
   TrainingSession session(trainer,
                           {.files = files,
@@ -327,7 +333,7 @@ ExitCode train(const Options& options) {
   result.seconds = session.seconds();
   result.state = trainer.state();
   const Scene scene = scene_of(options, dataset, config, result.state);
-  write_results(files, scene, result);
+  session.keep_if_it_fails([&] { write_results(files, scene, result); });
   {
     Progress progress("measuring");
     result.trainer_psnr_db = mean_psnr_db(trainer.backend(), dataset.test, config,

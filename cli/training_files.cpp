@@ -25,7 +25,8 @@ void try_to_write(const fs::path& file) {
 /// A log is begun anew, so what is there must be one, or nothing: not a scene, not a dataset.
 void check_log(const TrainingFiles& files) {
   std::error_code error;
-  for (const fs::path& other : {files.scene, files.checkpoint, files.plot})
+  for (const fs::path& other :
+       {files.scene, files.checkpoint, files.plot, files.previews, files.lock})
     if (files.log.lexically_normal() == other.lexically_normal())
       throw UsageError("the log cannot be " + other.string() + ", which is written, too");
   if (!fs::exists(files.log, error)) return;
@@ -61,6 +62,10 @@ void check_writable(const TrainingFiles& files) {
   check_log(files);
   const fs::path& folder = files.diffsoup_export;
   if (folder.empty()) return;
+  for (const fs::path& other :
+       {files.scene, files.checkpoint, files.log, files.plot, files.previews, files.lock})
+    if (folder.lexically_normal() == other.lexically_normal())
+      throw UsageError("the export cannot be " + other.string() + ", which is written, too");
   std::error_code error;
   if (!fs::exists(folder, error)) {
     try_to_write(folder);

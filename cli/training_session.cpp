@@ -69,16 +69,30 @@ double TrainingSession::seconds() const {
 }
 
 void TrainingSession::run() {
+  keep_if_it_fails([this] { train_to_the_end(); });
+}
+
+void TrainingSession::keep_if_it_fails(const std::function<void()>& work) {
   try {
-    train_to_the_end();
+    work();
   } catch (const Interrupted&) {
-    // Between two steps, where the state is whole.
-    save_checkpoint();
-    say(fmt::format("wrote {} after step {} of {}; the same command with --resume goes on from it",
-                    options_.files.checkpoint.string(), counted(trainer_.steps_done()),
-                    counted(trainer_.config().steps)));
+    keep();
+    throw;
+  } catch (...) {
+    // What went wrong is said in the end; a checkpoint that fails as well adds nothing to it.
+    try {
+      if (!in_step_) keep();
+    } catch (const OutputError&) {
+    }
     throw;
   }
+}
+
+void TrainingSession::keep() {
+  save_checkpoint();
+  say(fmt::format("wrote {} after step {} of {}; the same command with --resume goes on from it",
+                  options_.files.checkpoint.string(), counted(trainer_.steps_done()),
+                  counted(trainer_.config().steps)));
 }
 
 void TrainingSession::train_to_the_end() {
@@ -88,7 +102,9 @@ void TrainingSession::train_to_the_end() {
   while (!trainer_.done()) {
     progress.update(double(trainer_.steps_done()) / trainer_.config().steps, detail());
     const double before = seconds();
+    in_step_ = true;
     const trainer::StepReport report = trainer_.step();
+    in_step_ = false;
     seconds_per_step_ = smoothed(seconds_per_step_, seconds() - before);
     after_step(report);
   }

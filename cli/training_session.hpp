@@ -31,8 +31,12 @@ class TrainingSession {
   TrainingSession(trainer::Trainer& trainer, SessionOptions options, trainer::Checkpoint run);
 
   /// Trains to the last step. Throws OutputError where a file cannot be written, and Interrupted
-  /// after Ctrl-C, when the checkpoint is written and it is said how to go on.
+  /// after Ctrl-C. Either way a checkpoint is written, where that can be, and it is said how to go
+  /// on.
   void run();
+
+  /// Does what is left to do after run(); where it throws the checkpoint is written first.
+  void keep_if_it_fails(const std::function<void()>& work);
 
   /// Of training, sessions before this one included.
   double seconds() const;
@@ -51,6 +55,7 @@ class TrainingSession {
   void record();
   void write_preview();
   void save_checkpoint();
+  void keep();
   std::string detail() const;
 
   trainer::Trainer& trainer_;
@@ -62,6 +67,7 @@ class TrainingSession {
   double start_ = 0;            // of the clock
   double last_checkpoint_ = 0;  // seconds()
   Recent recent_;
+  bool in_step_ = false;  // the state may be half of one step and half of the next
   std::uint64_t non_finite_ = 0;
   double loss_ = 0;  // smoothed, as shown
   double seconds_per_step_ = 0;

@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
   Options options;
   app.add_option("FOLDER", options.folder, "Where the dataset goes")->required();
   app.add_option("--size", options.size, "Pixels a side")
-      ->check(CLI::Range(8, 4096))
+      ->check(CLI::Range(11, 4096))  // what can be trained on
       ->capture_default_str();
   app.add_option("--views", options.views, "Photographs to train on")
       ->check(CLI::Range(1, 1000))
@@ -62,7 +62,8 @@ int main(int argc, char** argv) {
   app.add_option("--threads", options.threads)->check(CLI::Range(1, 1024));
   CLI11_PARSE(app, argc, argv);
   try {
-    std::fprintf(stderr, "lighting\n");
+    std::filesystem::create_directories(options.folder);  // before the minutes that light takes
+    std::fprintf(stderr, "lighting, a minute or two\n");
     const Studio studio(still_life(), {.threads = options.threads});
     take(studio, options, "train", example_cameras(options.views, options.size));
     take(studio, options, "test", example_cameras(options.test_views, options.size, 0.5));

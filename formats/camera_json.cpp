@@ -110,6 +110,8 @@ glm::dmat4 CameraJson::rigid(const char* key) const {
     fail(std::string(key) + " has not 3 or 4 rows");
   glm::dmat4 transposed(1.0);
   const std::vector<glm::dvec4> found = rows(key, 4);
+  if (found.size() == 4 && found[3] != glm::dvec4(0, 0, 0, 1))
+    fail(std::string(key) + " has another last row than 0 0 0 1");
   for (int row = 0; row < 3; ++row) transposed[row] = found[std::size_t(row)];
   const glm::dmat4 result = glm::transpose(transposed);
   if (const char* defect = rotation_defect(glm::dmat3(result)))

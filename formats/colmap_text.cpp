@@ -51,6 +51,18 @@ const ColmapLensModel& find_lens_model(const std::string& name) {
   throw ColmapRefusal{"the camera model '" + name.substr(0, 40) + "' is none that we know"};
 }
 
+/// The line of features, x, y and a point's number each, which may be empty. Where it is missing it
+/// is the next image that stands there, and that would be lost.
+void pass_features(TextScanner& text, const std::string& image) {
+  std::size_t words = 0;
+  for (; !text.at_line_end(); ++words) text.read_word("a feature");
+  if (words % 3 != 0)
+    text.fail("the line after image " + image +
+              " holds its features, three numbers each, or nothing; here are " +
+              std::to_string(words) + " words");
+  text.next_line();
+}
+
 }  // namespace
 
 ColmapCameras read_colmap_cameras_text(Input& input) {
@@ -89,9 +101,8 @@ std::vector<ColmapImage> read_colmap_images_text(Input& input) {
     // COLMAP does not quote a name with blanks; two in a row would be lost here.
     while (!text.at_line_end()) image.name += " " + text.read_word("an image's name");
     images.push_back(std::move(image));
-    // The line of features, which may be empty.
     text.next_line();
-    text.next_line();
+    pass_features(text, images.back().name);
   }
   return images;
 }

@@ -20,7 +20,14 @@ Output::Output(std::filesystem::path path) : path_(std::move(path)) {
   temporary_ = path_;
   temporary_ += ".tmp" + std::to_string(getpid()) + "-" + std::to_string(counter++);
   file_ = std::fopen(temporary_.c_str(), "wb");
-  if (!file_) fail("cannot be created");
+  if (file_) return;
+  const int reason = errno;
+  const std::filesystem::path folder = path_.parent_path();
+  std::error_code error;
+  if (!folder.empty() && !std::filesystem::exists(folder, error))
+    throw OutputError({path_.string(), {}, {}}, "there is no folder " + folder.string());
+  errno = reason;
+  fail("cannot be created");
 }
 
 Output::~Output() {

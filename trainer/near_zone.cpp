@@ -39,9 +39,9 @@ class Pyramid {
 
  private:
   static constexpr int planes = 5;
-  /// A convex polygon gains one corner at a plane. Rounding bends one that is as small as its error,
-  /// at the very eye say: every second corner may be outside, which gives half as many again, from
-  /// three 4, 6, 9, 13 and 19.
+  /// A convex polygon gains one corner at a plane. Rounding bends one that is as small as its
+  /// error, at the very eye say: every second corner may be outside, which gives half as many
+  /// again, from three 4, 6, 9, 13 and 19.
   static constexpr std::size_t most_corners = 19;
 
   glm::dvec3 project(glm::vec3 position) const {

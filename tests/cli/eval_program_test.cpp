@@ -148,7 +148,9 @@ TEST_F(Eval, ExitCodesSayWhoIsToBlame) {
   expect({"eval", example, "data", "--scale", "1.5"}, 2, "more than 0 and at most 1, not 1.5");
   expect({"eval", example, "data", "--split", "tets"}, 2, "did you mean test?");
   expect({"eval", example, "data", "--background", "pink"}, 2, "'pink' is no background");
-  expect({"eval", example, "data", "--context", "osmesa", "--scale", "0.1"}, 2, "SSIM");
+  expect({"eval", example, "data", "--context", "osmesa", "--scale", "0.1"}, 3,
+         "is 6 x 5 pixels; there must be at least 11 each way");
+  expect({"eval", example, "data", "--background", "transparent"}, 2, "have something behind them");
   expect({"eval", example, "dat"}, 3, "dat: there is no such file or folder; did you mean data?");
   expect({"eval", "soup.glb", "data"}, 3, "soup.glb: there is no such file or folder");
   write("file", "");
@@ -157,6 +159,18 @@ TEST_F(Eval, ExitCodesSayWhoIsToBlame) {
   std::filesystem::remove(folder / "data/test/r_1.png");
   expect({"eval", example, "data", "--context", "osmesa", "-o", "views"}, 3, "r_1.png");
   EXPECT_FALSE(exists("views"));
+}
+
+TEST_F(Eval, DoesNotReplaceThePhotographsOfTheDataset) {
+  make_dataset();
+  std::filesystem::copy_file(folder / "data/test/r_0.png", folder / "data/test_r_0.png");
+  const ChildResult refused = eval({"-o", "data"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("data/test_r_0.png is there already, and in the dataset's"));
+  EXPECT_EQ(read_png("data/test_r_0.png").pixels, read_png("data/test/r_0.png").pixels);
+  EXPECT_FALSE(exists("data/test_r_1.png"));
+  EXPECT_EQ(eval({"-o", "data/views"}).exit_code, 0);
+  EXPECT_TRUE(exists("data/views/test_r_0.png"));
 }
 
 TEST_F(Eval, WithoutAContextItSaysSo) {

@@ -298,9 +298,13 @@ TEST_F(Train, ExitCodesSayWhoIsToBlame) {
   expect(arguments("b.glb", {"--config", "scene.json", "--preset", "object"}), 2,
          "name different presets");
   expect(arguments("b.glb", {"--resume"}), 3, "b.checkpoint: there is no such file");
-  expect(arguments("b.glb", {"--scale", "0.2"}), 3, "is 6 x 6 pixels; there must be 11");
-  expect(arguments("none/b.glb"), 5, "none/b.glb: cannot be created");
+  expect(arguments("b.glb", {"--scale", "0.2"}), 3, "is 6 x 6 pixels; there must be at least 11");
+  expect(arguments("none/b.glb"), 5, "none/b.glb: there is no folder none");
   expect(arguments("b.glb", {"--export-diffsoup", "ball"}), 2, "ball exists and is no DiffSoup");
+  expect(arguments("b.glb", {"--export-diffsoup", "b.glb/"}), 2, "the export cannot be b.glb");
+  expect(arguments("b.glb", {"--log", "b.lock"}), 2, "the log cannot be b.lock");
+  expect(arguments("b.glb", {"--seed", "-1"}), 2, "a seed is a whole number from 0 to");
+  expect(arguments("b.glb", {"--seed", "99999999999999999999"}), 2, "a seed is a whole number");
   fs::remove(folder / "ball/train/r_3.png");
   expect(arguments("b.glb"), 3, "r_3.png");
   expect({"train", "bal", "-o", "b.glb"}, 3, "did you mean ball?");
@@ -322,6 +326,54 @@ TEST_F(Train, TwoRunsDoNotShareAnOutput) {
   const ChildResult third = train("ball.glb");
   EXPECT_EQ(third.exit_code, 0) << third.err;
   EXPECT_THAT(files(), ElementsAre("ball.glb", "ball.jsonl", "ball.svg"));
+}
+
+TEST_F(Train, KeepsWhatItHasLearnedWhereAFileCannotBeWritten) {
+  make_dataset();
+  fs::create_directories(folder / "ball.previews/step_20.png/in the way");
+  const std::vector<std::string> previews{"--preview-every", "10"};
+  const ChildResult failed = train("ball.glb", previews);
+  EXPECT_EQ(failed.exit_code, 5);
+  EXPECT_THAT(failed.err, HasSubstr("wrote ball.checkpoint after step 20 of 40"));
+  EXPECT_THAT(failed.err, HasSubstr("ball.previews/step_20.png: cannot be replaced"));
+  EXPECT_FALSE(exists("ball.glb"));
+
+  const ChildResult went_on = train("ball.glb", {"--resume"});
+  EXPECT_EQ(went_on.exit_code, 0) << went_on.err;
+  EXPECT_FALSE(exists("ball.checkpoint"));
+  ASSERT_EQ(train("whole.glb").exit_code, 0);
+  const auto soup_of = [&](const std::string& name) {
+    EXPECT_EQ(run({"convert", name + ".glb", name + ".ply"}).exit_code, 0);
+    return bytes(name + ".ply");
+  };
+  EXPECT_EQ(soup_of("ball"), soup_of("whole"));
+}
+
+TEST_F(Train, GoesOnWhereNohupLetsItIgnoreTheHangup) {
+  make_dataset();
+  const auto before = ::signal(SIGHUP, SIG_IGN);  // what a child inherits
+  test::Child child(arguments("ball.glb", {}, "60"), folder);
+  ::signal(SIGHUP, before);
+  while (child.running() && !exists("ball.jsonl"))
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  child.signal(SIGHUP);
+  EXPECT_EQ(child.wait().exit_code, 0);
+  EXPECT_TRUE(exists("ball.glb"));
+}
+
+TEST_F(Train, ExportsAFolderWhateverItsName) {
+  make_dataset();
+  ASSERT_EQ(train("ball.glb", {"--export-diffsoup", "web_0.5/"}, "2").exit_code, 0);
+  EXPECT_TRUE(exists("web_0.5/mesh.ply"));
+  EXPECT_TRUE(exists("web_0.5/meta.json"));
+}
+
+TEST_F(Train, SaysThatNoPictureShowsATriangle) {
+  make_dataset();
+  write("far.off", "OFF\n3 1 0\n1000 1000 1000\n1001 1000 1000\n1000 1001 1000\n3 0 1 2\n");
+  const ChildResult result = train("ball.glb", {"--init", "far.off"}, "2");
+  EXPECT_THAT(result.err, HasSubstr("No training picture shows a triangle yet"));
+  EXPECT_THAT(train("ball.glb", {}, "2").err, Not(HasSubstr("No training picture")));
 }
 
 TEST_F(Train, DoesNotReplaceWhatItBeginsWith) {

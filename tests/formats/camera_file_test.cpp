@@ -131,6 +131,8 @@ TEST(CameraFile, RefusesWithTheFileTheCameraAndTheReason) {
   EXPECT_THAT(failure(frame("\"fl_x\": \"a\", ", good)), HasSubstr("fl_x is no number"));
   EXPECT_THAT(failure(frame("\"fl_x\": 1, ", "[[2,0,0,0],[0,2,0,0],[0,0,2,0]]")),
               HasSubstr("transform_matrix is no rotation"));
+  EXPECT_THAT(failure(frame("\"fl_x\": 1, ", "[[1,0,0,0],[0,1,0,0],[0,0,1,0],[1,2,3,4]]")),
+              HasSubstr("transform_matrix has another last row than 0 0 0 1"));
   EXPECT_THAT(failure(frame("\"fl_x\": 1, ", "[[-1,0,0,0],[0,1,0,0],[0,0,1,0]]")),
               HasSubstr("transform_matrix mirrors"));
   EXPECT_THAT(failure(frame("\"fl_x\": 1, ", "[[1,0,0],[0,1,0],[0,0,1]]")), HasSubstr("4 numbers"));

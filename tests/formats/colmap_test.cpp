@@ -119,6 +119,19 @@ TEST(Colmap, ReadsTextAsPeopleEditIt) {
   EXPECT_EQ(images[1].name, "last#1.jpg");
 }
 
+// Every second image would be taken for the features of the one before.
+TEST(Colmap, MissesTheLineOfFeatures) {
+  const std::string text = "1 1 0 0 0 0 0 1 1 a.jpg\n2 1 0 0 0 0 0 1 1 b.jpg\n";
+  Input input = input_of(text, "images.txt");
+  try {
+    read_colmap_images_text(input);
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("images.txt:2: the line after image a.jpg holds its features"));
+  }
+}
+
 TEST(Colmap, FindsItsFolder) {
   const TemporaryFolder folder;
   EXPECT_FALSE(colmap_folder(folder / ""));
