@@ -1,6 +1,7 @@
 #include "cli/drawing_options.hpp"
 
 #include "cli/choice.hpp"
+#include "cli/progress.hpp"
 
 namespace tureen::cli {
 
@@ -39,6 +40,12 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
       {{"auto", PipelineKind::tureen}, {"published", PipelineKind::published}},
       "auto (our own), or published: drawn as DiffSoup's viewer draws, the baseline")
       ->option_text("NAME");
+  add_choice<PresetUse>(
+      command, "--preset", options.preset_use,
+      {{"scene", PresetUse::scene}, {"faithful", PresetUse::faithful}},
+      "scene (default): the knobs that the scene's file sets, where four views keep its promise; "
+      "faithful: drawn as it is stored")
+      ->option_text("NAME");
   command.add_flag_callback(
       "--no-specialise", [&options] { options.plan.specialise = false; },
       "leave nothing out that the scene does not need (for comparisons)");
@@ -68,6 +75,29 @@ void add_drawing_scale(CLI::App& command, DrawingOptions& options) {
       ->check(CLI::Range(0.25, 1.0))
       ->excludes(command.get_option("--supersample"))
       ->option_text("S");
+}
+
+void use_preset_of(const Scene& scene, DrawingOptions& options) {
+  if (!scene.preset || options.preset_use == PresetUse::faithful) return;
+  options.scene_preset = {scene.preset, preset_views(scene)};
+}
+
+CheckedRenderer make_renderer(const gl::Context& context, const TriangleSoup& soup,
+                              glm::dvec3 origin, const DrawingOptions& options,
+                              glm::vec4 background) {
+  std::optional<Progress> progress;
+  RenderOptions render_options{.plan = options.plan, .background = background};
+  render_options.progress = [&](double fraction) {
+    if (!progress) progress.emplace("turning knobs");
+    progress->update(fraction);
+  };
+  return checked_renderer(context, soup, origin, render_options, options.scene_preset);
+}
+
+std::vector<std::string> plan_sentences(const CheckedRenderer& checked) {
+  std::vector<std::string> sentences = checked.renderer.plan().sentences;
+  if (!checked.sentence.empty()) sentences.insert(sentences.begin(), checked.sentence);
+  return sentences;
 }
 
 }  // namespace tureen::cli

@@ -69,6 +69,7 @@ ExitCode evaluate_scene(Options options) {
   Scene scene = read(options.scene);
   const TriangleSoup& soup = opaque_soup(scene);
   if (options.background.empty()) evaluation.background = scene.info.background;
+  use_preset_of(scene, evaluation.drawing);
   Dataset dataset = read(options.dataset, options.split);
   require_sides(options.dataset, dataset, {.least = ssim_window});
   const std::vector<Photograph> photographs = photographs_of(dataset);

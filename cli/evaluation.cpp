@@ -117,12 +117,13 @@ Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
   if (!options.folder.empty()) make_folder(options.folder);
 
   const gl::Context context = gl::Context::create({.backend = options.drawing.backend});
-  Renderer renderer(context, soup, origin,
-                    {.plan = options.drawing.plan, .background = {options.background, 1.0f}});
+  CheckedRenderer checked =
+      make_renderer(context, soup, origin, options.drawing, {options.background, 1.0f});
+  Renderer& renderer = checked.renderer;
   Evaluation result;
   result.context = context.description();
   result.renderer = context.capabilities().renderer;
-  result.plan = renderer.plan().sentences;
+  result.plan = plan_sentences(checked);
 
   std::vector<Image8> thumbnails;
   // One view more than cores is in memory at a time. Destroying what is left waits for it.

@@ -184,6 +184,11 @@ ExitCode inform(const Options& options) {
   say(fmt::format("  up           ({:.6g}, {:.6g}, {:.6g})", scene.info.up.x, scene.info.up.y,
                   scene.info.up.z));
   say(fmt::format("  cameras      {}", scene.cameras.size()));
+  if (scene.preset)
+    say(fmt::format("  preset       {}{}", describe(*scene.preset),
+                    scene.preset->promised_psnr_db
+                        ? fmt::format("; {:.1f} dB promised", *scene.preset->promised_psnr_db)
+                        : std::string()));
   say_list("Notes:", scene.info.notes);
   say_list("Plan:", plan.sentences);
   say_list("Devices:", device_lines);
@@ -208,6 +213,7 @@ ExitCode inform(const Options& options) {
                  {"background", to_json(glm::dvec3(scene.info.background))},
                  {"cameras", Json::parse(cameras_to_json(scene.cameras)).at("cameras")},
                  {"notes", scene.info.notes},
+                 {"preset", scene.preset ? Json(describe(*scene.preset)) : Json()},
                  {"plan", plan.sentences},
                  {"devices", devices},
                  {"lint", to_json(findings)}});

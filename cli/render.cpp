@@ -101,24 +101,24 @@ Pictures draw_pictures(Renderer& renderer, const std::vector<Camera>& cameras,
   return result;
 }
 
-ExitCode render(const Options& options) {
+ExitCode render(Options options) {
   // Everything that can be wrong with the arguments is said before the scene is read.
   require_png_name(options.output);
   picture_name(options.output, 0, std::max(options.views.orbit, 1));
   if (!options.views.size.empty()) parse_size(options.views.size);
-  RenderOptions render_options;
-  if (!options.background.empty()) render_options.background = parse_background(options.background);
-  render_options.plan = options.drawing.plan;
+  glm::vec4 background(0.0f);
+  if (!options.background.empty()) background = parse_background(options.background);
 
   Scene scene = read(options.scene);
   const TriangleSoup& soup = opaque_soup(scene);
   const Views views = resolve_views(options.views, scene, options.scene.path);
-  if (options.background.empty())
-    render_options.background = glm::vec4(scene.info.background, 1.0f);
+  if (options.background.empty()) background = glm::vec4(scene.info.background, 1.0f);
+  use_preset_of(scene, options.drawing);
 
   const gl::Context context = gl::Context::create({.backend = options.drawing.backend});
   throw_if_interrupted();
-  Renderer renderer(context, soup, scene.origin, render_options);
+  CheckedRenderer checked = make_renderer(context, soup, scene.origin, options.drawing, background);
+  Renderer& renderer = checked.renderer;
 
   Pictures pictures = draw_pictures(renderer, views.cameras, options.output);
   if (options.frames > 0) pictures.times = benchmark(renderer, views.cameras, options.frames);
@@ -128,7 +128,7 @@ ExitCode render(const Options& options) {
   const gl::Capabilities& device = context.capabilities();
   say_list("Reading " + options.scene.path + ":", scene.info.notes);
   say_list("Cameras:", views.notes);
-  say_list("Plan:", renderer.plan().sentences);
+  say_list("Plan:", plan_sentences(checked));
   say(fmt::format("{} triangles, {} on the device; {} x {} on {} ({})",
                   counted(soup.triangles.size()), bytes_text(renderer.device_bytes()), first.width,
                   first.height, device.renderer, context.description()));
@@ -143,7 +143,7 @@ ExitCode render(const Options& options) {
          {"renderer", device.renderer},
          {"triangles", soup.triangles.size()},
          {"frame_ms", {{"median", times.median()}, {"p95", times.p95()}, {"n", times.ms.size()}}},
-         {"plan", renderer.plan().sentences},
+         {"plan", plan_sentences(checked)},
          {"output", pictures.paths}});
   return ExitCode::done;
 }

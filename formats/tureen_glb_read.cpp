@@ -13,6 +13,7 @@
 #include "formats/slim_texels.hpp"
 #include "formats/tureen_glb.hpp"
 #include "formats/tureen_glb_layout.hpp"
+#include "formats/tureen_glb_preset.hpp"
 #include "soup/lattice.hpp"
 #include "soup/spherical_harmonics.hpp"
 
@@ -47,6 +48,7 @@ class Reader {
     const JsonView appearance = extension_["appearance"];
     TriangleSoup soup;
     read_geometry(soup);
+    read_preset(scene, soup);
     if (appearance["type"].text() == "soft_triangles") {
       scene.primitives = soft_triangles(appearance, std::move(soup));
     } else {
@@ -249,6 +251,17 @@ class Reader {
     }
     soup.triangles = array_of<glm::uvec3>(extension_, "triangles", faces, {"SCALAR", 1},
                                           layout::unsigned_int, 3);
+  }
+
+  void read_preset(Scene& scene, const TriangleSoup& soup) {
+    const auto view = extension_.find("preset");
+    if (!view) return;
+    RenderPreset preset = tureen::read_preset(*view);
+    if (view->find("keeps_face"))
+      preset.keeps_face = array_of<std::uint8_t>(*view, "keeps_face", soup.triangles.size(),
+                                                 {"SCALAR", 1}, layout::unsigned_byte);
+    if (const auto reason = defect(preset, soup)) view->fail(*reason);
+    scene.preset = std::move(preset);
   }
 
   Appearance read_appearance(const JsonView& view, const TriangleSoup& soup) {

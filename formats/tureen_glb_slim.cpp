@@ -35,6 +35,8 @@ std::vector<std::string> write_slim_glb(const Scene& scene, const SlimSoup& slim
   if (scene.preset) losses.push_back("the scene's preset is left out; it was made for other data");
   BinaryPlan plan;
   json extension = info_json(scene, losses);
+  if (scene.preset)
+    losses.push_back("the scene's preset, whose promise was made of texels without a loss");
   extension["version"] = tureen_slim_version;
   extension["vertex_count"] = used_vertices(soup->triangles);
   extension["face_count"] = soup->triangles.size();

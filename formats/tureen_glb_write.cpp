@@ -12,6 +12,7 @@
 #include "formats/png.hpp"
 #include "formats/tureen_glb.hpp"
 #include "formats/tureen_glb_layout.hpp"
+#include "formats/tureen_glb_preset.hpp"
 #include "formats/tureen_glb_writing.hpp"
 #include "soup/lattice.hpp"
 #include "soup/mean_color.hpp"
@@ -95,6 +96,10 @@ struct AddAppearance {
   }
 
   json operator()(const LatticeTexture& texture) const {
+    if (texture.harmonics)
+      throw UsageError(
+          "a GLB cannot hold baked harmonics: write the scene with its network, and a "
+          "preset that asks for them");
     json result = {{"type", "lattice_texture"}, {"texel_count", texture.texel_count()}};
     add_patches(result, texture.patches);
     if (texture.mlp) result["color_mlp"] = mlp_json(plan, *texture.mlp);
@@ -408,6 +413,12 @@ std::vector<std::string> write_tureen_glb(const Scene& scene, const std::filesys
   extension["vertex_count"] = soup.positions.size();
   extension["face_count"] = soup.triangles.size();
   json primitive = add_mesh(plan, extension, soup);
+  if (scene.preset) {
+    if (const auto reason = defect(*scene.preset, soup))
+      throw UsageError("the scene cannot be written: " + *reason);
+    extension["preset"] = preset_json(*scene.preset);
+    plan.accessor(extension["preset"], "keeps_face", bytes_of(scene.preset->keeps_face), scalar_u8);
+  }
   extension["appearance"] =
       soft ? soft_json(plan, *soft) : std::visit(AddAppearance{plan}, soup.appearance);
 

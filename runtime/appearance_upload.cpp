@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 
 #include "runtime/gl/state.hpp"
@@ -143,6 +144,7 @@ class Uploader {
                          1.0f);
       });
     LatticeStores stores = upload_lattice(texture, plan_, layout_);
+    if (texture.harmonics) include("harmonics.glsl");
     include("appearance_lattice.glsl");
     result_.constants["LATTICE_LEVEL"] = std::to_string(plan_.lattice.uniform_level);
     add("features0", std::move(stores.features0));
@@ -150,7 +152,22 @@ class Uploader {
     if (plan_.latent_features) add("features1", std::move(stores.features1));
     if (plan_.opaque_count < plan_.faces.size()) add("alpha_cells", std::move(stores.alpha_cells));
     if (plan_.lattice.uniform_level < 0) add("patches", std::move(stores.patches));
+    result_.constants["LATTICE_HARMONICS"] = "0";
+    if (texture.harmonics) add_bands(*texture.harmonics, std::move(stores.bands));
     if (texture.mlp) add_mlp(*texture.mlp, plan_.feature_ranges);
+  }
+
+  void add_bands(const LatticeHarmonics& sh, TexelStore bands) {
+    add("bands", std::move(bands));
+    result_.constants["LATTICE_HARMONICS"] = std::to_string(sh.degree);
+    result_.constants["HARMONICS_DEGREE"] = std::to_string(sh.degree);
+    result_.constants["VIEW_SIGN"] = sh.view == ViewConvention::surface_to_eye ? "1.0" : "-1.0";
+    // Signed bytes are read as byte / 127. Nine digits give every float back.
+    char scale[32];
+    std::snprintf(scale, sizeof scale, "%.8e", double(sh.scale));
+    std::replace(scale, scale + sizeof scale, ',', '.');
+    result_.constants["BAND_SCALE"] =
+        std::holds_alternative<std::vector<std::int8_t>>(sh.coefficients) ? scale : "1.0";
   }
 
   void upload(const UvTextures& textures) {

@@ -7,8 +7,10 @@
 #include <map>
 #include <utility>
 
+#include "runtime/texel_encoding.hpp"
 #include "soup/error.hpp"
 #include "soup/lattice.hpp"
+#include "soup/preset_data.hpp"
 
 namespace tureen {
 
@@ -174,6 +176,80 @@ TexelStore alpha_cell_store(const std::vector<Value>& values, const Placement& p
       });
 }
 
+/// With other bits than the soup has: four values of a texel, or four alphas of a cell, each found
+/// by `value`.
+template <class Source, class ForEach, class ValuesOf>
+TexelStore encoded_store(const TexelLayout& layout, int bits, Alphas alphas, std::uint64_t count,
+                         const char* what, const ForEach& for_each, const ValuesOf& values_of) {
+  const TexelFormat format = rgba_format(bits);
+  return TexelStore(
+      layout, format, count, what, [&](std::uint64_t first, std::span<std::byte> out) {
+        for_each(first, out.size() / format.bytes, [&](std::uint64_t i, const Source& source) {
+          encode_texel(values_of(source), bits, alphas, &out[i * format.bytes]);
+        });
+      });
+}
+
+TexelStore encoded_features(const LatticeTexture& texture, const Placement& placement,
+                            const TexelLayout& layout, int bits, int channel) {
+  return encoded_store<std::uint64_t>(
+      layout, bits, Alphas::none, placement.texel_count(), "lattice texels",
+      [&](auto... arguments) { placement.for_each_texel(arguments...); },
+      [&](std::uint64_t texel) {
+        std::array<float, 4> values{};
+        for (int c = 0; c < 4 && channel + c < LatticeTexture::features; ++c)
+          values[std::size_t(c)] = texture.value(texel, channel + c);
+        return values;
+      });
+}
+
+TexelStore encoded_alpha_cells(const LatticeTexture& texture, const Placement& placement,
+                               const TexelLayout& layout, int bits) {
+  using Corners = std::array<std::uint64_t, 4>;
+  return encoded_store<Corners>(
+      layout, bits, Alphas::all, placement.cells(), "lattice alpha",
+      [&](auto... arguments) { placement.for_each_cell(arguments...); },
+      [&](const Corners& corners) {
+        std::array<float, 4> values;
+        for (std::size_t k = 0; k < 4; ++k)
+          values[k] = texture.value(corners[k], LatticeTexture::features);
+        return values;
+      });
+}
+
+TexelStore band_store(const LatticeHarmonics& harmonics, const Placement& placement,
+                      const TexelLayout& layout, int bits) {
+  const auto own = std::uint64_t(harmonics.values_per_texel());
+  const auto parts = std::uint64_t(3 * band_groups(harmonics.degree));
+  const auto* bytes = std::get_if<std::vector<std::int8_t>>(&harmonics.coefficients);
+  const TexelFormat format = bytes ? texel_formats::rgba8_signed : rgba_format(std::max(bits, 16));
+  const auto write = [&](std::uint64_t texel, std::uint64_t part, std::byte* out) {
+    std::array<float, 4> values{};
+    for (std::uint64_t k = 0; k < 4 && 4 * part + k < own; ++k) {
+      const std::uint64_t index = texel * own + 4 * part + k;
+      if (bytes)
+        out[k] = std::byte((*bytes)[index]);
+      else
+        values[k] = float(harmonics.value(index));
+    }
+    if (!bytes) encode_texel(values, std::max(bits, 16), Alphas::none, out);
+  };
+  return TexelStore(
+      layout, format, placement.texel_count() * parts, "baked harmonics",
+      [&](std::uint64_t first, std::span<std::byte> out) {
+        std::fill(out.begin(), out.end(), std::byte{0});
+        const std::uint64_t end = first + out.size() / format.bytes, first_texel = first / parts;
+        placement.for_each_texel(first_texel, (end + parts - 1) / parts - first_texel,
+                                 [&](std::uint64_t i, std::uint64_t source) {
+                                   for (std::uint64_t part = 0; part < parts; ++part) {
+                                     const std::uint64_t place = (first_texel + i) * parts + part;
+                                     if (place >= first && place < end)
+                                       write(source, part, &out[(place - first) * format.bytes]);
+                                   }
+                                 });
+      });
+}
+
 void check_capacity(const Placement& placement, const RenderPlan& plan, const TexelLayout& layout) {
   const std::uint64_t needed = std::max(placement.texel_count(), placement.cells());
   if (needed <= layout.capacity()) return;
@@ -191,17 +267,26 @@ LatticeStores upload_lattice(const LatticeTexture& texture, const RenderPlan& pl
                              const TexelLayout& layout) {
   const Placement placement(texture, plan);
   check_capacity(placement, plan, layout);
-  const TexelFormat format = texture.is_float() ? texel_formats::rgba32f : texel_formats::rgba8;
+  const int bits = plan.lattice.texel_bits;
+  const TexelFormat format = rgba_format(bits);
+  const bool cut_outs = plan.opaque_count < plan.faces.size();
   LatticeStores stores;
-  std::visit(
-      [&](const auto& values) {
-        stores.features0 = feature_store(values, placement, layout, format, 0);
-        if (plan.latent_features)
-          stores.features1 = feature_store(values, placement, layout, format, 4);
-        if (plan.opaque_count < plan.faces.size())
-          stores.alpha_cells = alpha_cell_store(values, placement, layout, format);
-      },
-      texture.texels);
+  if (bits == stored_texel_bits(texture, 32)) {
+    std::visit(
+        [&](const auto& values) {
+          stores.features0 = feature_store(values, placement, layout, format, 0);
+          if (plan.latent_features)
+            stores.features1 = feature_store(values, placement, layout, format, 4);
+          if (cut_outs) stores.alpha_cells = alpha_cell_store(values, placement, layout, format);
+        },
+        texture.texels);
+  } else {
+    stores.features0 = encoded_features(texture, placement, layout, bits, 0);
+    if (plan.latent_features)
+      stores.features1 = encoded_features(texture, placement, layout, bits, 4);
+    if (cut_outs) stores.alpha_cells = encoded_alpha_cells(texture, placement, layout, bits);
+  }
+  if (texture.harmonics) stores.bands = band_store(*texture.harmonics, placement, layout, bits);
   if (plan.lattice.uniform_level < 0)
     stores.patches =
         TexelStore::from(layout, texel_formats::rgba32ui, placement.patches(), "lattice patches");

@@ -13,11 +13,17 @@ struct LatticeStores {
   /// Alpha at the four corners of each cell, so that an alpha test costs one read instead of three;
   /// docs/decisions/alpha-cells.md has the measurement.
   TexelStore alpha_cells;
+  /// LatticeHarmonics' values of each texel, four to a texel of this store: 3 times
+  /// band_groups(degree) of them, each group of three holding four RGB coefficients, the last ones
+  /// of degree 1 unused.
+  TexelStore bands;
   TexelStore patches;  // (first texel, level, first cell, 0) a slot
 };
 
+constexpr int band_groups(int degree) { return degree; }
+
 /// Makes only the stores that the plan reads: features1 where the network sees it, alpha_cells with
-/// cut-outs, patches without a uniform level. Throws DeviceLimitError.
+/// cut-outs, patches without a uniform level, bands with harmonics. Throws DeviceLimitError.
 LatticeStores upload_lattice(const LatticeTexture& texture, const RenderPlan& plan,
                              const TexelLayout& layout);
 

@@ -66,9 +66,8 @@ void plan_appearance(PlanDraft& draft, const UvTextures& textures) {
 
 RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
                      const PlanPreferences& preferences) {
-  if (preferences.preset && !keeps_data(*preferences.preset))
-    throw UsageError("this runtime does not draw with a preset yet: " +
-                     describe(*preferences.preset));
+  if (preferences.preset)
+    if (const auto reason = defect(*preferences.preset, soup)) throw UsageError(*reason);
   PlanDraft draft{soup, preferences, {}};
   draft.plan.pipeline = preferences.pipeline;
   if (preferences.pipeline == PipelineKind::published) {

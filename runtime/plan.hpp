@@ -61,6 +61,8 @@ struct LatticePlan {
   /// Level of each slot on the device, below the soup's where a face is affine. Empty when the
   /// texels are uploaded as the soup has them.
   std::vector<std::uint8_t> levels;
+  /// Bits of a channel: 32 and 8 as texels are stored, 16 and 4 where the preset asks for them.
+  int texel_bits = 32;
 };
 
 /// A triangle within a face, its corners in barycentrics (weights of the face's vertices 0 and 1).
@@ -103,14 +105,16 @@ struct RenderPlan {
   double resolution_scale = 1.0;
   int supersampling = 1;
 
-  /// For people: how the scene is drawn, then a sentence for each thing left out, with the measured
-  /// margin, and for each knob ("knob: ..").
+  /// For people: how the scene is drawn, a sentence for each knob that is turned ("knob: .."), and
+  /// one for each thing left out, with the measured margin.
   std::vector<std::string> sentences;
 };
 
-/// The soup must have no defect(). Throws UsageError when the published pipeline is asked for and
-/// cannot draw this soup, and for knobs that are not obeyed; DeviceLimitError for alpha to coverage
-/// where there is no multisampling.
+/// The soup must have no defect(), and is what with_preset() (soup/preset_data.hpp) made of it
+/// where there is a preset, as Renderer has it; the plan obeys the other knobs. Throws UsageError
+/// when the published pipeline is asked for and cannot draw this soup or is given a knob that it
+/// does not have, and for a preset with a defect(); DeviceLimitError for alpha to coverage where
+/// there is no multisampling.
 RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
                      const PlanPreferences& preferences = {});
 

@@ -4,6 +4,7 @@
 #include "runtime/lattice_traits.hpp"
 #include "runtime/plan_draft.hpp"
 #include "soup/lattice.hpp"
+#include "soup/preset_data.hpp"
 
 namespace tureen {
 
@@ -61,6 +62,8 @@ void leave_out_affine_texels(PlanDraft& draft, const LatticeTexture& texture,
 void plan_appearance(PlanDraft& draft, const LatticeTexture& texture) {
   RenderPlan& plan = draft.plan;
   plan.color_mlp = texture.mlp.has_value();
+  plan.lattice.texel_bits = stored_texel_bits(
+      texture, draft.preferences.preset ? draft.preferences.preset->texel_bits : 32);
   if (!draft.preferences.specialise) {
     if (plan.color_mlp) plan_network(draft, *texture.mlp, {});
     return;
@@ -73,13 +76,15 @@ void plan_appearance(PlanDraft& draft, const LatticeTexture& texture) {
   plan_rims(draft, texture);
 
   const bool opaque = plan.opaque_count == plan.faces.size();
-  if (!plan.color_mlp && traits.constant_faces == plan.faces.size() && opaque &&
+  // What is said of features below holds for no more than them.
+  const bool features_alone = !texture.harmonics;
+  if (features_alone && !plan.color_mlp && traits.constant_faces == plan.faces.size() && opaque &&
       draft.may(LeaveOut::constant_lattices)) {
     plan.flat_colors = true;
     draft.leave_out(LeaveOut::constant_lattices, "the lattice, every face has one colour (exact)");
     return;
   }
-  if (draft.may(LeaveOut::affine_texels))
+  if (features_alone && draft.may(LeaveOut::affine_texels))
     leave_out_affine_texels(draft, texture, traits, plan.color_mlp ? color_gain(texture) : 1.0);
   const bool one_level = traits.lowest_level == traits.highest_level;
   if (plan.lattice.levels.empty() && one_level && !traits.shares_texels &&

@@ -9,8 +9,20 @@
 #include "runtime/resampled_pipeline.hpp"
 #include "runtime/targets.hpp"
 #include "soup/error.hpp"
+#include "soup/preset_data.hpp"
 
 namespace tureen {
+
+namespace {
+
+std::optional<PresetSoup> turn_knobs(const TriangleSoup& soup, const RenderOptions& options) {
+  const std::optional<RenderPreset>& preset = options.plan.preset;
+  if (!preset || options.plan.pipeline == PipelineKind::published || defect(*preset, soup))
+    return std::nullopt;  // make_plan refuses what makes no sense
+  return with_preset(soup, *preset, options.progress);
+}
+
+}  // namespace
 
 struct Renderer::State {
   RenderPlan plan;  // pipeline refers to it
@@ -50,11 +62,16 @@ std::unique_ptr<Pipeline> make_pipeline(const gl::Capabilities& capabilities,
 }  // namespace
 
 Renderer::Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
-                   const RenderOptions& options)
-    : Renderer(context, soup, origin,
-               make_plan(soup, options.limits.value_or(device_limits(context.capabilities())),
-                         options.plan),
-               options) {}
+                   const RenderOptions& options) {
+  const std::optional<PresetSoup> turned = turn_knobs(soup, options);
+  const TriangleSoup& drawn = turned ? turned->soup : soup;
+  RenderPlan plan = make_plan(drawn, options.limits.value_or(device_limits(context.capabilities())),
+                              options.plan);
+  if (turned)
+    plan.sentences.insert(plan.sentences.begin() + 1, turned->sentences.begin(),
+                          turned->sentences.end());
+  *this = Renderer(context, drawn, origin, std::move(plan), options);
+}
 
 Renderer::Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
                    RenderPlan plan, const RenderOptions& options)
@@ -113,6 +130,10 @@ std::vector<std::uint32_t> Renderer::read_faces() const {
   if (!framebuffer) return {};
   const glm::ivec2 size = sample_size();
   const auto width = std::size_t(size.x), height = std::size_t(size.y);
+  // Reading must wait for the pass that wrote this target, but Mesa 22.3's llvmpipe waits only
+  // where the pass in flight writes to it: the shading pass reads it, and an older frame comes
+  // back.
+  glFinish();
   // Four channels, though two are stored: ES 3.0 promises to read integers in no other way.
   std::vector<glm::uvec4> fragments(width * height);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);

@@ -10,6 +10,7 @@
 // clip control is left at GL's default.
 #pragma once
 
+#include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -36,14 +37,18 @@ struct RenderOptions {
   glm::vec4 background{0.0f, 0.0f, 0.0f, 1.0f};
   /// Pretend that the device can do no more than this (tests, forecasts).
   std::optional<DeviceLimits> limits = {};
+  /// Called now and then with the fraction done, 0..1, while a preset changes the data, which takes
+  /// seconds where it bakes a network; may throw to abandon the renderer.
+  std::function<void(double)> progress = {};
 };
 
 DeviceLimits device_limits(const gl::Capabilities& capabilities);
 
 class Renderer {
  public:
-  /// Plans and uploads; the soup is not needed afterwards. It must have no defect(). Throws
-  /// DeviceLimitError with a forecast when it does not fit, UsageError as make_plan does.
+  /// Turns the knobs of options.plan.preset, plans and uploads; the soup is not needed afterwards.
+  /// It must have no defect(). Throws DeviceLimitError with a forecast when it does not fit,
+  /// UsageError as make_plan does.
   Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
            const RenderOptions& options = {});
   /// The same with a plan that make_plan made of this soup, for limits that the device has:

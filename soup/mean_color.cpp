@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "soup/lattice.hpp"
+#include "soup/mlp_over_directions.hpp"
 #include "soup/spherical_harmonics.hpp"
 
 namespace tureen {
@@ -39,70 +40,34 @@ glm::vec3 clamped(const glm::vec3& c) {
   return {clamp(c.x), clamp(c.y), clamp(c.z)};
 }
 
-/// The color MLP averaged over the 26 directions, in float. The direction's share of the first
-/// layer is the same for every pixel and the features' share the same for every direction, so
-/// each is computed once.
+/// The color MLP averaged over the 26 directions, in float.
 class MeanMlp {
  public:
-  explicit MeanMlp(const ColorMlp& mlp) : mlp_(mlp), features_(mlp.feature_count()) {
-    const DenseLayer& first = mlp.layers.front();
-    for (std::size_t i = 0; i < rule_.size(); ++i) {
-      const glm::vec3 d = mlp.view == ViewConvention::surface_to_eye ? rule_[i].d : -rule_[i].d;
-      std::array<float, 9> code{d.x, d.y, d.z};
-      if (mlp.encoding == DirectionEncoding::harmonics2) {
-        const auto basis = harmonics::basis(d);
-        std::copy_n(basis.begin(), 9, code.begin());
-      }
-      for (int o = 0; o < first.outputs; ++o) {
-        float sum = first.biases[o];
-        for (int k = features_; k < first.inputs; ++k)
-          sum += first.weights[std::size_t(o) * first.inputs + k] * code[k - features_];
-        direction_part_[i][o] = sum;
-      }
-    }
-  }
+  explicit MeanMlp(const ColorMlp& mlp) : mlp_(mlp), over_(mlp, directions(mlp)) {}
 
   glm::vec3 operator()(const std::array<float, 8>& features) const {
-    const DenseLayer& first = mlp_.layers.front();
-    Activations shared{};
-    for (int o = 0; o < first.outputs; ++o)
-      for (int k = 0; k < features_; ++k)
-        shared[o] += first.weights[std::size_t(o) * first.inputs + k] * features[k];
-
+    std::array<glm::vec3, 26> colors;
+    over_.predict(features, colors);
     glm::vec3 sum(0.0f);
-    // Without a direction every direction gives the same.
-    const std::size_t directions =
-        mlp_.encoding == DirectionEncoding::none ? 1 : direction_part_.size();
-    for (std::size_t i = 0; i < directions; ++i) {
-      Activations x{}, y{};
-      for (int o = 0; o < first.outputs; ++o) x[o] = shared[o] + direction_part_[i][o];
-      for (std::size_t l = 1; l < mlp_.layers.size(); ++l) {
-        const DenseLayer& layer = mlp_.layers[l];
-        for (int k = 0; k < layer.inputs; ++k) x[k] = std::max(x[k], 0.0f);
-        for (int o = 0; o < layer.outputs; ++o) {
-          float dot = layer.biases[o];
-          const float* row = &layer.weights[std::size_t(o) * layer.inputs];
-          for (int k = 0; k < layer.inputs; ++k) dot += row[k] * x[k];
-          y[o] = dot;
-        }
-        std::swap(x, y);
-      }
-      const auto sigmoid = [](float v) { return 1.0f / (1.0f + std::exp(-v)); };
-      sum += (directions == 1 ? 1.0f : rule_[i].weight) *
-             glm::vec3(sigmoid(x[0]), sigmoid(x[1]), sigmoid(x[2]));
-    }
+    for (int i = 0; i < over_.count(); ++i)
+      sum += (over_.count() == 1 ? 1.0f : rule_[i].weight) * colors[i];
     if (!mlp_.blend_channel) return sum;
     const float blend = features[*mlp_.blend_channel];
     return (1.0f - blend) * glm::vec3(features[0], features[1], features[2]) + blend * sum;
   }
 
  private:
-  using Activations = std::array<float, ColorMlp::max_width>;
+  static std::vector<glm::vec3> directions(const ColorMlp& mlp) {
+    std::vector<glm::vec3> result;
+    for (const Direction& direction : lebedev26()) result.push_back(direction.d);
+    // Without a direction every direction gives the same.
+    if (mlp.encoding == DirectionEncoding::none) result.resize(1);
+    return result;
+  }
 
   const ColorMlp& mlp_;
-  int features_;
+  MlpOverDirections over_;
   std::array<Direction, 26> rule_ = lebedev26();
-  std::array<Activations, 26> direction_part_{};
 };
 
 /// Barycentrics of the centroids of the 16 congruent triangles that a face is cut into.

@@ -49,6 +49,31 @@ std::optional<std::string> out_of_range(const RenderPreset& p) {
 
 }  // namespace
 
+RenderPreset combined(RenderPreset preset, const RenderPreset& asked) {
+  const RenderPreset plain;
+  if (asked.lattice_level != plain.lattice_level) preset.lattice_level = asked.lattice_level;
+  if (asked.texel_bits != plain.texel_bits) preset.texel_bits = asked.texel_bits;
+  if (asked.color != plain.color) {
+    preset.color = asked.color;
+    preset.harmonics_degree = asked.harmonics_degree;
+  }
+  if (asked.triangle_fraction != plain.triangle_fraction) {
+    preset.triangle_fraction = asked.triangle_fraction;
+    preset.keeps_face = asked.keeps_face;
+  }
+  if (asked.feature_storage != plain.feature_storage)
+    preset.feature_storage = asked.feature_storage;
+  if (asked.site != plain.site) preset.site = asked.site;
+  if (asked.resolution_scale != plain.resolution_scale ||
+      asked.supersampling != plain.supersampling) {
+    preset.resolution_scale = asked.resolution_scale;
+    preset.supersampling = asked.supersampling;
+  }
+  if (asked.alpha_to_coverage != plain.alpha_to_coverage)
+    preset.alpha_to_coverage = asked.alpha_to_coverage;
+  return preset;
+}
+
 bool keeps_data(const RenderPreset& preset) {
   const RenderPreset faithful;
   return preset.lattice_level == faithful.lattice_level &&

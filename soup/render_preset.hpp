@@ -45,8 +45,7 @@ struct RenderPreset {
   /// (runtime/visibility_count.hpp finds them). Empty exactly where triangle_fraction is 1.
   std::vector<std::uint8_t> keeps_face = {};
 
-  // -- knobs that change the drawing
-  // ---------------------------------------------------------------
+  // -- knobs that change the drawing --------------------------------------------------------------
 
   /// What a deferred plan keeps of the winning fragment until it is shaded.
   enum class FeatureStorage {
@@ -70,8 +69,7 @@ struct RenderPreset {
   /// Multisampling with alpha to coverage, samples a pixel: 0 (none), 2, 4 or 8. Forward alone.
   int alpha_to_coverage = 0;
 
-  // -- what was promised
-  // ---------------------------------------------------------------------------
+  // -- what was promised --------------------------------------------------------------------------
 
   /// PSNR in dB against the oracle (E_render) that the preset had when it was chosen: 0 .. 100, or
   /// nothing where nobody measured. The runtime draws faithfully where four views say otherwise.
@@ -87,6 +85,10 @@ bool keeps_data(const RenderPreset& preset);
 /// The knobs that are not at their defaults, in words: "lattice level at most 3, 8 bits a texel
 /// channel"; "faithful" where there are none.
 std::string describe(const RenderPreset& preset);
+
+/// Every knob as `asked` has it where that is not at its default, else as `preset` has it; the
+/// promise is that of `preset`. Resolution scale and supersampling are one knob.
+RenderPreset combined(RenderPreset preset, const RenderPreset& asked);
 
 /// Why these knobs cannot be obeyed by anything (one outside of its range, two that exclude each
 /// other), or nothing.

@@ -15,6 +15,7 @@
 #include "formats/truncation.hpp"
 #include "soup/mean_color.hpp"
 #include "soup/srgb.hpp"
+#include "support/schema.hpp"
 
 namespace tureen {
 namespace {
@@ -311,6 +312,139 @@ TEST(TureenGlbFile, RefusesWhatItCannotHoldOrKnow) {
   scene.cameras[0].fx = std::numeric_limits<double>::infinity();
   EXPECT_THROW(write_tureen_glb(scene, temporary("never")), UsageError);
   EXPECT_FALSE(std::filesystem::exists(temporary("never")));
+}
+
+// -- presets --------------------------------------------------------------------------------------
+
+using Preset = RenderPreset;
+
+const Preset presets[] = {
+    {},
+    {.lattice_level = 0,
+     .texel_bits = 4,
+     .color = Preset::Color::harmonics,
+     .harmonics_degree = 1,
+     .triangle_fraction = 1.0 / 3.0,
+     .keeps_face = {1, 0, 0},
+     .resolution_scale = 0.3,
+     .promised_psnr_db = 43.21},
+    {.texel_bits = 16,
+     .color = Preset::Color::base,
+     .feature_storage = Preset::FeatureStorage::rgba8,
+     .site = Preset::Site::deferred,
+     .supersampling = 3},
+    {.feature_storage = Preset::FeatureStorage::rgba16f},
+    {.site = Preset::Site::forward, .alpha_to_coverage = 8},
+};
+
+Scene scene_with(const Preset& preset) {
+  RandomScene random(13);
+  Scene scene = random.scene();
+  fill_soup(scene, random.geometry(3, false), random.lattice_texture(3, 1, false));
+  scene.preset = preset;
+  return scene;
+}
+
+TEST(TureenGlbPreset, ComesBack) {
+  for (const Preset& preset : presets) {
+    SCOPED_TRACE(describe(preset));
+    const Scene scene = scene_with(preset);
+    EXPECT_EQ(testing::difference(scene, read_back(written(scene, "preset"))), "");
+  }
+  Scene none = scene_with({});
+  none.preset.reset();
+  EXPECT_FALSE(json_of(written(none, "preset"))["extensions"][tureen_extension].contains("preset"));
+}
+
+TEST(TureenGlbPreset, TheSchemaKnowsIt) {
+  const char* schema = "TUREEN_triangle_soup.schema.json";
+  for (const Preset& preset : presets) {
+    SCOPED_TRACE(describe(preset));
+    auto extension = json_of(written(scene_with(preset), "preset"))["extensions"][tureen_extension];
+    EXPECT_EQ(test::schema_violations(extension, schema), "");
+    extension["preset"]["texel_bits"] = 12;
+    EXPECT_NE(test::schema_violations(extension, schema), "");
+  }
+}
+
+TEST(TureenGlbPreset, WhatIsUnknownIsIgnored) {
+  const Scene scene = scene_with(presets[1]);
+  const auto bytes = written(scene, "preset");
+  auto json = json_of(bytes);
+  json["extensions"][tureen_extension]["preset"]["colour_of_the_frame"] = {"red", 1};
+  EXPECT_EQ(testing::difference(scene, read_back(with_json(bytes, json))), "");
+}
+
+TEST(TureenGlbPreset, BadValuesAreRefusedWithTheirPlace) {
+  const auto bytes = written(scene_with(presets[1]), "preset");
+  const auto refusal = [&](const char* key, const nlohmann::json& value) -> std::string {
+    auto json = json_of(bytes);
+    auto& preset = json["extensions"][tureen_extension]["preset"];
+    if (key)
+      preset[key] = value;
+    else
+      preset = value;
+    try {
+      read_back(with_json(bytes, json));
+      return "accepted";
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.place().file, "memory.glb");
+      return error.reason();
+    }
+  };
+  EXPECT_THAT(refusal("lattice_level", 8), HasSubstr("preset.lattice_level: 8 is beyond 7"));
+  EXPECT_THAT(refusal("lattice_level", "low"), HasSubstr("preset.lattice_level: expected a"));
+  EXPECT_THAT(refusal("texel_bits", 12), HasSubstr("bits a texel channel is 12, not 4, 8, 16"));
+  EXPECT_THAT(refusal("color", "plaid"), HasSubstr("preset.color: \"plaid\" is none of"));
+  EXPECT_THAT(refusal("harmonics_degree", 3), HasSubstr("harmonics_degree: 3 is beyond 2"));
+  EXPECT_THAT(refusal("triangle_fraction", 0), HasSubstr("above 0 and at most 1"));
+  EXPECT_THAT(refusal("triangle_fraction", 1), HasSubstr("and yet not every one"));
+  EXPECT_THAT(refusal("keeps_face", 999999), HasSubstr("accessors"));
+  EXPECT_THAT(refusal("keeps_face", 0), HasSubstr("accessor has"));
+  EXPECT_THAT(refusal("feature_storage", 1), HasSubstr("preset.feature_storage"));
+  EXPECT_THAT(refusal("site", "garden"), HasSubstr("none of"));
+  EXPECT_THAT(refusal("resolution_scale", 2), HasSubstr("0.25 to 1"));
+  EXPECT_THAT(refusal("supersampling", 0), HasSubstr("1 to 8"));
+  EXPECT_THAT(refusal("alpha_to_coverage", 5), HasSubstr("0, 2, 4 or 8"));
+  EXPECT_THAT(refusal("promised_psnr_db", 101), HasSubstr("0 to 100 dB"));
+  EXPECT_THAT(refusal(nullptr, 7), HasSubstr("preset: expected an object"));
+}
+
+TEST(TureenGlbPreset, WhatIsNotReadIsNotWritten) {
+  Scene scene = scene_with({.texel_bits = 5});
+  EXPECT_THROW(write_tureen_glb(scene, temporary("never")), UsageError);
+  scene = scene_with({.triangle_fraction = 0.5, .keeps_face = {1, 0}});
+  EXPECT_THROW(write_tureen_glb(scene, temporary("never")), UsageError);
+  scene = scene_with({});
+  auto& texture = std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance);
+  texture.harmonics =
+      LatticeHarmonics{.degree = 1, .coefficients = std::vector<float>(9 * texture.texel_count())};
+  EXPECT_THROW(write_tureen_glb(scene, temporary("never")), UsageError);
+  EXPECT_FALSE(std::filesystem::exists(temporary("never")));
+}
+
+TEST(TureenGlbPreset, SurvivesTruncationAndDamage) {
+  const auto bytes = written(scene_with(presets[1]), "preset");
+  const auto read = [](std::span<const std::byte> damaged) {
+    const Scene back = read_back(damaged);
+    if (back.preset) {
+      EXPECT_FALSE(defect(*back.preset, std::get<TriangleSoup>(back.primitives)));
+    }
+  };
+  EXPECT_EQ(testing::survive_truncation(bytes, read).read, 0u);
+  // Every byte of the preset's own JSON.
+  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::size_t first = text.find("\"preset\""), last = text.find('}', first);
+  ASSERT_NE(last, std::string::npos);
+  std::vector<std::byte> damaged(bytes);
+  testing::Survival survival;
+  for (std::size_t i = first; i <= last; ++i)
+    for (const unsigned flip : {0x01u, 0x02u, 0x04u, 0x10u, 0x40u, 0x80u, 0xffu}) {
+      damaged[i] = bytes[i] ^ std::byte(flip);
+      testing::expect_survival(damaged, read, "byte " + std::to_string(i), survival);
+      damaged[i] = bytes[i];
+    }
+  EXPECT_GT(survival.refused, 0u);
 }
 
 TEST(TureenGlbFile, RefusesImagesNamedTwice) {

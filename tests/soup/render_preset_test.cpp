@@ -53,6 +53,37 @@ TEST(RenderPreset, EveryKnobIsSaid) {
             "lattice level at most 2, 4 bits a texel channel");
 }
 
+TEST(RenderPreset, WhatIsAskedForCountsMore) {
+  using Preset = RenderPreset;
+  const Preset own{.lattice_level = 2,
+                   .texel_bits = 8,
+                   .triangle_fraction = 0.5,
+                   .keeps_face = {1, 0},
+                   .resolution_scale = 0.5,
+                   .promised_psnr_db = 51.0};
+  const Preset same = combined(own, {});
+  EXPECT_EQ(describe(same), describe(own));
+  EXPECT_EQ(same.keeps_face, own.keeps_face);
+  EXPECT_EQ(same.promised_psnr_db, 51.0);
+  const Preset asked{.lattice_level = 1,
+                     .texel_bits = 4,
+                     .color = Preset::Color::harmonics,
+                     .harmonics_degree = 1,
+                     .triangle_fraction = 0.25,
+                     .keeps_face = {0, 0, 0, 1},
+                     .feature_storage = Preset::FeatureStorage::rgba8,
+                     .site = Preset::Site::deferred,
+                     .supersampling = 2,
+                     .promised_psnr_db = 20.0};
+  const Preset both = combined(own, asked);
+  EXPECT_EQ(describe(both), describe(asked));
+  EXPECT_EQ(both.keeps_face, asked.keeps_face);
+  EXPECT_EQ(both.harmonics_degree, 1);
+  EXPECT_EQ(both.resolution_scale, 1) << "one knob with supersampling";
+  EXPECT_EQ(both.promised_psnr_db, 51.0);
+  EXPECT_EQ(combined(own, {.alpha_to_coverage = 4}).alpha_to_coverage, 4);
+}
+
 TEST(RenderPreset, WhatCannotBeObeyedIsRefused) {
   using Preset = RenderPreset;
   const auto expect_defect = [](const Preset& preset, const char* reason) {

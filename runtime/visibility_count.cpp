@@ -1,0 +1,55 @@
+#include "runtime/visibility_count.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include "runtime/renderer.hpp"
+#include "soup/keep_faces.hpp"
+
+namespace tureen {
+
+std::vector<std::uint64_t> count_visible_pixels(const gl::Context& context,
+                                                const TriangleSoup& soup, glm::dvec3 origin,
+                                                std::span<const Camera> views,
+                                                const std::function<void(double)>& progress) {
+  std::vector<std::uint64_t> pixels(soup.triangles.size(), 0);
+  // Forward plans name no faces.
+  Renderer renderer(context, soup, origin, {.plan = {.site = ShadingSite::deferred}});
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (progress) progress(double(i) / double(views.size()));
+    renderer.draw(views[i]);
+    for (const std::uint32_t face : renderer.read_faces())
+      if (face != no_face) ++pixels[face];
+  }
+  return pixels;
+}
+
+std::vector<std::uint8_t> most_visible(std::span<const std::uint64_t> pixels, double fraction) {
+  assert(fraction > 0 && fraction <= 1);
+  std::vector<std::uint32_t> order(pixels.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return pixels[a] > pixels[b]; });
+  const auto wanted = std::size_t(std::llround(fraction * double(pixels.size())));
+  const std::size_t count = std::min(std::max<std::size_t>(wanted, 1), pixels.size());
+  std::vector<std::uint8_t> keeps(pixels.size(), 0);
+  for (std::size_t i = 0; i < count; ++i) keeps[order[i]] = 1;
+  return keeps;
+}
+
+TriangleSoup keep_most_visible(const TriangleSoup& soup, std::span<const std::uint64_t> pixels,
+                               double fraction) {
+  return keep_faces(soup, most_visible(pixels, fraction));
+}
+
+void set_triangle_fraction(RenderPreset& preset, std::span<const std::uint64_t> pixels,
+                           double fraction) {
+  // A soup without faces has no part of them.
+  preset.triangle_fraction = pixels.empty() ? 1 : fraction;
+  preset.keeps_face.clear();
+  if (preset.triangle_fraction < 1) preset.keeps_face = most_visible(pixels, fraction);
+}
+
+}  // namespace tureen
