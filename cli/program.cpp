@@ -117,6 +117,7 @@ bad, 4 no OpenGL context, 5 anything else.)");
   add_eval(program, action);
   add_bench(program, action, {argv + std::min(argc, 1), argv + argc});
   add_plot(program, action);
+  add_tradeoff(program, action, {argv + std::min(argc, 1), argv + argc});
 
   if (argc < 2) {
     say(program.help());

@@ -159,7 +159,7 @@ part_tradeoff() {
   for i in "${!scene_names[@]}"; do
     name=${scene_names[i]} options=()
     [[ $name != cloud-* ]] || continue # a random network: its errors say nothing about scenes
-    [[ $name != fox || -z $photographs ]] || options=("$photographs")
+    [[ $name != fox || -z $photographs ]] || options=("$photographs" --scale 0.25)
     measure "tradeoff-$name" "$bin/tureen" tradeoff "${scene_paths[i]}" "${options[@]}" \
       ${quick:+--quick} -o "$out/tradeoff-$name"
   done

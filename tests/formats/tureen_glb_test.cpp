@@ -400,7 +400,7 @@ TEST(TureenGlbPreset, BadValuesAreRefusedWithTheirPlace) {
   EXPECT_THAT(refusal("triangle_fraction", 0), HasSubstr("above 0 and at most 1"));
   EXPECT_THAT(refusal("triangle_fraction", 1), HasSubstr("and yet not every one"));
   EXPECT_THAT(refusal("keeps_face", 999999), HasSubstr("accessors"));
-  EXPECT_THAT(refusal("keeps_face", 0), HasSubstr("accessor has"));
+  EXPECT_THAT(refusal("keeps_face", 0), HasSubstr("expected SCALAR"));
   EXPECT_THAT(refusal("feature_storage", 1), HasSubstr("preset.feature_storage"));
   EXPECT_THAT(refusal("site", "garden"), HasSubstr("none of"));
   EXPECT_THAT(refusal("resolution_scale", 2), HasSubstr("0.25 to 1"));

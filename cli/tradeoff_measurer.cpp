@@ -1,0 +1,148 @@
+#include "cli/tradeoff_measurer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <future>
+#include <thread>
+#include <tuple>
+
+#include "cli/tradeoff_pictures.hpp"
+#include "runtime/benchmark.hpp"
+#include "soup/error.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+FrameStatistics scaled(FrameStatistics ms, double factor) {
+  for (double* value : {&ms.mean, &ms.median, &ms.p95, &ms.p99, &ms.min_of_medians})
+    *value *= factor;
+  ms.low_1_percent_fps /= factor;
+  return ms;
+}
+
+}  // namespace
+
+Job job_of(const std::vector<tradeoff::Knob>& knobs, const tradeoff::Configuration& configuration,
+           bool specialised) {
+  Job job;
+  job.outcome.configuration = configuration;
+  job.outcome.name = tradeoff::describe(knobs, configuration);
+  job.outcome.preset = tradeoff::preset_of(knobs, configuration);
+  job.outcome.specialised = specialised;
+  job.plan.specialise = specialised;
+  job.plan.preset = job.outcome.preset;
+  return job;
+}
+
+void Measurer::measure(std::vector<Job> jobs, const std::string& task) {
+  for (std::size_t begin = 0; begin < jobs.size();) {
+    const std::size_t room = options_.group - (control_ ? 1 : 0);
+    const std::size_t end = std::min(begin + std::max<std::size_t>(room, 1), jobs.size());
+    share_ = {double(begin) / double(jobs.size()), double(end - begin) / double(jobs.size())};
+    task_ = task;
+    measure_group({jobs.begin() + std::ptrdiff_t(begin), jobs.begin() + std::ptrdiff_t(end)});
+    begin = end;
+  }
+}
+
+void Measurer::report_share(double fraction) const {
+  report(options_, task_, share_.first + share_.second * fraction);
+}
+
+std::unique_ptr<Renderer> Measurer::renderer_for(const Job& job) const {
+  return std::make_unique<Renderer>(
+      scene_.context, scene_.soup, scene_.origin,
+      RenderOptions{.plan = job.plan,
+                    .background = {options_.background, 0.0f},
+                    .progress = [this](double) { report_share(0.2 * made_); }});
+}
+
+void Measurer::measure_group(std::vector<Job> jobs) {
+  std::vector<Running> running;
+  if (control_) running.push_back({*control_, renderer_for(*control_)});
+  for (Job& job : jobs) {
+    made_ = double(running.size()) / double(jobs.size() + 1);
+    report_share(0.2 * made_);
+    try {
+      std::unique_ptr<Renderer> renderer = renderer_for(job);
+      renderer->draw(scene_.cameras.front());
+      running.push_back({std::move(job), std::move(renderer)});
+    } catch (const Error& error) {
+      // The defaults must be drawn; what else this device or runtime cannot do is left out.
+      const bool refused =
+          dynamic_cast<const UsageError*>(&error) || dynamic_cast<const DeviceLimitError*>(&error);
+      if (!control_ && running.empty()) throw;
+      if (!refused) throw;
+      panel_.skipped.push_back({job.outcome.name, error.reason()});
+    }
+  }
+  if (running.size() > (control_ ? 1u : 0u)) time_and_compare(running);
+}
+
+void Measurer::time_and_compare(std::vector<Running>& running) {
+  std::vector<Entrant> entrants;
+  for (const Running& each : running)
+    entrants.push_back(
+        {each.job.outcome.name,
+         [renderer = each.renderer.get()](const Camera& camera) { renderer->draw(camera); },
+         [renderer = each.renderer.get()] { renderer->finish(); }});
+  const BenchmarkResult result =
+      run_benchmark(entrants, scene_.cameras,
+                    {.rounds = options_.rounds,
+                     .least_sample_ms = scene_.context.capabilities().software ? 0.0 : 5.0,
+                     .progress = [&](double fraction) { report_share(0.2 + 0.6 * fraction); },
+                     .clock = options_.clock});
+  panel_.aa_spread = std::max(panel_.aa_spread, result.aa_spread);
+
+  const FrameStatistics control = statistics_of(result.entrants[0].times);
+  if (!control_) control_ms_ = control.min_of_medians;
+  const double factor = control_ms_ / control.min_of_medians;
+  const std::size_t first = control_ ? 1 : 0;
+  for (std::size_t i = first; i < running.size(); ++i) {
+    Outcome& outcome = running[i].job.outcome;
+    outcome.ms = scaled(statistics_of(result.entrants[i].times), factor);
+    outcome.device_mib = double(running[i].renderer->device_bytes()) / (1 << 20);
+    if (!result.entrants[i].stable)
+      outcome.warnings.push_back("its times did not come to rest before they were taken");
+  }
+  compare(running, first);
+  if (!control_) control_ = running.front().job;
+  for (std::size_t i = first; i < running.size(); ++i)
+    panel_.outcomes.push_back(std::move(running[i].job.outcome));
+}
+
+/// Errors of the frames as they were timed: one configuration a core.
+void Measurer::compare(std::vector<Running>& running, std::size_t first) {
+  const std::size_t most = std::max(1u, std::thread::hardware_concurrency());
+  std::vector<std::future<Errors>> errors;
+  const auto take = [&](std::size_t i) {
+    Outcome& outcome = running[first + i].job.outcome;
+    std::tie(outcome.error, outcome.exact) = errors[i].get();
+    if (outcome.error.non_finite > 0)
+      outcome.warnings.push_back(fmt::format("{} pixels are no numbers", outcome.error.non_finite));
+  };
+  for (std::size_t i = first; i < running.size(); ++i) {
+    report_share(0.8 + 0.2 * double(i) / double(running.size()));
+    std::vector<Image8> drawn;
+    for (const Camera& camera : scene_.cameras) {
+      running[i].renderer->draw(camera);
+      drawn.push_back(running[i].renderer->read_color());
+    }
+    if (errors.size() >= most) take(errors.size() - most);
+    errors.push_back(std::async(std::launch::async, [this, drawn = std::move(drawn)] {
+      std::vector<ImageF> pictures;
+      for (const Image8& picture : drawn)
+        pictures.push_back(composited(to_float(picture), options_.background));
+      // Where a pixel is covered in part, the device says with which colour and how much of it; a
+      // screen shows 8 bits of the mixture.
+      pictures = as_shown(pictures);
+      return errors_of(references_, pictures, options_.with_flip);
+    }));
+  }
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    if (errors[i].valid()) take(i);
+}
+
+}  // namespace tureen::cli

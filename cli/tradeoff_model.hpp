@@ -1,0 +1,31 @@
+// E_model for `tureen tradeoff`: each way to draw against photographs, as `tureen eval` measures.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cli/tradeoff_report.hpp"
+#include "formats/dataset.hpp"
+
+namespace tureen::cli {
+
+struct ModelOptions {
+  gl::Backend backend = gl::Backend::automatic;
+  glm::vec3 background{0.0f};
+  bool with_flip = true;
+  std::function<void(double)> progress = {};  // may throw to end it
+};
+
+/// At most `most` of the photographs, evenly spread over their order; all where `most` is 0.
+std::vector<Photograph> spread_out(std::vector<Photograph> photographs, std::size_t most);
+
+/// One entry for each outcome of the panel, nothing for those that are no way of our own to draw:
+/// generic twins, which draw the same, the published pipeline's and emulations.
+std::vector<std::optional<ModelError>> model_errors(const Panel& panel, const TriangleSoup& soup,
+                                                    glm::dvec3 origin,
+                                                    std::span<const Photograph> photographs,
+                                                    const ModelOptions& options);
+
+}  // namespace tureen::cli

@@ -1,0 +1,89 @@
+#include "cli/tradeoff_pictures.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <future>
+#include <thread>
+
+namespace tureen::cli {
+
+namespace {
+
+/// Runs `work(i, check)` for 0 .. count - 1 on all cores; `check`, called now and then, ends it
+/// when it is to stop. The calling thread reports progress, and may throw doing so.
+template <class Work>
+void on_all_cores(std::size_t count, const std::function<void(double)>& progress,
+                  const Work& work) {
+  struct Abandoned {};
+  std::atomic<std::size_t> next = 0, done = 0;
+  std::atomic<bool> cancelled = false;
+  const auto check = [&](double) {
+    if (cancelled) throw Abandoned();
+  };
+  const auto run = [&] {
+    for (std::size_t i; (i = next++) < count && !cancelled; ++done) try {
+        work(i, check);
+      } catch (const Abandoned&) {
+        return;
+      }
+  };
+  std::vector<std::future<void>> threads;
+  const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
+  for (std::size_t i = 0; i < std::min(cores, count); ++i)
+    threads.push_back(std::async(std::launch::async, run));
+  try {
+    for (std::future<void>& thread : threads) {
+      while (thread.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready)
+        progress(double(done) / double(count));
+      thread.get();
+    }
+  } catch (...) {
+    cancelled = true;  // destroying the futures waits for the threads
+    throw;
+  }
+}
+
+}  // namespace
+
+void report(const StudyOptions& options, const std::string& task, double fraction) {
+  if (options.progress) options.progress(task, fraction);
+}
+
+std::vector<ImageF> oracle_pictures(const StudyScene& scene, const StudyOptions& options,
+                                    tradeoff::Samples samples, MlpPrecision precision) {
+  std::vector<ImageF> pictures(scene.cameras.size());
+  const auto progress = [&](double fraction) { report(options, "reference pictures", fraction); };
+  on_all_cores(pictures.size(), progress, [&](std::size_t i, const auto& check) {
+    pictures[i] = tradeoff::reference_picture(scene.soup, scene.origin, scene.cameras[i],
+                                              {.samples = samples,
+                                               .background = options.background,
+                                               .mlp_precision = precision,
+                                               .progress = check});
+  });
+  return pictures;
+}
+
+std::vector<ImageF> as_shown(std::span<const ImageF> pictures) {
+  std::vector<ImageF> rounded;
+  for (const ImageF& picture : pictures) rounded.push_back(to_float(quantised(picture)));
+  return rounded;
+}
+
+RenderError error_between(std::span<const ImageF> reference, std::span<const ImageF> drawn,
+                          bool with_flip) {
+  RenderErrorMeter meter({.with_flip = with_flip});
+  for (std::size_t i = 0; i < reference.size(); ++i) meter.add(reference[i], drawn[i]);
+  return meter.result();
+}
+
+Errors errors_of(const References& references, std::span<const ImageF> drawn, bool with_flip) {
+  Errors errors{error_between(references.judge, drawn, with_flip), std::nullopt};
+  if (!references.exact.empty()) {
+    const RenderError exact = error_between(references.exact, drawn, false);
+    errors.second = ExactError{exact.psnr_db, exact.coverage_mismatch};
+  }
+  return errors;
+}
+
+}  // namespace tureen::cli

@@ -1,0 +1,222 @@
+#include "cli/tradeoff_plots.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace tureen::cli {
+
+namespace {
+
+/// The y value of an outcome, NaN where it has none.
+using ErrorOf = std::function<double(std::size_t)>;
+
+struct Extent {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void take(double value) {
+    if (std::isnan(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
+/// One plot in the making: data blocks and the clauses that draw them.
+class Drawing {
+ public:
+  Drawing(const Panel& panel, ErrorOf error) : panel_(panel), error_(std::move(error)) {
+    for (std::size_t i = 0; i < panel.outcomes.size(); ++i) {
+      if (!is_shown(i)) continue;
+      ms_.take(panel.outcomes[i].ms.min_of_medians);
+      ms_.take(panel.outcomes[i].ms.p95);
+      db_.take(error_(i));
+    }
+  }
+
+  void rule(double db, const std::string& name, int dash) {
+    db_.take(db);
+    clauses_.push_back(
+        fmt::format("{} with lines dashtype {} linewidth 1.5 linecolor rgb "
+                    "'#636c76' title {}",
+                    db, dash, plot_text(fmt::format("{}, {:.1f} dB", name, db))));
+  }
+
+  void front(const std::vector<std::size_t>& front) {
+    std::vector<std::vector<double>> rows;
+    for (const std::size_t i : front)
+      rows.push_back({panel_.outcomes[i].ms.min_of_medians, error_(i)});
+    if (rows.empty()) return;
+    rows.push_back({ms_.high * margin, rows.back()[1]});
+    clauses_.push_back(add_data(rows) +
+                       " using 1:2 with steps linewidth 1.5 linecolor rgb '#1f2328' title " +
+                       plot_text("front"));
+    for (const std::size_t i : front) label(i);
+  }
+
+  /// `style` says the colour.
+  void points(const std::string& style, const std::string& title,
+              const std::vector<std::size_t>& outcomes) {
+    std::vector<std::vector<double>> specialised, generic;
+    for (const std::size_t i : outcomes) {
+      const FrameStatistics& ms = panel_.outcomes[i].ms;
+      (panel_.outcomes[i].specialised ? specialised : generic)
+          .push_back({ms.min_of_medians, error_(i), ms.min_of_medians,
+                      std::max(ms.p95, ms.min_of_medians)});
+    }
+    if (!specialised.empty())
+      clauses_.push_back(add_data(specialised) + " using 1:2:3:4 with xerrorbars " + style +
+                         " linewidth 1 pointtype 7 pointsize 0.8 title " + plot_text(title));
+    if (!generic.empty())
+      clauses_.push_back(add_data(generic) + " using 1:2 with points " + style +
+                         " linewidth 1 pointtype 6 pointsize 0.7 " +
+                         (specialised.empty() ? "title " + plot_text(title) : "notitle"));
+  }
+
+  std::string script(const std::string& ordinate) const {
+    const double space = std::max(0.06 * (db_.high - db_.low), 0.5);
+    std::string script = data_ + labels_;
+    script += "set logscale x\nset key outside right top reverse Left\n";
+    script += "set xlabel " + plot_text("ms a frame, logarithmic; bars to the 95th percentile") +
+              "\nset ylabel " + plot_text(ordinate) + "\n";
+    script += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", ms_.low / margin,
+                          ms_.high * margin, db_.low - space, db_.high + space);
+    script += "plot ";
+    for (std::size_t i = 0; i < clauses_.size(); ++i)
+      script += (i ? ", \\\n     " : "") + clauses_[i];
+    return script + "\n";
+  }
+
+  bool is_shown(std::size_t i) const {
+    return !panel_.outcomes[i].emulated && !std::isnan(error_(i));
+  }
+
+ private:
+  static constexpr double margin = 1.15;  // of the range of times, beside the points
+
+  std::string add_data(const std::vector<std::vector<double>>& rows) {
+    const std::string name = fmt::format("data{}", ++blocks_);
+    data_ += plot_data(name, rows);
+    return "$" + name;
+  }
+
+  void label(std::size_t i) {
+    labels_ += fmt::format(
+        "set label {} at {},{} left offset 0.6,-0.6 font ',10' textcolor rgb "
+        "'#636c76'\n",
+        plot_text(panel_.outcomes[i].name), panel_.outcomes[i].ms.min_of_medians, error_(i));
+  }
+
+  const Panel& panel_;
+  ErrorOf error_;
+  Extent ms_, db_;
+  std::string data_, labels_;
+  std::vector<std::string> clauses_;
+  int blocks_ = 0;
+};
+
+/// Line types 1..6 are the colours of knobs; more knobs than that share.
+std::string style_of(std::size_t knob) { return fmt::format("linetype {}", knob % 6 + 1); }
+
+void add_points(Drawing& drawing, const Panel& panel) {
+  std::vector<std::vector<std::size_t>> of_knob(panel.knobs.size());
+  std::vector<std::size_t> defaults, published;
+  for (std::size_t i = 0; i < panel.outcomes.size(); ++i) {
+    if (!drawing.is_shown(i)) continue;
+    const Outcome& outcome = panel.outcomes[i];
+    if (outcome.published)
+      published.push_back(i);
+    else if (const auto knob = dominant_knob(panel, outcome))
+      of_knob[*knob].push_back(i);
+    else
+      defaults.push_back(i);
+  }
+  for (std::size_t knob = 0; knob < of_knob.size(); ++knob)
+    drawing.points(style_of(knob), panel.knobs[knob].title, of_knob[knob]);
+  drawing.points("linecolor rgb '#1f2328'", "defaults", defaults);
+  drawing.points("linecolor rgb '#636c76'", "published pipeline", published);
+}
+
+ErrorOf render_error_of(const Panel& panel) {
+  return [&panel](std::size_t i) { return panel.outcomes[i].error.psnr_db; };
+}
+
+ErrorOf model_error_of(const std::vector<std::optional<ModelError>>& list) {
+  return [&list](std::size_t i) {
+    return i < list.size() && list[i] ? list[i]->psnr_db : std::nan("");
+  };
+}
+
+TradeoffPlot drawing_plot(const TradeoffReport& report) {
+  const Panel& panel = report.study.drawing;
+  Drawing drawing(panel, render_error_of(panel));
+  drawing.rule(panel.ideal.psnr_db, "R1: the reference in 8 bits", 2);
+  if (report.study.published)
+    drawing.rule(panel.outcomes[*report.study.published].error.psnr_db,
+                 "R0: the published pipeline", 3);
+  drawing.rule(report.limits.least_psnr_db, "the choice's limit", 4);
+  drawing.front(panel.front);
+  add_points(drawing, panel);
+  return {"drawing",
+          fmt::format("E_render of drawing knobs, against the oracle {}. Filled: what the plan "
+                      "draws; hollow: with nothing left out (--no-specialise).",
+                      where_it_looks(report)),
+          {.title = "E_render of drawing knobs against time",
+           .script = drawing.script("PSNR against the oracle, dB"),
+           .width = 960,
+           .height = 520}};
+}
+
+TradeoffPlot antialiasing_plot(const TradeoffReport& report) {
+  const Panel& panel = report.study.antialiasing;
+  Drawing drawing(panel, render_error_of(panel));
+  drawing.rule(panel.ideal.psnr_db, "R1: the reference in 8 bits", 2);
+  drawing.front(panel.front);
+  add_points(drawing, panel);
+  return {"antialiasing",
+          "E_render of antialiasing knobs, against the oracle's 8 x 8 samples a pixel.",
+          {.title = "E_render of antialiasing knobs against time",
+           .script = drawing.script("PSNR against 8 x 8 samples, dB")}};
+}
+
+TradeoffPlot model_plot(const TradeoffReport& report) {
+  const Panel& panel = report.study.drawing;
+  Drawing drawing(panel, model_error_of(report.drawing_model));
+  add_points(drawing, panel);
+  return {"model",
+          "E_model of drawing knobs, against photographs: how good the trained model is, and how "
+          "little of it a knob takes. Never to be compared with E_render.",
+          {.title = "E_model of drawing knobs against time",
+           .script = drawing.script("PSNR against photographs, dB")}};
+}
+
+}  // namespace
+
+std::optional<std::size_t> dominant_knob(const Panel& panel, const Outcome& outcome) {
+  std::optional<std::size_t> dominant;
+  double worst = 0;
+  for (std::size_t knob = 0; knob < outcome.configuration.size(); ++knob) {
+    if (outcome.configuration[knob] == 0) continue;
+    // Without its star, which a knob that cannot be turned alone lacks, it is the last to blame.
+    double psnr = 100;
+    for (const Outcome& single : panel.outcomes)
+      if (single.departures() == 1 && single.configuration[knob] == outcome.configuration[knob])
+        psnr = std::min(psnr, single.error.psnr_db);
+    if (!dominant || psnr < worst) {
+      dominant = knob;
+      worst = psnr;
+    }
+  }
+  return dominant;
+}
+
+std::vector<TradeoffPlot> tradeoff_plots(const TradeoffReport& report) {
+  std::vector<TradeoffPlot> plots{drawing_plot(report), antialiasing_plot(report)};
+  if (report.model) plots.push_back(model_plot(report));
+  return plots;
+}
+
+}  // namespace tureen::cli

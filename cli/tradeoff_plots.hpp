@@ -1,0 +1,30 @@
+// The plots of `tureen tradeoff`: error against the logarithm of time. E_render of drawing knobs,
+// E_render of antialiasing ones and E_model each have a plot, and an axis, of their own.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/gnuplot.hpp"
+#include "cli/tradeoff_report.hpp"
+
+namespace tureen::cli {
+
+struct TradeoffPlot {
+  std::string file;  // the name without an extension: "drawing"
+  std::string caption;
+  Plot plot;
+};
+
+/// Which knob is most to blame for an outcome: of those that are turned, the one whose setting
+/// alone, in the star, costs most decibels; of outcomes of the star the knob itself. None for the
+/// defaults.
+std::optional<std::size_t> dominant_knob(const Panel& panel, const Outcome& outcome);
+
+/// Two plots, or three where there is a dataset. Points: a time and an error, bars to the 95th
+/// percentile of time, colour by the dominant knob, hollow where nothing is left out of the plan;
+/// the front as a step line; R0, R1 and the limit as rules.
+std::vector<TradeoffPlot> tradeoff_plots(const TradeoffReport& report);
+
+}  // namespace tureen::cli

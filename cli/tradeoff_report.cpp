@@ -1,0 +1,326 @@
+#include "cli/tradeoff_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tureen::cli {
+
+namespace {
+
+Json to_json(const RenderError& error, bool with_flip) {
+  Json json{{"psnr_db", error.psnr_db},
+            {"mean_psnr_db", error.mean_psnr_db},
+            {"worst_psnr_db", error.worst_psnr_db},
+            {"mse", error.mse},
+            {"mae", error.mae},
+            {"max", error.max_abs},
+            {"p999", error.p999_abs},
+            {"ssim", error.ssim},
+            {"flip", nullptr},
+            {"coverage", error.coverage_mismatch},
+            {"view_psnr_db", error.view_psnr_db}};
+  if (with_flip) json["flip"] = error.flip;
+  return json;
+}
+
+Json to_json(const std::optional<ModelError>& error, bool with_flip) {
+  if (!error) return nullptr;
+  return {{"psnr_db", error->psnr_db},
+          {"ssim", error->ssim},
+          {"flip", with_flip ? Json(error->flip) : Json(nullptr)}};
+}
+
+Json to_json(const std::optional<ExactError>& error) {
+  if (!error) return nullptr;
+  return {{"psnr_db", error->psnr_db}, {"coverage", error->coverage_mismatch}};
+}
+
+Json knobs_json(const Panel& panel, const Outcome& outcome) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < panel.knobs.size(); ++i)
+    json[panel.knobs[i].key] = panel.knobs[i].settings[std::size_t(outcome.configuration[i])].value;
+  return json;
+}
+
+std::optional<ModelError> model_of(const std::vector<std::optional<ModelError>>& list,
+                                   std::size_t i) {
+  return i < list.size() ? list[i] : std::nullopt;
+}
+
+bool is_on_front(const Panel& panel, std::size_t i) {
+  return std::find(panel.front.begin(), panel.front.end(), i) != panel.front.end();
+}
+
+Json configuration_json(const TradeoffReport& report, const Panel& panel, std::size_t i,
+                        const std::optional<ModelError>& model) {
+  const Outcome& outcome = panel.outcomes[i];
+  const auto timed = [&](double value) { return outcome.emulated ? Json(nullptr) : Json(value); };
+  return {{"name", outcome.name},
+          {"scene", report.scene.name},
+          {"method", method_of(outcome)},
+          {"knobs", knobs_json(panel, outcome)},
+          {"commit", report.program.commit},
+          {"machine", report.machine.cpu},
+          {"driver", report.device.renderer + "; " + report.device.version},
+          {"ms", timed(outcome.ms.min_of_medians)},
+          {"ms_median", timed(outcome.ms.median)},
+          {"ms_p95", timed(outcome.ms.p95)},
+          {"ms_spread", timed(outcome.ms.spread * outcome.ms.min_of_medians)},
+          {"mib", timed(outcome.device_mib)},
+          {"e_render", to_json(outcome.error, report.with_flip)},
+          {"e_render_exact", to_json(outcome.exact)},
+          {"e_model", to_json(model, report.with_flip)},
+          {"on_front", is_on_front(panel, i)},
+          {"warnings", outcome.warnings}};
+}
+
+Json panel_json(const TradeoffReport& report, const Panel& panel,
+                const std::vector<std::optional<ModelError>>& model) {
+  Json knobs = Json::array(), configurations = Json::array(), skipped = Json::array();
+  for (std::size_t i = 0; i < panel.knobs.size(); ++i) {
+    Json settings = Json::array();
+    for (const tradeoff::Setting& setting : panel.knobs[i].settings)
+      settings.push_back(setting.value);
+    knobs.push_back({{"key", panel.knobs[i].key},
+                     {"title", panel.knobs[i].title},
+                     {"settings", settings},
+                     {"time_ratio", panel.ranges[i].time_ratio},
+                     {"psnr_range_db", panel.ranges[i].psnr_db},
+                     {"matters", panel.ranges[i].matters()}});
+  }
+  for (std::size_t i = 0; i < panel.outcomes.size(); ++i)
+    configurations.push_back(configuration_json(report, panel, i, model_of(model, i)));
+  for (const Skipped& each : panel.skipped)
+    skipped.push_back({{"name", each.name}, {"reason", each.reason}});
+  return {{"knobs", knobs},
+          {"configurations", configurations},
+          {"front", panel.front},
+          {"hypervolume_decade_db", panel.hypervolume},
+          {"aa_spread", panel.aa_spread},
+          {"r1", to_json(panel.ideal, report.with_flip)},
+          {"skipped", skipped},
+          {"notes", panel.notes}};
+}
+
+Json choice_json(const TradeoffReport& report) {
+  const Study& study = report.study;
+  if (!study.choice) return nullptr;
+  const Outcome& outcome = study.drawing.outcomes[*study.choice];
+  return {{"configuration", *study.choice},
+          {"name", outcome.name},
+          {"psnr_db", outcome.error.psnr_db},
+          {"promised_psnr_db",
+           report.promised_psnr_db ? Json(*report.promised_psnr_db) : Json(nullptr)},
+          {"written", report.preset_written ? Json(*report.preset_written) : Json(nullptr)}};
+}
+
+Json model_protocol_json(const TradeoffReport& report) {
+  if (!report.model) return nullptr;
+  return {{"dataset", report.model->dataset},
+          {"split", report.model->split},
+          {"photographs", report.model->photographs},
+          {"ssim_border", report.model->ssim_border}};
+}
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + "\"";
+}
+
+std::string csv_line(const TradeoffReport& report, const char* panel_name, const Panel& panel,
+                     std::size_t i, const std::optional<ModelError>& model) {
+  const Outcome& outcome = panel.outcomes[i];
+  const RenderError& error = outcome.error;
+  std::vector<std::string> fields{panel_name, outcome.name, method_of(outcome)};
+  const auto number = [&](double value, bool known = true) {
+    fields.push_back(known ? fmt::format("{}", value) : std::string());
+  };
+  for (const double value : {outcome.ms.min_of_medians, outcome.ms.median, outcome.ms.p95,
+                             outcome.ms.spread * outcome.ms.min_of_medians, outcome.device_mib})
+    number(value, !outcome.emulated);
+  for (const double value : {error.psnr_db, error.mae, error.max_abs, error.p999_abs, error.ssim})
+    number(value);
+  number(error.flip, report.with_flip);
+  number(error.coverage_mismatch);
+  number(outcome.exact ? outcome.exact->psnr_db : 0, outcome.exact.has_value());
+  number(outcome.exact ? outcome.exact->coverage_mismatch : 0, outcome.exact.has_value());
+  number(model ? model->psnr_db : 0, model.has_value());
+  number(model ? model->ssim : 0, model.has_value());
+  number(model ? model->flip : 0, model && report.with_flip);
+  fields.push_back(is_on_front(panel, i) ? "1" : "0");
+  std::string line;
+  for (const std::string& field : fields) line += (line.empty() ? "" : ",") + quoted(field);
+  return line + "\n";
+}
+
+// -- for people ----------------------------------------------------------------------------------
+
+/// The generic twin of a specialised outcome.
+const Outcome* generic_of(const Panel& panel, const Outcome& outcome) {
+  for (const Outcome& other : panel.outcomes)
+    if (!other.specialised && !other.published && other.configuration == outcome.configuration)
+      return &other;
+  return nullptr;
+}
+
+std::string table_line(const TradeoffReport& report, const Panel& panel, std::size_t i,
+                       std::size_t width) {
+  const Outcome& outcome = panel.outcomes[i];
+  const RenderError& error = outcome.error;
+  const bool chosen = &panel == &report.study.drawing && report.study.choice == i;
+  const Outcome* generic = outcome.published ? nullptr : generic_of(panel, outcome);
+  return fmt::format(
+      "{} {:<{}}  {:>8}  {:>8}  {:>7.2f}  {:>8}  {:>6.3f}  {:>6.4f}  {:>8.1e}  {:>6}",
+      chosen                  ? '>'
+      : is_on_front(panel, i) ? '*'
+                              : ' ',
+      outcome.name, width,
+      outcome.emulated ? "-" : fmt::format("{:.2f}", outcome.ms.min_of_medians),
+      generic ? fmt::format("{:.2f}", generic->ms.min_of_medians) : "-", error.psnr_db,
+      outcome.exact ? fmt::format("{:.2f}", outcome.exact->psnr_db) : "-", error.max_abs,
+      error.p999_abs, error.coverage_mismatch,
+      outcome.emulated ? "-" : fmt::format("{:.1f}", outcome.device_mib));
+}
+
+void say_panel(const TradeoffReport& report, const Panel& panel, const std::string& title) {
+  std::size_t width = 13;
+  for (const Outcome& outcome : panel.outcomes) width = std::max(width, outcome.name.size());
+  say(title);
+  say(fmt::format("  {:<{}}  {:>8}  {:>8}  {:>7}  {:>8}  {:>6}  {:>6}  {:>8}  {:>6}",
+                  "configuration", width, "ms", "generic", "PSNR dB", "exact dB", "max", "99.9 %",
+                  "coverage", "MiB"));
+  for (std::size_t i = 0; i < panel.outcomes.size(); ++i)
+    if (panel.outcomes[i].specialised || panel.outcomes[i].published)
+      say(table_line(report, panel, i, width));
+  say(
+      fmt::format("  R1, the reference itself in 8 bits: {:.2f} dB; times differ by chance by "
+                  "{:.1f} % (A/A); hypervolume {:.1f} decade dB",
+                  panel.ideal.psnr_db, 100 * panel.aa_spread, panel.hypervolume));
+  std::vector<std::string> lines = panel.notes;
+  for (const Skipped& skipped : panel.skipped)
+    lines.push_back(skipped.name + ": " + skipped.reason);
+  for (const Outcome& outcome : panel.outcomes)
+    for (const std::string& warning : outcome.warnings)
+      lines.push_back(outcome.name + (outcome.specialised ? "" : " (generic)") + ": " + warning);
+  say_list("Not measured, and warnings:", lines);
+}
+
+void say_model(const TradeoffReport& report) {
+  if (!report.model) return;
+  say(fmt::format("E_model, against {} photographs ({}) of {}:", report.model->photographs,
+                  report.model->split, report.model->dataset));
+  const auto table = [&](const Panel& panel, const std::vector<std::optional<ModelError>>& list) {
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (list[i])
+        say(fmt::format("  {:<44}  {:>7.2f} dB  SSIM {:.4f}", panel.outcomes[i].name,
+                        list[i]->psnr_db, list[i]->ssim));
+  };
+  table(report.study.drawing, report.drawing_model);
+  table(report.study.antialiasing, report.antialiasing_model);
+}
+
+}  // namespace
+
+const char* method_of(const Outcome& outcome) {
+  if (outcome.published) return "published";
+  if (outcome.emulated) return "oracle";
+  return outcome.specialised ? "tureen" : "tureen --no-specialise";
+}
+
+const char* where_it_looks(const TradeoffReport& report) {
+  return report.samples == "device" ? "at the device's own sample points" : "of exact triangles";
+}
+
+Json to_json(const TradeoffReport& report) {
+  const Study& study = report.study;
+  return {{"format", "tureen tradeoff"},
+          {"version", tradeoff_version},
+          {"date", report.date},
+          {"program",
+           {{"version", report.program.version},
+            {"commit", report.program.commit},
+            {"arguments", report.program.arguments}}},
+          {"scene",
+           {{"name", report.scene.name},
+            {"path", report.scene.path},
+            {"triangles", report.scene.triangles},
+            {"appearance", report.scene.appearance}}},
+          {"machine",
+           {{"cpu", report.machine.cpu},
+            {"cores", report.machine.cores},
+            {"memory_mib", report.machine.memory_mib}}},
+          {"device",
+           {{"context", report.device.context},
+            {"renderer", report.device.renderer},
+            {"vendor", report.device.vendor},
+            {"version", report.device.version},
+            {"software", report.device.software}}},
+          {"protocol",
+           {{"camera_set", report.camera_set},
+            {"width", report.width},
+            {"height", report.height},
+            {"views", report.views},
+            {"rounds", report.rounds},
+            {"clock", report.clock},
+            {"samples", report.samples}}},
+          {"limits",
+           {{"least_psnr_db", report.limits.least_psnr_db},
+            {"most_coverage_mismatch", report.limits.most_coverage_mismatch}}},
+          {"drawing", panel_json(report, study.drawing, report.drawing_model)},
+          {"antialiasing", panel_json(report, study.antialiasing, report.antialiasing_model)},
+          {"r0", study.published ? Json(*study.published) : Json(nullptr)},
+          {"subpixel_grid", to_json(study.grid, report.with_flip)},
+          {"e_model", model_protocol_json(report)},
+          {"choice", choice_json(report)},
+          {"notes", report.notes},
+          {"output", report.output}};
+}
+
+std::string to_csv(const TradeoffReport& report) {
+  std::string text =
+      "panel,name,method,ms,ms_median,ms_p95,ms_spread,mib,e_render_psnr_db,e_render_mae,"
+      "e_render_max,e_render_p999,e_render_ssim,e_render_flip,e_render_coverage,"
+      "e_render_exact_psnr_db,e_render_exact_coverage,e_model_psnr_db,e_model_ssim,e_model_flip,on_"
+      "front\n";
+  const Study& study = report.study;
+  for (std::size_t i = 0; i < study.drawing.outcomes.size(); ++i)
+    text += csv_line(report, "drawing", study.drawing, i, model_of(report.drawing_model, i));
+  for (std::size_t i = 0; i < study.antialiasing.outcomes.size(); ++i)
+    text += csv_line(report, "antialiasing", study.antialiasing, i,
+                     model_of(report.antialiasing_model, i));
+  return text;
+}
+
+void say_tables(const TradeoffReport& report) {
+  say_panel(report, report.study.drawing,
+            fmt::format("E_render of drawing knobs, against the oracle {} (* on the front, > the "
+                        "choice):",
+                        where_it_looks(report)));
+  say(
+      fmt::format("  exact dB is against exact triangles; the device's subpixel grid alone has "
+                  "{:.2f} dB there, which no knob changes",
+                  report.study.grid.psnr_db));
+  say_panel(report, report.study.antialiasing,
+            "E_render of antialiasing knobs, against 8 x 8 samples a pixel (* on the front):");
+  say_model(report);
+  say("Times: " + report.clock + ".");
+  say(choice_sentence(report));
+}
+
+std::string choice_sentence(const TradeoffReport& report) {
+  const Study& study = report.study;
+  const std::string limits =
+      fmt::format("at least {:g} dB and at most {:g} of the pixels uncovered or covered wrongly",
+                  report.limits.least_psnr_db, report.limits.most_coverage_mismatch);
+  if (!study.choice) return "No configuration keeps to the limits: " + limits + ".";
+  const Outcome& chosen = study.drawing.outcomes[*study.choice];
+  const Outcome& defaults = study.drawing.outcomes.front();
+  return fmt::format(
+      "The cheapest with {}: {}, {:.2f} ms at {:.2f} dB; the defaults take {:.2f} ms.", limits,
+      chosen.name, chosen.ms.min_of_medians, chosen.error.psnr_db, defaults.ms.min_of_medians);
+}
+
+}  // namespace tureen::cli

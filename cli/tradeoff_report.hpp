@@ -1,0 +1,77 @@
+// What `tureen tradeoff` found, for people and for programs: a table, a JSON document
+// (docs/tradeoff.schema.json) and a CSV file. E_render and E_model stand in columns and tables of
+// their own.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/bench_result.hpp"
+#include "cli/evaluation.hpp"
+#include "cli/report.hpp"
+#include "cli/tradeoff_study.hpp"
+
+namespace tureen::cli {
+
+/// Of the document's layout.
+inline constexpr int tradeoff_version = 1;
+
+/// How near a way to draw comes to photographs.
+struct ModelError {
+  double psnr_db = 0;  // the mean of the views' decibels, as eval says it
+  double ssim = 0;     // border `valid`
+  double flip = 0;     // 0 where it was left out
+};
+
+/// What E_model was measured with.
+struct ModelProtocol {
+  std::string dataset;  // as typed
+  std::string split;    // "test"
+  int photographs = 0;
+  std::string ssim_border;
+};
+
+struct TradeoffReport {
+  std::string date;  // "2026-11-21T15:04:05Z"
+  BenchProgram program;
+  BenchScene scene;
+  Machine machine;
+  BenchDevice device;
+  std::string camera_set;  // "hemisphere:4"
+  int width = 0, height = 0, views = 0, rounds = 0;
+  bool with_flip = true;
+  std::string clock;    // what times are read from, in words
+  std::string samples;  // of the drawing panel's reference: "device" or "exact"
+  tradeoff::Limits limits;
+  Study study;
+  /// Of the drawing panel's outcomes and of the antialiasing one's, in their order; nothing for
+  /// those that were not measured. Empty without a dataset.
+  std::vector<std::optional<ModelError>> drawing_model, antialiasing_model;
+  std::optional<ModelProtocol> model;
+  /// What a preset of the choice promises, in dB: runtime/preset_check.hpp.
+  std::optional<double> promised_psnr_db;
+  std::optional<std::string> preset_written;  // where
+  std::vector<std::string> notes;             // on reading the scene, the cameras, the dataset
+  std::vector<std::string> output;            // files that were written
+};
+
+/// "tureen", "tureen --no-specialise", "published", or "oracle" where it was emulated.
+const char* method_of(const Outcome& outcome);
+
+/// The reference of drawing knobs, in words: "at the device's own sample points".
+const char* where_it_looks(const TradeoffReport& report);
+
+Json to_json(const TradeoffReport& report);
+
+/// A head and a line for each configuration of both panels; numbers in full precision, text quoted
+/// as RFC 4180 has it.
+std::string to_csv(const TradeoffReport& report);
+
+/// The tables for a terminal, with what was skipped, the rules, the front and the choice.
+void say_tables(const TradeoffReport& report);
+
+/// The choice in a sentence, or why there is none.
+std::string choice_sentence(const TradeoffReport& report);
+
+}  // namespace tureen::cli

@@ -1,0 +1,166 @@
+#include "cli/tradeoff_study.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <iterator>
+#include <tuple>
+
+#include "cli/tradeoff_measurer.hpp"
+#include "cli/tradeoff_pictures.hpp"
+#include "runtime/visibility_count.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+using tradeoff::Configuration;
+using tradeoff::Knob;
+
+/// What no soup can be drawn with, before anything is uploaded.
+tradeoff::Refusal refusal_of(const std::vector<Knob>& knobs, const TriangleSoup& soup) {
+  return [&knobs, &soup](const Configuration& configuration) {
+    return defect(tradeoff::preset_of(knobs, configuration), soup);
+  };
+}
+
+/// Those that the runtime draws.
+std::vector<Job> jobs_of(const std::vector<Knob>& knobs, const std::vector<Configuration>& list,
+                         bool specialised) {
+  std::vector<Job> jobs;
+  for (const Configuration& configuration : list)
+    if (tradeoff::emulated_precision(knobs, configuration) == MlpPrecision::exact)
+      jobs.push_back(job_of(knobs, configuration, specialised));
+  return jobs;
+}
+
+void note_skipped(Panel& panel, const tradeoff::Design& design) {
+  for (const tradeoff::Skipped& skipped : design.skipped)
+    panel.skipped.push_back(
+        {tradeoff::describe(panel.knobs, skipped.configuration), skipped.reason});
+  panel.notes.insert(panel.notes.end(), design.notes.begin(), design.notes.end());
+}
+
+/// The ranges of the knobs, from the outcomes of the star that were measured as specialised.
+void find_ranges(Panel& panel) {
+  std::vector<Configuration> configurations;
+  std::vector<tradeoff::Measured> measured;
+  for (const Outcome& outcome : panel.outcomes) {
+    if (!outcome.specialised || outcome.published) continue;
+    configurations.push_back(outcome.configuration);
+    measured.push_back(
+        {outcome.emulated ? std::nan("") : outcome.ms.min_of_medians, outcome.error.psnr_db});
+  }
+  panel.ranges = tradeoff::knob_ranges(configurations, measured, panel.knobs.size());
+}
+
+void find_front(Panel& panel) {
+  const Candidates all = candidates(panel);
+  for (const std::size_t i : tradeoff::pareto_front(all.points))
+    panel.front.push_back(all.index[i]);
+  panel.hypervolume = tradeoff::hypervolume(all.points);
+}
+
+RenderError ideal_error(const std::vector<ImageF>& reference, bool with_flip) {
+  return error_between(reference, as_shown(reference), with_flip);
+}
+
+/// The star's configurations that only the oracle draws.
+void emulate(const StudyScene& scene, const StudyOptions& options,
+             const std::vector<Configuration>& star, const References& references, Panel& panel) {
+  for (const Configuration& configuration : star) {
+    const MlpPrecision precision = tradeoff::emulated_precision(panel.knobs, configuration);
+    if (precision == MlpPrecision::exact) continue;
+    Outcome outcome = job_of(panel.knobs, configuration, true).outcome;
+    outcome.emulated = true;
+    std::tie(outcome.error, outcome.exact) =
+        errors_of(references, as_shown(oracle_pictures(scene, options, options.samples, precision)),
+                  options.with_flip);
+    panel.outcomes.push_back(std::move(outcome));
+  }
+}
+
+void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& study) {
+  Panel& panel = study.drawing;
+  References references{oracle_pictures(scene, options, tradeoff::Samples::device),
+                        oracle_pictures(scene, options, tradeoff::Samples::exact)};
+  study.grid = error_between(references.exact, references.judge, options.with_flip);
+  if (options.samples == tradeoff::Samples::exact) references.judge = references.exact;
+  panel.ideal = ideal_error(references.judge, options.with_flip);
+
+  const RenderPlan plan = make_plan(scene.soup, device_limits(scene.context.capabilities()));
+  const std::vector<std::uint64_t> visible = count_visible_pixels(
+      scene.context, scene.soup, scene.origin, scene.counting,
+      [&](double fraction) { report(options, "visible triangles", fraction); });
+  panel.knobs = tradeoff::drawing_knobs(scene.soup, plan.site, visible);
+  const std::vector<int> settings = tradeoff::setting_counts(panel.knobs);
+  const tradeoff::Refusal refuse = refusal_of(panel.knobs, scene.soup);
+  const tradeoff::Design star = tradeoff::star(settings, refuse);
+  note_skipped(panel, star);
+
+  Measurer measurer(scene, options, references, panel);
+  std::vector<Job> jobs = jobs_of(panel.knobs, star.configurations, true);
+  // The baseline comes right after the defaults, so that it shares their group.
+  Job published = job_of(panel.knobs, star.configurations.front(), true);
+  published.outcome.name = "published pipeline";
+  published.outcome.published = true;
+  published.plan = {.pipeline = PipelineKind::published};
+  jobs.insert(jobs.begin() + 1, std::move(published));
+  std::vector<Job> generic = jobs_of(panel.knobs, star.configurations, false);
+  std::move(generic.begin(), generic.end(), std::back_inserter(jobs));
+  measurer.measure(std::move(jobs), "one knob at a time");
+  emulate(scene, options, star.configurations, references, panel);
+  for (std::size_t i = 0; i < panel.outcomes.size(); ++i)
+    if (panel.outcomes[i].published) study.published = i;
+
+  find_ranges(panel);
+  const tradeoff::Design rest =
+      tradeoff::factorial(settings, panel.ranges, refuse, options.factorial);
+  note_skipped(panel, rest);
+  measurer.measure(jobs_of(panel.knobs, rest.configurations, true), "knobs combined");
+  find_front(panel);
+}
+
+void study_antialiasing(const StudyScene& scene, const StudyOptions& options, Study& study) {
+  Panel& panel = study.antialiasing;
+  const References references{oracle_pictures(scene, options, tradeoff::Samples::antialiased), {}};
+  panel.ideal = ideal_error(references.judge, options.with_flip);
+  const std::vector<int> counts = device_limits(scene.context.capabilities()).sample_counts;
+  panel.knobs = tradeoff::antialiasing_knobs(options.most_samples, counts);
+  const tradeoff::Design star =
+      tradeoff::star(tradeoff::setting_counts(panel.knobs), refusal_of(panel.knobs, scene.soup));
+  note_skipped(panel, star);
+  Measurer measurer(scene, options, references, panel);
+  measurer.measure(jobs_of(panel.knobs, star.configurations, true), "antialiasing");
+  find_ranges(panel);
+  find_front(panel);
+}
+
+}  // namespace
+
+Candidates candidates(const Panel& panel) {
+  Candidates result;
+  for (std::size_t i = 0; i < panel.outcomes.size(); ++i) {
+    const Outcome& outcome = panel.outcomes[i];
+    if (!outcome.specialised || outcome.published || outcome.emulated) continue;
+    const double ms = outcome.ms.min_of_medians;
+    // What the protocol calls different differs by twice the spread (runtime/frame_statistics.hpp).
+    result.points.push_back({.ms = ms,
+                             .spread_ms = 2 * panel.aa_spread * ms,
+                             .psnr_db = outcome.error.psnr_db,
+                             .coverage_mismatch = outcome.error.coverage_mismatch,
+                             .departures = outcome.departures()});
+    result.index.push_back(i);
+  }
+  return result;
+}
+
+Study run_study(const StudyScene& scene, const StudyOptions& options) {
+  assert(!scene.cameras.empty());
+  Study study;
+  study_drawing(scene, options, study);
+  study_antialiasing(scene, options, study);
+  return study;
+}
+
+}  // namespace tureen::cli

@@ -1,0 +1,37 @@
+// The pictures that errors of drawing are measured against: one model, drawn by the oracle.
+#pragma once
+
+#include <functional>
+#include <glm/vec3.hpp>
+
+#include "runtime/oracle/oracle.hpp"
+
+namespace tureen::tradeoff {
+
+/// Where the reference looks. Both see float colours of unquantised texels.
+enum class Samples {
+  /// One a pixel, at the very points that the device samples: vertices lie on its subpixel grid
+  /// (oracle::Coverage::snapped). What a device rounds before anybody has turned a knob is not the
+  /// knob's fault: on small pictures it costs more than most knobs do (docs/tradeoff.md).
+  device,
+  /// One a pixel, at its centre, of the triangles as they are.
+  exact,
+  /// 8 x 8 a pixel, on a regular grid, of the triangles as they are.
+  antialiased,
+};
+
+struct ReferenceOptions {
+  Samples samples = Samples::device;
+  glm::vec3 background{0.0f};
+  /// Emulates a network of fewer bits: then the picture is no reference, but what is measured.
+  MlpPrecision mlp_precision = MlpPrecision::exact;
+  /// Called with the fraction done, 0..1; may throw to abandon the picture.
+  std::function<void(double)> progress = {};
+};
+
+/// The picture over the background; alpha is coverage: the part of the rays that hit something.
+/// Memory beside the picture: 12 bytes a ray, in strips of at most about 4 million rays.
+ImageF reference_picture(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera,
+                         const ReferenceOptions& options);
+
+}  // namespace tureen::tradeoff

@@ -1,0 +1,133 @@
+// `tureen tradeoff` from outside, on a small random soup.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <thread>
+
+#include "cli/program_fixture.hpp"
+#include "formats/scene_file.hpp"
+#include "support/random_soups.hpp"
+#include "support/schema.hpp"
+
+namespace tureen {
+namespace {
+
+using test::Child;
+using test::ChildResult;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+class Tradeoff : public test::Program {
+ protected:
+  void write_soup() const {
+    Scene scene;
+    scene.primitives = test::random_soup(3, {.kind = test::Kind::lattice_mlp, .level = 2});
+    tureen::write_scene(scene, folder / "soup.glb");
+  }
+  ChildResult tradeoff(const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments{"tradeoff", "soup.glb", "--quick", "--context", "osmesa"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  }
+};
+
+TEST_F(Tradeoff, MeasuresWritesAndKeepsTheChoice) {
+  write_soup();
+  // Limits that the defaults keep to for certain, so that there is a choice.
+  const ChildResult result = tradeoff({"--json", "-o", "report", "--write-preset", "fast.glb",
+                                       "--least-psnr", "20", "--most-mismatch", "0.2"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(test::schema_violations(json, "tradeoff.schema.json"), "");
+  EXPECT_TRUE(exists("report/tradeoff.html"));
+  EXPECT_TRUE(exists("report/tradeoff.csv"));
+  for (const auto& path : json["output"]) EXPECT_TRUE(exists(path)) << path;
+
+  const auto& configurations = json["drawing"]["configurations"];
+  EXPECT_EQ(configurations[0]["name"], "defaults");
+  // The defaults draw what the oracle draws, up to 8 bits: 58.9 dB where every pixel is covered.
+  EXPECT_GT(configurations[0]["e_render"]["psnr_db"], 45);
+  // The grid moves edges, and no knob is to blame for that.
+  EXPECT_LT(configurations[0]["e_render_exact"]["psnr_db"],
+            configurations[0]["e_render"]["psnr_db"]);
+  EXPECT_GT(json["drawing"]["front"].size(), 0u);
+  int generic = 0, coarse = 0;
+  for (const auto& each : configurations) {
+    generic += each["method"] == "tureen --no-specialise";
+    coarse += each["knobs"]["lattice_level"] == "0";
+  }
+  EXPECT_GT(generic, 5);
+  EXPECT_GT(coarse, 0);
+  ASSERT_GT(json["antialiasing"]["configurations"].size(), 3u);
+  // The reference is 8 x 8 samples a pixel: 2 x 2 of them come nearer to it than one.
+  const auto& smooth = json["antialiasing"]["configurations"];
+  for (const auto& each : smooth) {
+    if (each["knobs"]["supersampling"] == "2") {
+      EXPECT_GT(each["e_render"]["psnr_db"], smooth[0]["e_render"]["psnr_db"].get<double>() + 1);
+    }
+  }
+
+  const Scene kept = read_scene(folder / "fast.glb");
+  ASSERT_TRUE(kept.preset);
+  const auto& chosen = configurations[json["choice"]["configuration"].get<std::size_t>()];
+  EXPECT_EQ(kept.preset->promised_psnr_db, json["choice"]["promised_psnr_db"].get<double>());
+  EXPECT_EQ(std::to_string(std::min(kept.preset->lattice_level, 2)),
+            chosen["knobs"]["lattice_level"]);
+  const ChildResult drawn =
+      run({"render", "fast.glb", "--size", "64x48", "--context", "osmesa", "--json"});
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+}
+
+TEST_F(Tradeoff, NeverOverwritesSilently) {
+  write_soup();
+  const ChildResult result = tradeoff({"--write-preset", "soup.glb"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("soup.glb exists; name another file, or give --force"));
+  EXPECT_EQ(tradeoff({"--write-preset", "fast.ply"}).exit_code, 2);
+}
+
+TEST_F(Tradeoff, SaysThatNothingKeepsToTheLimits) {
+  write_soup();
+  const ChildResult result = tradeoff({"--write-preset", "--least-psnr", "100", "--combinations",
+                                       "0", "--no-flip", "--size", "32x24"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("No configuration keeps to the limits"));
+  EXPECT_FALSE(exists("soup.preset.glb"));
+  EXPECT_THAT(result.out, IsEmpty());
+}
+
+TEST_F(Tradeoff, ExitCodesSayWhoIsToBlame) {
+  write_soup();
+  const auto expect = [&](const std::vector<std::string>& arguments, int code,
+                          const std::string& words) {
+    const ChildResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, code) << words;
+    EXPECT_THAT(result.err, HasSubstr(words));
+    EXPECT_THAT(result.out, IsEmpty());
+  };
+  expect({"tradeoff"}, 2, "SCENE is required");
+  expect({"tradeoff", "soup.gbl"}, 3, "did you mean soup.glb?");
+  expect({"tradeoff", "soup.glb", "--size", "12"}, 2, "'12' is no size");
+  expect({"tradeoff", "soup.glb", "--reference", "exakt"}, 2, "did you mean exact?");
+  expect({"tradeoff", "soup.glb", "--full", "--quick"}, 2, "excludes");
+  expect({"tradeoff", "soup.glb", "photos", "--quick"}, 3, "photos");
+}
+
+TEST_F(Tradeoff, CtrlCLeavesNothingBehind) {
+  write_soup();
+  Child child(
+      {"tradeoff", "soup.glb", "--context", "osmesa", "-o", "report", "--write-preset", "fast.glb"},
+      folder);
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  child.signal(SIGINT);
+  const ChildResult result = child.wait();
+  EXPECT_EQ(result.exit_code, 5);
+  EXPECT_THAT(result.err, HasSubstr("interrupted"));
+  EXPECT_FALSE(exists("fast.glb"));
+  EXPECT_FALSE(exists("report"));
+}
+
+}  // namespace
+}  // namespace tureen

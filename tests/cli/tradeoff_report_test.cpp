@@ -1,0 +1,214 @@
+// What becomes of a study: the JSON and its schema, CSV, plots and page. The study is made up.
+#include "cli/tradeoff_report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cli/tradeoff_model.hpp"
+#include "cli/tradeoff_page.hpp"
+#include "cli/tradeoff_plots.hpp"
+#include "support/schema.hpp"
+
+namespace tureen::cli {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+using testing::SizeIs;
+using testing::StartsWith;
+
+void nothing(RenderPreset&) {}
+
+Outcome outcome(tradeoff::Configuration configuration, const std::string& name, double ms,
+                double psnr) {
+  Outcome result;
+  result.configuration = std::move(configuration);
+  result.name = name;
+  result.ms = {.mean = ms,
+               .median = ms,
+               .p95 = 1.2 * ms,
+               .p99 = 1.3 * ms,
+               .min_of_medians = ms,
+               .spread = 0.1,
+               .low_1_percent_fps = 1};
+  result.device_mib = 2;
+  result.error.psnr_db = psnr;
+  result.error.view_psnr_db = {psnr};
+  result.error.ssim = 0.9;
+  return result;
+}
+
+Panel panel() {
+  Panel result;
+  result.knobs = {
+      {"lattice_level", "lattice level", {{"3", "level 3", nothing}, {"2", "level 2", nothing}}},
+      {"texel_bits", "texel bits", {{"8", "8 bits", nothing}, {"4", "4 bits", nothing}}}};
+  result.outcomes = {outcome({0, 0}, "defaults", 10, 60), outcome({0, 0}, "defaults", 20, 60),
+                     outcome({1, 0}, "level 2", 8, 40), outcome({0, 1}, "4 bits", 9, 50),
+                     outcome({1, 1}, "level 2, \"4 bits\"", 7, 39)};
+  result.outcomes[1].specialised = false;
+  result.ranges = {{0, 1.25, 20}, {1, 1.1, 10}};
+  result.front = {4, 2, 3, 0};
+  result.ideal.psnr_db = 61;
+  result.ideal.view_psnr_db = {61};
+  return result;
+}
+
+TradeoffReport report() {
+  TradeoffReport result;
+  result.date = "2026-06-01T12:00:00Z";
+  result.program = {"0.1.0", "abc", {"tradeoff", "a<b.glb"}};
+  result.scene = {"a<b", "a<b.glb", 12, "lattice texture"};
+  result.device = {.context = "OSMesa",
+                   .renderer = "llvmpipe",
+                   .vendor = "Mesa",
+                   .version = "4.5",
+                   .software = true};
+  result.camera_set = "hemisphere:1";
+  result.width = 64;
+  result.height = 48;
+  result.views = result.rounds = 1;
+  result.clock = "sundial";
+  result.samples = "device";
+  result.study.drawing = panel();
+  Outcome published = outcome({0, 0}, "published pipeline", 90, 55);
+  published.published = true;
+  result.study.drawing.outcomes.push_back(published);
+  for (Outcome& each : result.study.drawing.outcomes)
+    each.exact = ExactError{each.error.psnr_db - 10, 0.25};
+  result.study.published = 5;
+  result.study.antialiasing = panel();
+  result.study.antialiasing.skipped = {{"alpha to coverage", "this device has none"}};
+  result.study.grid.view_psnr_db = {50};
+  result.study.choice = 3;
+  result.promised_psnr_db = 51;
+  return result;
+}
+
+TEST(TradeoffReport, HasTheShapeThatTheSchemaSays) {
+  TradeoffReport made = report();
+  EXPECT_EQ(test::schema_violations(to_json(made), "tradeoff.schema.json"), "");
+  made.study.published.reset();
+  made.study.choice.reset();
+  made.model = {"lego", "test", 4, "valid"};
+  made.drawing_model.resize(6);
+  made.drawing_model[0] = ModelError{27, 0.9, 0.1};
+  made.study.drawing.outcomes[4].emulated = true;
+  EXPECT_EQ(test::schema_violations(to_json(made), "tradeoff.schema.json"), "");
+  // The schema is no rubber stamp.
+  auto broken = to_json(made);
+  broken["drawing"]["configurations"][0]["e_render"].erase("p999");
+  EXPECT_NE(test::schema_violations(broken, "tradeoff.schema.json"), "");
+}
+
+TEST(TradeoffReport, SaysWhatWasMeasured) {
+  const Json json = to_json(report());
+  const Json& configurations = json["drawing"]["configurations"];
+  EXPECT_EQ(configurations[2]["knobs"], (Json{{"lattice_level", "2"}, {"texel_bits", "8"}}));
+  EXPECT_EQ(configurations[2]["ms_p95"], 1.2 * 8);
+  EXPECT_EQ(configurations[2]["ms_spread"], 0.1 * 8);
+  EXPECT_EQ(configurations[1]["method"], "tureen --no-specialise");
+  EXPECT_EQ(configurations[5]["method"], "published");
+  EXPECT_EQ(configurations[2]["on_front"], true);
+  EXPECT_EQ(configurations[1]["on_front"], false);
+  EXPECT_EQ(configurations[0]["e_model"], nullptr);
+  EXPECT_EQ(configurations[2]["e_render_exact"], (Json{{"psnr_db", 30.0}, {"coverage", 0.25}}));
+  EXPECT_EQ(json["antialiasing"]["configurations"][2]["e_render_exact"], nullptr);
+  EXPECT_EQ(json["choice"]["psnr_db"], 50);
+  EXPECT_EQ(json["choice"]["promised_psnr_db"], 51);
+  EXPECT_EQ(json["r0"], 5);
+  EXPECT_EQ(json["protocol"]["clock"], "sundial");
+}
+
+TEST(TradeoffReport, AnEmulationHasAnErrorAndNoTime) {
+  TradeoffReport made = report();
+  made.study.drawing.outcomes[4].emulated = true;
+  const Json json = to_json(made)["drawing"]["configurations"][4];
+  for (const char* key : {"ms", "ms_median", "ms_p95", "ms_spread", "mib"})
+    EXPECT_EQ(json[key], nullptr) << key;
+  EXPECT_EQ(json["e_render"]["psnr_db"], 39);
+}
+
+TEST(TradeoffReport, CsvHasALineForEachConfiguration) {
+  const std::string text = to_csv(report());
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1 + 6 + 5);
+  EXPECT_THAT(text, StartsWith("panel,name,method,ms,"));
+  EXPECT_THAT(text, HasSubstr("drawing,\"level 2, \"\"4 bits\"\"\",tureen,7,"));
+  const std::string head = text.substr(0, text.find('\n'));
+  const std::string first =
+      text.substr(head.size() + 1, text.find('\n', head.size() + 1) - head.size() - 1);
+  EXPECT_EQ(std::count(head.begin(), head.end(), ','), std::count(first.begin(), first.end(), ','));
+}
+
+TEST(TradeoffReport, TheChoiceIsASentence) {
+  TradeoffReport made = report();
+  EXPECT_THAT(choice_sentence(made), HasSubstr("4 bits, 9.00 ms at 50.00 dB; the defaults take "
+                                               "10.00 ms"));
+  made.study.choice.reset();
+  EXPECT_THAT(choice_sentence(made), StartsWith("No configuration keeps to the limits"));
+}
+
+TEST(TradeoffCandidates, AreWhatCanBeChosen) {
+  TradeoffReport made = report();
+  made.study.drawing.outcomes[4].emulated = true;
+  made.study.drawing.aa_spread = 0.01;
+  const Candidates all = candidates(made.study.drawing);
+  EXPECT_THAT(all.index, ElementsAre(0, 2, 3));
+  EXPECT_DOUBLE_EQ(all.points[0].spread_ms, 0.2);
+  EXPECT_EQ(all.points[1].departures, 1);
+}
+
+TEST(DominantKnob, IsTheOneThatCostsMost) {
+  const Panel made = panel();
+  EXPECT_EQ(dominant_knob(made, made.outcomes[0]), std::nullopt);
+  EXPECT_EQ(dominant_knob(made, made.outcomes[3]), 1u);
+  EXPECT_EQ(dominant_knob(made, made.outcomes[4]), 0u);
+}
+
+TEST(TradeoffPlots, KeepTheTwoErrorsApart) {
+  TradeoffReport made = report();
+  EXPECT_THAT(tradeoff_plots(made), SizeIs(2));
+  made.model = {"lego", "test", 4, "valid"};
+  made.drawing_model.resize(6);
+  made.drawing_model[0] = ModelError{27.125, 0.9, 0.1};
+  const std::vector<TradeoffPlot> plots = tradeoff_plots(made);
+  ASSERT_THAT(plots, SizeIs(3));
+  EXPECT_THAT(plots[2].plot.script, HasSubstr("27.125"));
+  EXPECT_THAT(plots[0].plot.script, Not(HasSubstr("27.125")));
+  EXPECT_THAT(plots[2].plot.script, Not(HasSubstr("R1")));
+  for (const TradeoffPlot& each : plots) {
+    EXPECT_THAT(each.plot.script, HasSubstr("set logscale x"));
+    const auto svg = draw_plot(each.plot, PlotFormat::svg);
+    if (!svg) GTEST_SKIP() << gnuplot_missing;
+    EXPECT_THAT(*svg, StartsWith("<svg"));
+  }
+}
+
+TEST(TradeoffPage, HoldsTablesAndEscapesNames) {
+  const std::string page = tradeoff_page(report(), {{"<svg></svg>", "a caption"}});
+  EXPECT_THAT(page, HasSubstr("a&lt;b.glb"));
+  EXPECT_THAT(page, Not(HasSubstr("a<b")));
+  EXPECT_THAT(page, HasSubstr("<svg></svg>"));
+  EXPECT_THAT(page, HasSubstr("this device has none"));
+  EXPECT_THAT(tradeoff_page(report(), {}), HasSubstr("gnuplot is not installed"));
+}
+
+TEST(SpreadOut, TakesPhotographsEvenly) {
+  std::vector<Photograph> photographs(10);
+  for (int i = 0; i < 10; ++i) photographs[std::size_t(i)].camera.name = std::to_string(i);
+  const auto names = [&](std::size_t most) {
+    std::string text;
+    for (const Photograph& each : spread_out(photographs, most)) text += each.camera.name;
+    return text;
+  };
+  EXPECT_EQ(names(0), "0123456789");
+  EXPECT_EQ(names(20), "0123456789");
+  EXPECT_EQ(names(4), "0257");
+  EXPECT_EQ(names(1), "0");
+}
+
+}  // namespace
+}  // namespace tureen::cli
