@@ -12,6 +12,7 @@ constexpr LeaveOutName names[] = {
     {LeaveOut::transparent_rims, "transparent-rims", "rims of cut-out faces where nothing exists"},
     {LeaveOut::coincident_faces, "coincident-faces",
      "faces behind an opaque one of the same corners"},
+    {LeaveOut::faces_between_pixels, "faces-between-pixels", "faces that cover no pixel's centre"},
     {LeaveOut::shading_pass, "shading-pass", "the shading pass of cheap colours"},
     {LeaveOut::background, "background", "shading of background pixels"},
     {LeaveOut::interpolation, "interpolation", "interpolation of equal vertex colours"},

@@ -76,7 +76,7 @@ RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
     return std::move(draft.plan);
   }
   draft.plan.reversed_depth = limits.clip_control && preferences.reversed_depth;
-  plan_faces(draft);
+  plan_faces(draft, limits);
   std::visit([&](const auto& appearance) { plan_appearance(draft, appearance); }, soup.appearance);
   choose_site(draft);
   if (preferences.preset) obey_drawing_knobs(*preferences.preset, limits, draft.plan);

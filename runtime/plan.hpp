@@ -25,6 +25,7 @@ struct DeviceLimits {
   bool clip_control = false;
   bool half_float_targets = true;              // RGBA16F can be drawn into
   std::vector<int> sample_counts = {2, 4, 8};  // that multisampling has, rising
+  bool software = false;  // the processor draws: triangles are dear, its time is ours
 };
 
 enum class PipelineKind {
@@ -79,6 +80,10 @@ struct RenderPlan {
   std::size_t opaque_count = 0;
   /// Runs of slots that are drawn together; none straddles opaque_count.
   std::vector<Cluster> clusters;
+
+  /// Frame by frame faces that cover no pixel's centre are found and not drawn (covered_faces.hpp);
+  /// where whole faces are drawn.
+  bool drops_faces_between_pixels = false;
 
   /// What is drawn of each cut-out face, from slot opaque_count on. Empty: whole faces.
   std::vector<FacePart> parts;

@@ -39,7 +39,7 @@ struct PlanDraft {
 };
 
 /// Which faces are drawn, which of them without an alpha test, and in what runs.
-void plan_faces(PlanDraft& draft);
+void plan_faces(PlanDraft& draft, const DeviceLimits& limits);
 
 // What is left of an appearance, once the faces are known.
 void plan_appearance(PlanDraft& draft, const FaceColors& colors);

@@ -60,9 +60,26 @@ void draw_coincident_faces_alike(const TriangleSoup& soup, std::span<const std::
   }
 }
 
+/// Fewer faces than this are drawn in a few milliseconds anyway.
+constexpr std::size_t least_faces_between_pixels = 16384;
+
+void plan_faces_between_pixels(PlanDraft& draft, const DeviceLimits& limits) {
+  // Multisampling has other samples than the centres.
+  const bool one_sample =
+      !draft.preferences.preset || draft.preferences.preset->alpha_to_coverage == 0;
+  if (!limits.software || !one_sample || draft.plan.faces.size() < least_faces_between_pixels ||
+      !draft.may(LeaveOut::faces_between_pixels))
+    return;
+  draft.plan.drops_faces_between_pixels = true;
+  draft.leave_out(LeaveOut::faces_between_pixels,
+                  formatted("in each frame, faces that cover no pixel's centre (exact; from %zu "
+                            "faces on, and only where the processor draws)",
+                            least_faces_between_pixels));
+}
+
 }  // namespace
 
-void plan_faces(PlanDraft& draft) {
+void plan_faces(PlanDraft& draft, const DeviceLimits& limits) {
   const TriangleSoup& soup = draft.soup;
   RenderPlan& plan = draft.plan;
   std::vector<std::uint32_t> faces = drawable_faces(draft);
@@ -99,6 +116,7 @@ void plan_faces(PlanDraft& draft) {
   const std::uint32_t size = cluster_size(plan.faces.size());
   append_clusters(soup, plan.faces, 0, opaque, size, plan.clusters);
   append_clusters(soup, plan.faces, opaque, all, size, plan.clusters);
+  plan_faces_between_pixels(draft, limits);
 }
 
 }  // namespace tureen

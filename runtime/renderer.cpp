@@ -39,7 +39,8 @@ DeviceLimits device_limits(const gl::Capabilities& capabilities) {
           .max_array_layers = capabilities.max_array_layers,
           .clip_control = capabilities.clip_control,
           .half_float_targets = capabilities.half_float_targets,
-          .sample_counts = capabilities.sample_counts};
+          .sample_counts = capabilities.sample_counts,
+          .software = capabilities.software};
 }
 
 namespace {

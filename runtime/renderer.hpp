@@ -89,7 +89,8 @@ class Renderer {
   /// Copies the last frame into a framebuffer of the same size (0 is the window).
   void blit_to(unsigned framebuffer) const;
 
-  /// Bytes of the scene's buffers and textures, without the targets.
+  /// Bytes of the scene's buffers and textures, without the targets; with the copy of the corners
+  /// by which faces between pixels are found, though that lies beside them.
   std::size_t device_bytes() const;
 
  private:

@@ -1,9 +1,11 @@
 // Our frame: a geometry pass that stores the winning fragment of each pixel, its name or its
 // features, then a shading pass over the covered pixels; or colour at once.
 #include <optional>
+#include <vector>
 
 #include "runtime/appearance_upload.hpp"
 #include "runtime/coverage_target.hpp"
+#include "runtime/covered_faces.hpp"
 #include "runtime/fragment_store.hpp"
 #include "runtime/geometry.hpp"
 #include "runtime/gl/state.hpp"
@@ -25,6 +27,11 @@ class TureenPipeline final : public Pipeline {
         appearance_(upload_appearance(soup, plan, TexelLayout::of(limits))),
         geometry_(soup, plan.faces, plan.parts),
         nothing_(gl::VertexArray::create()) {
+    if (plan.drops_faces_between_pixels) {
+      covered_.emplace(soup, plan.faces);
+      covered_vertices_ = gl::Buffer::create();
+      glGetIntegerv(GL_SUBPIXEL_BITS, &subpixel_bits_);
+    }
     const char* fragment = plan.site == ShadingSite::forward ? "forward.frag"
                            : plan.site == ShadingSite::deferred
                                ? FragmentStore::geometry_shader(plan.feature_storage)
@@ -82,7 +89,8 @@ class TureenPipeline final : public Pipeline {
   glm::ivec2 sample_size() const override { return {width_, height_}; }
   GLuint visibility_framebuffer() const override { return store_.visibility_framebuffer(); }
   std::size_t device_bytes() const override {
-    return appearance_.device_bytes() + geometry_.device_bytes();
+    return appearance_.device_bytes() + geometry_.device_bytes() +
+           (covered_ ? covered_->bytes() : 0);
   }
 
  private:
@@ -176,6 +184,10 @@ class TureenPipeline final : public Pipeline {
     const glm::dvec3 forward = -frame.camera.world_from_view_rotation()[2];
     order_.sort(clusters, glm::vec3(frame.eye), glm::vec3(forward), first_slot);
     const auto first = order_.first_vertices(), count = order_.vertex_counts();
+    if (covered_ && !parts && covered_->begin_frame(frame, subpixel_bits_)) {
+      draw_covered(first, count);
+      return;
+    }
 #ifndef __EMSCRIPTEN__
     if (multi_draw_) {
       glMultiDrawArrays(GL_TRIANGLES, first.data(), count.data(),
@@ -184,6 +196,17 @@ class TureenPipeline final : public Pipeline {
     }
 #endif
     for (std::size_t i = 0; i < first.size(); ++i) glDrawArrays(GL_TRIANGLES, first[i], count[i]);
+  }
+
+  /// Those of the runs' faces that may show.
+  void draw_covered(std::span<const std::int32_t> first, std::span<const std::int32_t> count) {
+    vertices_.clear();
+    for (std::size_t i = 0; i < first.size(); ++i) covered_->append(first[i], count[i], vertices_);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, covered_vertices_.id());
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+                 static_cast<GLsizeiptr>(vertices_.size() * sizeof vertices_[0]), vertices_.data(),
+                 GL_STREAM_DRAW);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(vertices_.size()), GL_UNSIGNED_INT, nullptr);
   }
 
   void draw_shading(const FrameCamera& frame, const glm::vec4& background) {
@@ -230,6 +253,10 @@ class TureenPipeline final : public Pipeline {
   gl::VertexArray nothing_;
   gl::Program opaque_, cut_out_, shading_;
   FrontToBack order_;
+  std::optional<CoveredFaces> covered_;  // where faces between pixels are dropped
+  gl::Buffer covered_vertices_;
+  std::vector<std::uint32_t> vertices_;  // of the last frame's
+  int subpixel_bits_ = 0;
   int width_ = 0, height_ = 0;
   gl::Texture depth_, color_;
   gl::Framebuffer color_framebuffer_;

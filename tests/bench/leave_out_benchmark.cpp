@@ -82,7 +82,9 @@ TriangleSoup large_soup(LeaveOut what, const Scene& cloud) {
     soup = std::get<TriangleSoup>(cloud.primitives);
     if (kind == Kind::lattice) std::get<LatticeTexture>(soup.appearance).mlp.reset();
   } else {
-    soup = random_soup(1, {.kind = kind, .faces = 200000, .size = 0.02, .degree = 3});
+    // Some pixels large; those that are to lie between pixels a tenth of that, when they are split.
+    const double size = what == LeaveOut::faces_between_pixels ? 0.005 : 0.02;
+    soup = random_soup(1, {.kind = kind, .faces = 200000, .size = size, .degree = 3});
   }
   give_trait(what, soup);
   return soup;

@@ -53,6 +53,15 @@ TEST(DeviceForecast, IsRightForManyTexels) {
   }
 }
 
+TEST(DeviceForecast, IsRightWhereFacesBetweenPixelsAreFound) {
+  const gl::Context context = gl::Context::create(test::osmesa);
+  const TriangleSoup soup = test::random_soup(3, {.faces = 40000});
+  const Renderer renderer(context, soup, glm::dvec3(0));
+  ASSERT_TRUE(renderer.plan().drops_faces_between_pixels);
+  const double forecast = double(device_forecast(soup, renderer.plan()).bytes);
+  EXPECT_NEAR(double(renderer.device_bytes()), forecast, 0.05 * forecast);
+}
+
 TEST(DeviceForecast, CapacityGrowsWithWhatTheDeviceCan) {
   // 2048 columns, 512 rows, 256 layers; and twice the columns.
   EXPECT_EQ(texel_capacity({2048, 256, false}), std::uint64_t(1) << 28);

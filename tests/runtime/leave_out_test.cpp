@@ -23,7 +23,7 @@ using testing::StartsWith;
 constexpr int width = 320, height = 240;
 
 RenderPlan plan_of(const TriangleSoup& soup, LeaveOutSet leave_out = LeaveOutSet::all()) {
-  return make_plan(soup, DeviceLimits{}, {.leave_out = leave_out});
+  return make_plan(soup, DeviceLimits{.software = true}, {.leave_out = leave_out});
 }
 
 Image8 picture(const TriangleSoup& soup, const Camera& camera, const PlanPreferences& plan) {

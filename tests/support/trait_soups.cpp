@@ -52,6 +52,27 @@ void make_opaque(TriangleSoup& soup) {
   for_each_texel(soup, [](std::size_t, int, int, std::uint8_t* texel) { texel[7] = 255; });
 }
 
+/// Every face becomes four of its colour, at the middles of its edges.
+void split_faces(TriangleSoup& soup) {
+  TriangleSoup split;
+  FaceColors colors;
+  const auto& rgba = std::get<FaceColors>(soup.appearance).rgba;
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    const glm::uvec3 v = soup.triangles[t];
+    const glm::vec3 a = soup.positions[v.x], b = soup.positions[v.y], c = soup.positions[v.z];
+    const glm::vec3 ab = 0.5f * (a + b), bc = 0.5f * (b + c), ca = 0.5f * (c + a);
+    for (const glm::vec3& p : {a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca})
+      split.positions.push_back(p);
+    for (int i = 0; i < 4; ++i) {
+      const auto first = std::uint32_t(3 * split.triangles.size());
+      split.triangles.emplace_back(first, first + 1, first + 2);
+      colors.rgba.push_back(rgba[t]);
+    }
+  }
+  split.appearance = std::move(colors);
+  soup = std::move(split);
+}
+
 /// Three values a channel that no two faces need share, for faces that are constant or affine.
 std::uint8_t face_value(std::size_t face, int channel) {
   return std::uint8_t((face * 37 + std::size_t(channel) * 59) % 100);
@@ -62,6 +83,7 @@ std::uint8_t face_value(std::size_t face, int channel) {
 Kind kind_of_trait(LeaveOut what) {
   switch (what) {
     case LeaveOut::coincident_faces:
+    case LeaveOut::faces_between_pixels:
       return Kind::face_colors;
     case LeaveOut::shading_pass:
     case LeaveOut::interpolation:
@@ -99,6 +121,9 @@ void give_trait(LeaveOut what, TriangleSoup& soup) {
       }
       return;
     }
+    case LeaveOut::faces_between_pixels:
+      for (int i = 0; i < 2 || soup.triangles.size() < 65536; ++i) split_faces(soup);
+      return;
     case LeaveOut::interpolation: {
       auto& rgba = std::get<VertexColors>(soup.appearance).rgba;
       for (const glm::uvec3& t : soup.triangles) {
