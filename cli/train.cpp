@@ -320,12 +320,13 @@ ExitCode train(const Options& options) {
   if (!shows_something(trainer.backend(), views))
     say("No training picture shows a triangle yet: are the cameras where the scene is?");
 
+  const double seconds_before = run.seconds;
   TrainingSession session(trainer,
                           {.files = files,
                            .checkpoint_every = options.checkpoint_every,
                            .preview_every = options.preview_every,
                            .test_views = dataset.test,
-                           .seconds_before = run.seconds},
+                           .seconds_before = seconds_before},
                           std::move(run));
   session.run();
 

@@ -71,8 +71,8 @@ struct RenderPreset {
 
   // -- what was promised --------------------------------------------------------------------------
 
-  /// PSNR in dB against the oracle (E_render) that the preset had when it was chosen: 0 .. 100, or
-  /// nothing where nobody measured. The runtime draws faithfully where four views say otherwise.
+  /// PSNR in dB against faithful pictures that four views had when it was chosen: 0 .. 100, or
+  /// nothing where nobody measured. The runtime draws faithfully where the four say otherwise.
   std::optional<double> promised_psnr_db = {};
 };
 
