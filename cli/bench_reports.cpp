@@ -24,19 +24,9 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t most_picture_bytes = 1u << 20;
 constexpr std::size_t most_pictures = 8;
 
-void write_text(const fs::path& path, const std::string& text) {
-  Output output(path);
-  output.write(text);
-  output.commit();
+void write_and_say(const fs::path& path, const std::string& text) {
+  write_file(path, text);
   say("wrote " + path.string());
-}
-
-void make_folder(const std::string& folder) {
-  if (folder.empty()) return;
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder, error))
-    throw OutputError({folder, {}, {}}, "no folder can be made there");
 }
 
 std::vector<std::byte> bytes_of(const fs::path& path) {
@@ -119,8 +109,8 @@ std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& optio
     then = bench_result_from_json(
         std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), options.against);
   }
-  make_folder(options.folder);
-  make_folder(options.plots);
+  for (const std::string& each : {options.folder, options.plots})
+    if (!each.empty()) make_folder(each);
   return then;
 }
 
@@ -130,14 +120,14 @@ ExitCode report_bench(const BenchReportOptions& options, const BenchResult& now,
   if (then) comparison = compare_benches(now, *then);
   if (comparison) say_comparison(*comparison, options.against);
 
-  if (!options.csv.empty()) write_text(options.csv, bench_csv(now));
+  if (!options.csv.empty()) write_and_say(options.csv, bench_csv(now));
   if (!options.plots.empty() && write_plots(now, options.plots).empty()) say(gnuplot_missing);
   if (!options.folder.empty()) {
     const fs::path folder = options.folder;
-    write_text(folder / "bench.json",
-               to_json(now).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-    write_text(folder / "bench.csv", bench_csv(now));
-    write_text(folder / "bench.md", bench_markdown(now));
+    write_and_say(folder / "bench.json",
+                  to_json(now).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    write_and_say(folder / "bench.csv", bench_csv(now));
+    write_and_say(folder / "bench.md", bench_markdown(now));
     BenchPage page{.drawings = write_plots(now, folder),
                    .pictures = pictures_of(now),
                    .compared_with = options.against,
@@ -147,7 +137,7 @@ ExitCode report_bench(const BenchReportOptions& options, const BenchResult& now,
       page.missing = gnuplot_missing;
       say(gnuplot_missing);
     }
-    write_text(folder / "bench.html", bench_page(now, page));
+    write_and_say(folder / "bench.html", bench_page(now, page));
   }
 
   if (!options.fail_slower || !comparison) return ExitCode::done;

@@ -13,6 +13,7 @@
 #include "cli/contact_sheet.hpp"
 #include "cli/heat_map.hpp"
 #include "cli/picture_file.hpp"
+#include "formats/output.hpp"
 #include "runtime/renderer.hpp"
 #include "soup/error.hpp"
 
@@ -44,14 +45,6 @@ Measured measure(const Photograph& photograph, const Image8& rendering,
     result.thumbnail = thumbnail(picture, 640);
   }
   return result;
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder, error))
-    throw OutputError({folder.string(), {}, {}},
-                      "cannot be made a folder" + (error ? ": " + error.message() : std::string()));
 }
 
 /// Nothing that is there already inside `spared` is replaced: it may be a photograph.

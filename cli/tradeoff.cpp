@@ -104,20 +104,6 @@ void require_writable_preset(const Options& options) {
     throw UsageError(path.string() + " exists; name another file, or give --force to replace it");
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder, error))
-    throw OutputError({folder.string(), {}, {}},
-                      "cannot be made a folder" + (error ? ": " + error.message() : std::string()));
-}
-
-void write_text(const fs::path& path, const std::string& text) {
-  Output output(path);
-  output.write(text);
-  output.commit();
-}
-
 /// Plots as SVG and PNG, where gnuplot is there, and all else that a folder is to hold.
 void write_files(const Options& options, TradeoffReport& report) {
   if (options.folder.empty()) return;
@@ -135,14 +121,14 @@ void write_files(const Options& options, TradeoffReport& report) {
       report.notes.push_back(gnuplot_missing);
       break;
     }
-    write_text(file(each.file + ".svg"), *svg);
+    write_file(file(each.file + ".svg"), *svg);
     write_plot(each.plot, file(each.file + ".png"));
     drawings.emplace_back(*svg, each.caption);
   }
-  write_text(file("tradeoff.html"), tradeoff_page(report, drawings));
-  write_text(file("tradeoff.csv"), to_csv(report));
+  write_file(file("tradeoff.html"), tradeoff_page(report, drawings));
+  write_file(file("tradeoff.csv"), to_csv(report));
   const fs::path json = file("tradeoff.json");
-  write_text(json, to_json(report).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file(json, to_json(report).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 /// The scene as a GLB of ours that promises what was measured.

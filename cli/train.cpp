@@ -260,13 +260,6 @@ void check_existing(const Options& options, const TrainingFiles& files) {
                      "it to begin again");
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw OutputError({folder.string(), {}, {}}, "cannot be made a folder: " + error.message());
-}
-
 ExitCode train(const Options& options) {
   // Everything that can be wrong with the arguments is said before the photographs are read.
   TrainingFiles files;

@@ -231,15 +231,8 @@ class NewFolder {
   fs::path path_, temporary_;
 };
 
-void write_file(const fs::path& path, std::span<const std::byte> bytes) {
-  Output output(path);
-  output.write(bytes);
-  output.commit();
-}
-
 void write_json(const fs::path& path, const nlohmann::json& json, int indent) {
-  const std::string text = json.dump(indent) + "\n";
-  write_file(path, std::as_bytes(std::span(text)));
+  write_file(path, json.dump(indent) + "\n");
 }
 
 }  // namespace

@@ -65,4 +65,22 @@ void Output::fail(const char* what) const {
   throw OutputError({path_.string(), {}, {}}, std::string(what) + ": " + std::strerror(errno));
 }
 
+void write_file(const std::filesystem::path& path, std::string_view text) {
+  write_file(path, std::as_bytes(std::span(text)));
+}
+
+void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+  Output output(path);
+  output.write(bytes);
+  output.commit();
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder, error))
+    throw OutputError({folder.string(), {}, {}},
+                      "cannot be made a folder" + (error ? ": " + error.message() : std::string()));
+}
+
 }  // namespace tureen

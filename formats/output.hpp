@@ -41,4 +41,11 @@ class Output {
   std::uint64_t position_ = 0;
 };
 
+/// A whole file. Throws OutputError.
+void write_file(const std::filesystem::path& path, std::string_view text);
+void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+/// Makes a folder, and those above it, where they are not there. Throws OutputError.
+void make_folder(const std::filesystem::path& folder);
+
 }  // namespace tureen

@@ -6,21 +6,22 @@
 #include <cstddef>
 #include <glm/mat4x4.hpp>
 
+#include "trainer/homogeneous_pixels.hpp"
+
 namespace tureen::trainer {
 
 namespace {
 
-/// The pyramid between an eye and a rectangle parallel to its picture, in homogeneous pixels
-/// (X, Y, W): the pixel is (X / W, Y / W), W the distance from the camera's plane.
+/// The pyramid between an eye and a rectangle parallel to its picture.
 class Pyramid {
  public:
   Pyramid(const Camera& camera, glm::dvec3 origin, double near)
-      : camera_(camera), origin_(origin), near_(near) {}
+      : pixels_(camera, origin), near_(near) {}
 
   bool meets(const glm::vec3* corners) const {
     std::array<glm::dvec3, most_corners> polygon, clipped;
     std::size_t count = 3;
-    for (std::size_t i = 0; i < 3; ++i) polygon[i] = project(corners[i]);
+    for (std::size_t i = 0; i < 3; ++i) polygon[i] = pixels_(corners[i]);
     for (int plane = 0; plane < planes; ++plane) {
       std::size_t left = 0;
       for (std::size_t i = 0; i < count; ++i) {
@@ -38,37 +39,18 @@ class Pyramid {
   }
 
  private:
-  static constexpr int planes = 5;
+  static constexpr int planes = 1 + HomogeneousPixels::sides;
   /// A convex polygon gains one corner at a plane. Rounding bends one that is as small as its
   /// error, at the very eye say: every second corner may be outside, which gives half as many
   /// again, from three 4, 6, 9, 13 and 19.
   static constexpr std::size_t most_corners = 19;
 
-  glm::dvec3 project(glm::vec3 position) const {
-    const glm::dvec4 v = camera_.view_from_world * glm::dvec4(origin_ + glm::dvec3(position), 1.0);
-    const double w = -v.z;
-    return {camera_.fx * v.x + camera_.cx * w, -camera_.fy * v.y + camera_.cy * w, w};
-  }
-
-  /// Not negative on the inner side. The four sides leave nothing behind the eye: their sums are
-  /// width and height times W.
+  /// Not negative on the inner side. The first plane leaves most triangles out.
   double distance(int plane, glm::dvec3 point) const {
-    switch (plane) {
-      case 0:  // most triangles are out after this one
-        return near_ - point.z;
-      case 1:
-        return point.x;
-      case 2:
-        return camera_.width * point.z - point.x;
-      case 3:
-        return point.y;
-      default:
-        return camera_.height * point.z - point.y;
-    }
+    return plane == 0 ? near_ - point.z : pixels_.from_side(plane - 1, point);
   }
 
-  const Camera& camera_;
-  glm::dvec3 origin_;
+  HomogeneousPixels pixels_;
   double near_;
 };
 

@@ -8,6 +8,8 @@
 #include <queue>
 #include <utility>
 
+#include "trainer/homogeneous_pixels.hpp"
+
 namespace tureen::trainer {
 
 namespace {
@@ -78,18 +80,13 @@ void split_longest(Faces& faces, std::size_t budget, const Starts& starts,
   }
 }
 
-/// A camera as planes and a projection that are linear in homogeneous pixels (X, Y, W): the pixel
-/// is (X / W, Y / W), W the distance from the camera's plane.
-class Projection {
+/// What of an edge a camera sees, beyond its near plane.
+class Picture {
  public:
-  Projection(const Camera& camera, glm::dvec3 origin, double near)
-      : camera_(camera), origin_(origin), near_(near) {}
+  Picture(const Camera& camera, glm::dvec3 origin, double near)
+      : pixels_(camera, origin), near_(near) {}
 
-  glm::dvec3 operator()(glm::vec3 position) const {
-    const glm::dvec4 v = camera_.view_from_world * glm::dvec4(origin_ + glm::dvec3(position), 1.0);
-    const double w = -v.z;
-    return {camera_.fx * v.x + camera_.cx * w, -camera_.fy * v.y + camera_.cy * w, w};
-  }
+  glm::dvec3 operator()(glm::vec3 position) const { return pixels_(position); }
 
   struct Visible {
     double length;  // in pixels
@@ -99,7 +96,7 @@ class Projection {
   /// The part of an edge that is in the picture; nothing where there is none.
   std::optional<Visible> visible(glm::dvec3 a, glm::dvec3 b) const {
     double low = 0, high = 1;
-    for (int plane = 0; plane < 5; ++plane) {
+    for (int plane = 0; plane <= HomogeneousPixels::sides; ++plane) {
       const double at_a = distance(plane, a), at_b = distance(plane, b);
       if (!(at_a >= 0 || at_b >= 0)) return std::nullopt;  // NaN too
       if (at_a < 0) low = std::max(low, at_a / (at_a - at_b));
@@ -116,22 +113,10 @@ class Projection {
  private:
   /// Not negative on the inner side.
   double distance(int plane, glm::dvec3 point) const {
-    switch (plane) {
-      case 0:
-        return point.z - near_;
-      case 1:
-        return point.x;
-      case 2:
-        return camera_.width * point.z - point.x;
-      case 3:
-        return point.y;
-      default:
-        return camera_.height * point.z - point.y;
-    }
+    return plane == 0 ? point.z - near_ : pixels_.from_side(plane - 1, point);
   }
 
-  const Camera& camera_;
-  glm::dvec3 origin_;
+  HomogeneousPixels pixels_;
   double near_;
 };
 
@@ -174,7 +159,7 @@ std::vector<Split> longest_projected_edges(const Model& model, std::span<const S
   Faces faces(model);
   for (const SplitView& view : views) {
     assert(view.visible.size() == model.faces());
-    const Projection project(view.camera, model.origin, rule.near);
+    const Picture project(view.camera, model.origin, rule.near);
     const auto longest = [&](std::uint32_t face) -> std::optional<Candidate> {
       const glm::vec3* corner = &faces.positions[3 * std::size_t(face)];
       const glm::dvec3 p[3] = {project(corner[0]), project(corner[1]), project(corner[2])};

@@ -1,97 +1,61 @@
 #include "bench/cost_fit.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <glm/glm.hpp>
 
 namespace tureen::test {
 
 namespace {
 
-constexpr std::size_t unknowns = 4;
-using Vector = std::array<double, unknowns>;
-using Matrix = std::array<Vector, unknowns>;
+constexpr int unknowns = 4;
 
-Vector factors(const CostSample& sample) {
+glm::dvec4 factors(const CostSample& sample) {
   return {1, sample.triangles, sample.fragments, sample.shaded_pixels};
 }
 
-/// Gauss and Jordan with pivots; nothing where a pivot is lost to rounding.
-std::optional<Matrix> inverse(Matrix matrix) {
-  Matrix result{};
-  for (std::size_t i = 0; i < unknowns; ++i) result[i][i] = 1;
-  for (std::size_t column = 0; column < unknowns; ++column) {
-    std::size_t pivot = column;
-    for (std::size_t row = column; row < unknowns; ++row)
-      if (std::abs(matrix[row][column]) > std::abs(matrix[pivot][column])) pivot = row;
-    // Columns were scaled to unit length: what is left below this is rounding.
-    if (!(std::abs(matrix[pivot][column]) > 1e-10)) return {};
-    std::swap(matrix[pivot], matrix[column]);
-    std::swap(result[pivot], result[column]);
-    const double scale = 1 / matrix[column][column];
-    for (std::size_t k = 0; k < unknowns; ++k) {
-      matrix[column][k] *= scale;
-      result[column][k] *= scale;
-    }
-    for (std::size_t row = 0; row < unknowns; ++row) {
-      if (row == column) continue;
-      const double factor = matrix[row][column];
-      for (std::size_t k = 0; k < unknowns; ++k) {
-        matrix[row][k] -= factor * matrix[column][k];
-        result[row][k] -= factor * result[column][k];
-      }
-    }
-  }
-  return result;
-}
+/// Of columns of unit length a diagonal element of the inverse normal matrix says how many times
+/// the others inflate the variance of this one; beyond this, of 16 digits six are left.
+constexpr double most_inflation = 1e10;
 
 }  // namespace
 
 double CostFit::predict(const CostSample& sample) const {
-  const Vector x = factors(sample);
-  double sum = 0;
-  for (std::size_t i = 0; i < unknowns; ++i) sum += ms[i] * x[i];
-  return sum;
+  return glm::dot(glm::dvec4(ms[0], ms[1], ms[2], ms[3]), factors(sample));
 }
 
 std::optional<CostFit> fit_costs(std::span<const CostSample> samples) {
-  if (samples.size() <= unknowns) return {};
+  if (samples.size() <= std::size_t(unknowns)) return {};
   // Rows divided by the time that was measured, columns by their length: times are then all 1, and
   // costs that differ by 10^9 do not lose each other's digits.
-  std::vector<Vector> rows;
-  Vector length{};
+  std::vector<glm::dvec4> rows;
+  glm::dvec4 squared(0.0);
   for (const CostSample& sample : samples) {
-    Vector& row = rows.emplace_back(factors(sample));
-    for (std::size_t i = 0; i < unknowns; ++i) {
-      row[i] /= sample.ms;
-      length[i] += row[i] * row[i];
-    }
+    rows.push_back(factors(sample) / sample.ms);
+    squared += rows.back() * rows.back();
   }
-  for (double& value : length) value = std::sqrt(value);
-  if (*std::min_element(length.begin(), length.end()) <= 0) return {};
-  Matrix normal{};
-  Vector right{};
-  for (Vector& row : rows) {
-    for (std::size_t i = 0; i < unknowns; ++i) row[i] /= length[i];
-    for (std::size_t i = 0; i < unknowns; ++i) {
-      right[i] += row[i];
-      for (std::size_t j = 0; j < unknowns; ++j) normal[i][j] += row[i] * row[j];
-    }
+  const glm::dvec4 length = glm::sqrt(squared);
+  if (glm::any(glm::lessThanEqual(length, glm::dvec4(0.0)))) return {};
+  glm::dmat4 normal(0.0);
+  glm::dvec4 right(0.0);
+  for (glm::dvec4 row : rows) {
+    row /= length;
+    right += row;
+    normal += glm::outerProduct(row, row);
   }
-  const std::optional<Matrix> covariance = inverse(normal);
-  if (!covariance) return {};
+  const glm::dmat4 covariance = glm::inverse(normal);
+  for (int i = 0; i < unknowns; ++i)
+    if (!(covariance[i][i] > 0 && covariance[i][i] < most_inflation)) return {};
+  const glm::dvec4 ms = covariance * right / length;
   CostFit fit;
-  for (std::size_t i = 0; i < unknowns; ++i) {
-    for (std::size_t j = 0; j < unknowns; ++j) fit.ms[i] += (*covariance)[i][j] * right[j];
-    fit.ms[i] /= length[i];
-  }
+  for (int i = 0; i < unknowns; ++i) fit.ms[std::size_t(i)] = ms[i];
   double squares = 0;
   for (const CostSample& sample : samples) {
     fit.residuals.push_back(fit.predict(sample) / sample.ms - 1);
     squares += fit.residuals.back() * fit.residuals.back();
   }
-  const double variance = squares / double(samples.size() - unknowns);
-  for (std::size_t i = 0; i < unknowns; ++i)
-    fit.standard_error[i] = std::sqrt(std::max(0.0, variance * (*covariance)[i][i])) / length[i];
+  const double variance = squares / double(samples.size() - std::size_t(unknowns));
+  for (int i = 0; i < unknowns; ++i)
+    fit.standard_error[std::size_t(i)] = std::sqrt(variance * covariance[i][i]) / length[i];
   return fit;
 }
 

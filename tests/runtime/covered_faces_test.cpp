@@ -172,6 +172,33 @@ TEST_P(CoveredFacesPicture, StaysTheSameToTheBit) {
   EXPECT_GE(showing, 3) << "one face may fill a picture from within";
 }
 
+// Then the pixels drawn are not those of the picture.
+TEST(CoveredFaces, AreFoundAmongThePixelsThatAreDrawn) {
+  const std::uint64_t seed = 11;
+  const gl::Context context = gl::Context::create({});
+  if (!context.capabilities().software) GTEST_SKIP() << "the plan keeps such faces on a GPU";
+  const TriangleSoup soup =
+      random_soup(seed, {.kind = Kind::face_colors, .faces = 30000, .size = 0.01});
+  Random random(seed);
+  for (const RenderPreset& preset :
+       {RenderPreset{.resolution_scale = 0.6}, RenderPreset{.supersampling = 3}}) {
+    const LeaveOutSet all = LeaveOutSet::all();
+    Renderer with(context, soup, glm::dvec3(0), {.plan = {.leave_out = all, .preset = preset}});
+    Renderer without(
+        context, soup, glm::dvec3(0),
+        {.plan = {.leave_out = all.without(LeaveOut::faces_between_pixels), .preset = preset}});
+    ASSERT_TRUE(with.plan().drops_faces_between_pixels);
+    ASSERT_FALSE(without.plan().drops_faces_between_pixels);
+    const Camera camera = random_camera(random, 211, 150);
+    with.draw(camera);
+    without.draw(camera);
+    const Image8 a = with.read_color(), b = without.read_color();
+    EXPECT_TRUE(a.pixels == b.pixels) << "seed " << seed;
+    EXPECT_TRUE(std::any_of(a.pixels.begin(), a.pixels.end(),
+                            [&](glm::u8vec4 p) { return p != a.pixels[0]; }));
+  }
+}
+
 std::vector<PictureCase> picture_cases() {
   std::vector<PictureCase> cases;
   for (const NamedContext& context : every_context)
