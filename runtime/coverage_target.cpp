@@ -22,8 +22,7 @@ Renderbuffer make_samples(GLenum format, const CoverageTarget::Size& size, GLenu
 CoverageTarget::CoverageTarget(gl::Api api)
     : api_(api),
       resolve_(assemble({.file = "full_screen.vert"}, api),
-               assemble({.file = "coverage_resolve.frag"}, api)),
-      nothing_(gl::VertexArray::create()) {}
+               assemble({.file = "coverage_resolve.frag"}, api)) {}
 
 void CoverageTarget::resize(const Size& size) {
   size_ = size;
@@ -55,7 +54,7 @@ void CoverageTarget::begin(const glm::vec4& background) const {
   glBlendFuncSeparate(GL_ONE, GL_ZERO, GL_ZERO, GL_ZERO);
 }
 
-void CoverageTarget::resolve_to(GLuint framebuffer, const glm::vec4& background) const {
+void CoverageTarget::resolve_to(GLuint framebuffer, const glm::vec4& background) {
   gl::use_plain_rasterisation(size_.width, size_.height);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, samples_framebuffer_.id());
   glReadBuffer(GL_COLOR_ATTACHMENT0);
@@ -71,9 +70,15 @@ void CoverageTarget::resolve_to(GLuint framebuffer, const glm::vec4& background)
   resolve_.set("resolved", 0);
   resolve_.set("background", background);
   resolve_.set("background_depth", 0.0f);
-  glBindVertexArray(nothing_.id());
+  nothing_.bind();
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glEnable(GL_DEPTH_TEST);
+}
+
+void CoverageTarget::leave_context() {
+  nothing_.forget();
+  samples_framebuffer_ = {};
+  resolved_framebuffer_ = {};
 }
 
 }  // namespace tureen

@@ -40,12 +40,15 @@ class CoverageTarget {
   /// Draws the mean of each pixel's samples over all of `framebuffer`, of the same size, and leaves
   /// plain rasterisation behind. Only where the background is not opaque, colours over it are kept
   /// with 8 bits times alpha.
-  void resolve_to(GLuint framebuffer, const glm::vec4& background) const;
+  void resolve_to(GLuint framebuffer, const glm::vec4& background);
+
+  /// See Renderer::leave_context().
+  void leave_context();
 
  private:
   gl::Api api_;
   gl::Program resolve_;
-  gl::VertexArray nothing_;
+  gl::LocalVertexArray nothing_;
   Size size_{};
   Renderbuffer color_, depth_;
   gl::Texture resolved_;

@@ -31,8 +31,7 @@ Corner corner_of_part(const std::array<glm::dvec3, 3>& face, glm::dvec2 at) {
 
 Geometry::Geometry(const TriangleSoup& soup, std::span<const std::uint32_t> faces,
                    std::span<const FacePart> parts)
-    : vertex_array_(gl::VertexArray::create()),
-      positions_(gl::Buffer::create()),
+    : positions_(gl::Buffer::create()),
       first_part_(static_cast<std::uint32_t>(faces.size() - parts.size())) {
   device_bytes_ = faces.size() * 3 * sizeof(glm::vec3);
   // GL counts vertices in 31 bits.
@@ -40,7 +39,6 @@ Geometry::Geometry(const TriangleSoup& soup, std::span<const std::uint32_t> face
   if (faces.size() > most_faces)
     throw DeviceLimitError(std::to_string(faces.size()) + " triangles are more than the " +
                            std::to_string(most_faces) + " that OpenGL draws from one buffer");
-  glBindVertexArray(vertex_array_.id());
   glBindBuffer(GL_ARRAY_BUFFER, positions_.id());
   while (glGetError() != GL_NO_ERROR) {
     // Somebody else's errors must not read as ours below.
@@ -73,28 +71,40 @@ Geometry::Geometry(const TriangleSoup& soup, std::span<const std::uint32_t> face
     glBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(first * sizeof block[0]),
                     static_cast<GLsizeiptr>(block.size() * sizeof block[0]), block.data());
   }
-  glEnableVertexAttribArray(0);
-  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
   if (!parts.empty()) upload_barycentrics(barycentrics);
-  glBindVertexArray(0);
   gl::check("Geometry");
 }
 
 void Geometry::upload_barycentrics(std::span<const glm::vec2> barycentrics) {
-  part_array_ = gl::VertexArray::create();
   barycentrics_ = gl::Buffer::create();
   device_bytes_ += barycentrics.size_bytes();
-  glBindVertexArray(part_array_.id());
+  glBindBuffer(GL_ARRAY_BUFFER, barycentrics_.id());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(barycentrics.size_bytes()),
+               barycentrics.data(), GL_STATIC_DRAW);
+}
+
+void Geometry::bind() {
+  if (!vertex_array_.bind()) return;
+  glBindBuffer(GL_ARRAY_BUFFER, positions_.id());
+  glEnableVertexAttribArray(0);
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
+}
+
+void Geometry::bind_parts() {
+  if (!part_array_.bind()) return;
   glBindBuffer(GL_ARRAY_BUFFER, positions_.id());
   glEnableVertexAttribArray(0);
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3),
                         // An offset, as GL wants it.
                         reinterpret_cast<const void*>(3 * sizeof(glm::vec3) * first_part_));
   glBindBuffer(GL_ARRAY_BUFFER, barycentrics_.id());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(barycentrics.size_bytes()),
-               barycentrics.data(), GL_STATIC_DRAW);
   glEnableVertexAttribArray(1);
   glVertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, sizeof(glm::vec2), nullptr);
+}
+
+void Geometry::leave_context() {
+  vertex_array_.forget();
+  part_array_.forget();
 }
 
 void Geometry::set_camera(const gl::Program& program, const FrameCamera& frame,

@@ -16,9 +16,11 @@ class Geometry {
            std::span<const FacePart> parts = {});
 
   /// For faces that are drawn whole: vertex 3 i is the first of slot i.
-  void bind() const { glBindVertexArray(vertex_array_.id()); }
+  void bind();
   /// For parts: vertex 3 i is the first of slot first_part() + i, and attribute 1 its barycentrics.
-  void bind_parts() const { glBindVertexArray(part_array_.id()); }
+  void bind_parts();
+  /// See Renderer::leave_context().
+  void leave_context();
   std::uint32_t first_part() const { return first_part_; }
   std::size_t device_bytes() const { return device_bytes_; }
 
@@ -29,7 +31,7 @@ class Geometry {
  private:
   void upload_barycentrics(std::span<const glm::vec2> barycentrics);
 
-  gl::VertexArray vertex_array_, part_array_;
+  gl::LocalVertexArray vertex_array_, part_array_;
   gl::Buffer positions_, barycentrics_;
   std::uint32_t first_part_ = 0;
   std::size_t device_bytes_ = 0;

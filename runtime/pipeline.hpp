@@ -43,6 +43,9 @@ class Pipeline {
   /// Buffers and textures of the scene, not the targets.
   virtual std::size_t device_bytes() const = 0;
 
+  /// See Renderer::leave_context(). resize() comes before the next draw().
+  virtual void leave_context() = 0;
+
   /// Later frames tell their passes to this timer, or to none. It must outlive them.
   virtual void time_passes(gl::PassTimer* timer) { timer_ = timer; }
 

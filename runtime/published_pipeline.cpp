@@ -26,9 +26,7 @@ class PublishedPipeline final : public Pipeline {
  public:
   PublishedPipeline(const gl::Capabilities& capabilities, const DeviceLimits& limits,
                     const TriangleSoup& soup, const RenderPlan& plan)
-      : face_count_(plan.faces.size()),
-        geometry_(soup, plan.faces),
-        nothing_(gl::VertexArray::create()) {
+      : face_count_(plan.faces.size()), geometry_(soup, plan.faces) {
     const auto& texture = std::get<LatticeTexture>(soup.appearance);
     upload_lookup_textures(texture, plan, limits);
     network_ = color_mlp_source(*texture.mlp, MlpWeights::uniforms);
@@ -72,6 +70,12 @@ class PublishedPipeline final : public Pipeline {
   GLuint color_framebuffer() const override { return color_framebuffer_.id(); }
   GLuint color_texture() const override { return color_.id(); }
   glm::ivec2 sample_size() const override { return {width_, height_}; }
+  void leave_context() override {
+    geometry_.leave_context();
+    nothing_.forget();
+    feature_framebuffer_ = {};
+    color_framebuffer_ = {};
+  }
   std::size_t device_bytes() const override { return geometry_.device_bytes() + lut_bytes_; }
 
  private:
@@ -114,7 +118,7 @@ class PublishedPipeline final : public Pipeline {
     shading_program_.set("background_depth", 0.0f);
     shading_program_.set("mlp_weights", std::span<const glm::mat4>(network_.weights));
     shading_program_.set("mlp_biases", std::span<const glm::vec4>(network_.biases));
-    glBindVertexArray(nothing_.id());
+    nothing_.bind();
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glEnable(GL_DEPTH_TEST);
   }
@@ -172,7 +176,7 @@ class PublishedPipeline final : public Pipeline {
 
   std::size_t face_count_;
   Geometry geometry_;
-  gl::VertexArray nothing_;
+  gl::LocalVertexArray nothing_;
   ColorMlpSource network_;
   gl::Program geometry_program_, shading_program_;
   gl::Texture lut0_, lut1_;

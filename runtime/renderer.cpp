@@ -160,6 +160,12 @@ void Renderer::blit_to(unsigned framebuffer) const {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
 }
 
+void Renderer::leave_context() {
+  state_->pipeline->leave_context();
+  state_->width = state_->height = 0;
+  finish();
+}
+
 std::size_t Renderer::device_bytes() const { return state_->pipeline->device_bytes(); }
 
 }  // namespace tureen

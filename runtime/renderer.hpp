@@ -89,6 +89,11 @@ class Renderer {
   /// Copies the last frame into a framebuffer of the same size (0 is the window).
   void blit_to(unsigned framebuffer) const;
 
+  /// Gives up the last frame and what belongs to the current context alone (vertex arrays and
+  /// framebuffers), so that from now on another context of the same share group may be current: a
+  /// renderer made on a loading thread moves to the window's so. Waits for the device.
+  void leave_context();
+
   /// Bytes of the scene's buffers and textures, without the targets; with the copy of the corners
   /// by which faces between pixels are found, though that lies beside them.
   std::size_t device_bytes() const;

@@ -23,8 +23,7 @@ class ResampledPipeline : public Pipeline {
       : pipeline_(std::move(pipeline)),
         limit_(limit),
         filter_(assemble({.file = "full_screen.vert"}, limit.api),
-                assemble({.file = filter, .constants = constants}, limit.api)),
-        nothing_(gl::VertexArray::create()) {}
+                assemble({.file = filter, .constants = constants}, limit.api)) {}
 
   void resize(int width, int height) final {
     const glm::ivec2 size = size_to_draw({width, height});
@@ -54,7 +53,7 @@ class ResampledPipeline : public Pipeline {
     filter_.set("samples", 0);
     filter_.set("background_depth", 0.0f);
     filter_.set("samples_per_pixel", glm::vec2(drawn_size_) / glm::vec2(size_));
-    glBindVertexArray(nothing_.id());
+    nothing_.bind();
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glEnable(GL_DEPTH_TEST);
     gl::check("resampled draw");
@@ -65,6 +64,11 @@ class ResampledPipeline : public Pipeline {
   GLuint visibility_framebuffer() const final { return pipeline_->visibility_framebuffer(); }
   glm::ivec2 sample_size() const final { return pipeline_->sample_size(); }
   std::size_t device_bytes() const final { return pipeline_->device_bytes(); }
+  void leave_context() final {
+    nothing_.forget();
+    color_framebuffer_ = {};
+    pipeline_->leave_context();
+  }
   void time_passes(gl::PassTimer* timer) final {
     Pipeline::time_passes(timer);
     pipeline_->time_passes(timer);
@@ -77,7 +81,7 @@ class ResampledPipeline : public Pipeline {
   std::unique_ptr<Pipeline> pipeline_;
   PictureLimit limit_;
   gl::Program filter_;
-  gl::VertexArray nothing_;
+  gl::LocalVertexArray nothing_;
   glm::ivec2 size_{0}, drawn_size_{0};
   gl::Texture color_;
   gl::Framebuffer color_framebuffer_;

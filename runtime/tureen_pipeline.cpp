@@ -25,8 +25,7 @@ class TureenPipeline final : public Pipeline {
         api_(capabilities.api),
         multi_draw_(capabilities.multi_draw),
         appearance_(upload_appearance(soup, plan, TexelLayout::of(limits))),
-        geometry_(soup, plan.faces, plan.parts),
-        nothing_(gl::VertexArray::create()) {
+        geometry_(soup, plan.faces, plan.parts) {
     if (plan.drops_faces_between_pixels) {
       covered_.emplace(soup, plan.faces);
       covered_vertices_ = gl::Buffer::create();
@@ -84,6 +83,13 @@ class TureenPipeline final : public Pipeline {
     gl::check("draw");
   }
 
+  void leave_context() override {
+    geometry_.leave_context();
+    nothing_.forget();
+    color_framebuffer_ = {};
+    store_ = {};
+    if (coverage_) coverage_->leave_context();
+  }
   GLuint color_framebuffer() const override { return color_framebuffer_.id(); }
   GLuint color_texture() const override { return color_.id(); }
   glm::ivec2 sample_size() const override { return {width_, height_}; }
@@ -227,7 +233,7 @@ class TureenPipeline final : public Pipeline {
     shading_.set("background", background);
     shading_.set("background_depth", plan_.reversed_depth ? 0.0f : 1.0f);
     store_.bind(shading_, appearance_.unit_count());
-    glBindVertexArray(nothing_.id());
+    nothing_.bind();
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glDepthMask(GL_TRUE);
   }
@@ -250,7 +256,7 @@ class TureenPipeline final : public Pipeline {
   bool multi_draw_;
   DeviceAppearance appearance_;
   Geometry geometry_;
-  gl::VertexArray nothing_;
+  gl::LocalVertexArray nothing_;
   gl::Program opaque_, cut_out_, shading_;
   FrontToBack order_;
   std::optional<CoveredFaces> covered_;  // where faces between pixels are dropped

@@ -76,4 +76,21 @@ using Texture = Object<TextureTraits>;
 using Framebuffer = Object<FramebufferTraits>;
 using VertexArray = Object<VertexArrayTraits>;
 
+/// A vertex array that the first bind() makes, in the context that is current then: contexts that
+/// share buffers and textures do not share these.
+class LocalVertexArray {
+ public:
+  /// Whether it has just been made, and lacks its attributes.
+  bool bind() {
+    const bool made = !array_;
+    if (made) array_ = VertexArray::create();
+    glBindVertexArray(array_.id());
+    return made;
+  }
+  void forget() { array_ = {}; }
+
+ private:
+  VertexArray array_;
+};
+
 }  // namespace tureen::gl

@@ -158,6 +158,32 @@ TEST(Renderer, StateThatSomebodyElseLeftChangesNothing) {
     }
 }
 
+// What it makes anew in the context that draws next; the window's tests move between two contexts.
+TEST(Renderer, DrawsTheSameAfterItLeftTheContext) {
+  const gl::Context context = gl::Context::create(osmesa);
+  RenderPreset supersampled, coverage;
+  supersampled.supersampling = 2;
+  coverage.alpha_to_coverage = 4;
+  coverage.site = RenderPreset::Site::forward;
+  for (const std::optional<RenderPreset>& preset :
+       {std::optional<RenderPreset>(), std::optional(supersampled), std::optional(coverage)})
+    for (const PipelineKind pipeline : {PipelineKind::tureen, PipelineKind::published}) {
+      if (pipeline == PipelineKind::published && preset) continue;
+      const TriangleSoup soup = random_soup(11, {.kind = Kind::lattice_mlp, .level = 2});
+      Random random(11);
+      const Camera camera = random_camera(random, 64, 48);
+      RenderOptions options;
+      options.plan.pipeline = pipeline;
+      options.plan.preset = preset;
+      Renderer renderer(context, soup, {}, options);
+      renderer.draw(camera);
+      const Image8 expected = renderer.read_color();
+      renderer.leave_context();
+      renderer.draw(camera);
+      EXPECT_EQ(renderer.read_color().pixels, expected.pixels);
+    }
+}
+
 TEST(Renderer, NamesTheSameFacesOnEs) {
   const TriangleSoup soup = random_soup(12, {.kind = Kind::lattice});
   Random random(12);
