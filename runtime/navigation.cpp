@@ -56,13 +56,19 @@ glm::dvec3 direction_of(const glm::dvec3& up, const Bearing& bearing) {
 }
 
 double framing_distance(const Subject& subject, const Bearing& bearing, const Lens& lens) {
-  // The rotation of the camera does not depend on its distance.
-  const glm::dmat3 world_from_view =
-      camera_at(subject, bearing, lens, 1.0).world_from_view_rotation();
+  // The rotation of the camera depends neither on its distance nor on where the subject is; far
+  // from the origin a distance of 1 would drown in the coordinates.
+  const Subject at_origin{glm::dvec3(0.0), glm::dvec3(0.0), subject.up};
+  const Camera camera = camera_at(at_origin, bearing, lens, 1.0);
+  return std::max(1e-6, framing_distance(subject, camera.world_from_view_rotation(), lens));
+}
+
+double framing_distance(const Subject& subject, const glm::dmat3& world_from_view,
+                        const Lens& lens) {
   constexpr double margin = 1.05;
   const double slope_y = std::tan(0.5 * lens.fov_y) / margin;
   const double slope_x = slope_y * lens.width / lens.height;
-  double distance = 1e-6;
+  double distance = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const glm::dvec3 half = 0.5 * (subject.high - subject.low);
     const glm::dvec3 p =

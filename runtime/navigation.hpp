@@ -2,6 +2,7 @@
 // program, the window and the page.
 #pragma once
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -49,6 +50,9 @@ glm::dvec3 direction_of(const glm::dvec3& up, const Bearing& bearing);
 /// How far from the box's centre the eye must be in this direction for the whole box to lie
 /// inside the picture with a margin of 5 % at the tightest side. At least 1e-6, even for a point.
 double framing_distance(const Subject& subject, const Bearing& bearing, const Lens& lens);
+/// The same for a camera with these axes (Camera::world_from_view_rotation); 0 for a point.
+double framing_distance(const Subject& subject, const glm::dmat3& world_from_view,
+                        const Lens& lens);
 
 /// A camera that looks at the centre of the box and shows all of it.
 Camera frame(const Subject& subject, const Bearing& bearing, const Lens& lens);

@@ -1,0 +1,91 @@
+#include "runtime/up_axis.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+
+namespace tureen {
+
+namespace {
+
+constexpr double degree = 0.017453292519943295;
+
+std::optional<glm::dvec3> unit(const glm::dvec3& v) {
+  const double length = glm::length(v);
+  if (!(length > 0) || !std::isfinite(length)) return {};
+  return v / length;
+}
+
+int longest_component(const glm::dvec3& v) {
+  const glm::dvec3 a(std::abs(v.x), std::abs(v.y), std::abs(v.z));
+  return a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+}
+
+glm::dvec3 nearest_axis(const glm::dvec3& v) {
+  const int longest = longest_component(v);
+  glm::dvec3 axis(0);
+  axis[longest] = v[longest] < 0 ? -1 : 1;
+  return axis;
+}
+
+std::optional<UpGuess> from_cameras(std::span<const Camera> cameras) {
+  glm::dvec3 sum(0);
+  for (const Camera& camera : cameras)
+    if (const auto up = unit(camera.world_from_view_rotation()[1])) sum += *up;
+  // Three that agree are no accident; of axes that point everywhere less than half is left.
+  if (cameras.size() < 3 || !(glm::length(sum) > 0.5 * double(cameras.size()))) return {};
+  const glm::dvec3 mean = glm::normalize(sum), axis = nearest_axis(mean);
+  const double angle = std::acos(std::min(1.0, glm::dot(mean, axis)));
+  const bool close = angle < 25 * degree;
+  const std::string count = std::to_string(cameras.size());
+  if (!close)
+    return UpGuess{mean, "the mean of the up axes of " + count +
+                             " cameras is taken to be up: " + axis_name(mean)};
+  char degrees[16];
+  std::snprintf(degrees, sizeof degrees, "%.0f", angle / degree);
+  return UpGuess{axis, "the mean of the up axes of " + count + " cameras points " + degrees +
+                           " degrees from " + axis_name(axis) + ", which is taken to be up"};
+}
+
+std::optional<UpGuess> from_box(const glm::dvec3& extent) {
+  if (!std::isfinite(extent.x + extent.y + extent.z)) return {};
+  for (int side = 0; side < 3; ++side) {
+    const double other = std::min(extent[(side + 1) % 3], extent[(side + 2) % 3]);
+    if (!(other > 0) || !(extent[side] < other / 3)) continue;
+    glm::dvec3 axis(0);
+    axis[side] = 1;
+    return UpGuess{axis, "the scene is flat along " + axis_name(axis) +
+                             ", which is taken to be up; it may be " + axis_name(-axis)};
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string axis_name(const glm::dvec3& axis) {
+  const auto direction = unit(axis);
+  if (!direction) return "nothing";
+  const glm::dvec3 nearest = nearest_axis(*direction);
+  if (glm::length(*direction - nearest) < 1e-6) {
+    const int longest = longest_component(nearest);
+    return std::string(nearest[longest] < 0 ? "-" : "") + "xyz"[longest];
+  }
+  char text[64];
+  std::snprintf(text, sizeof text, "(%.3g, %.3g, %.3g)", direction->x, direction->y, direction->z);
+  return text;
+}
+
+UpGuess guess_up(const UpEvidence& evidence) {
+  const auto stored = unit(evidence.stored);
+  if (stored && !evidence.stored_is_assumed)
+    return {*stored, "the file says that " + axis_name(*stored) + " is up"};
+  if (const auto guess = from_cameras(evidence.cameras)) return *guess;
+  // A box that is flat along the assumed axis agrees with it, sign and all.
+  const auto flat = from_box(evidence.extent);
+  if (flat && !(stored && std::abs(glm::dot(*stored, flat->axis)) > 0.999)) return *flat;
+  if (stored) return {*stored, "nothing says what is up; " + axis_name(*stored) + " is assumed"};
+  return {{0, 1, 0}, "nothing says what is up; y is assumed"};
+}
+
+}  // namespace tureen

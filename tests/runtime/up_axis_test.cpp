@@ -1,0 +1,89 @@
+#include "runtime/up_axis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace tureen {
+namespace {
+
+/// Cameras around an arc, held upright along `up` and looking down by 30 degrees.
+std::vector<Camera> arc(const glm::dvec3& up, double turns) {
+  const glm::dvec3 side = glm::normalize(glm::cross(up, glm::dvec3(0.3, 0.5, 0.9)));
+  const glm::dvec3 front = glm::cross(side, up);
+  std::vector<Camera> cameras;
+  for (int i = 0; i < 24; ++i) {
+    const double angle = 6.283185307179586 * turns * i / 24;
+    const glm::dvec3 eye = std::cos(angle) * front + std::sin(angle) * side + std::tan(0.52) * up;
+    cameras.push_back(look_at(eye, {}, up, 0.7, 640, 480));
+  }
+  return cameras;
+}
+
+TEST(UpAxis, TheFileHasTheFirstWord) {
+  const std::vector<Camera> cameras = arc({0, 0, 1}, 1);
+  const UpGuess guess = guess_up({.stored = {0, -2, 0}, .cameras = cameras});
+  EXPECT_EQ(guess.axis, glm::dvec3(0, -1, 0));
+  EXPECT_EQ(guess.why, "the file says that -y is up");
+}
+
+TEST(UpAxis, CamerasHeldUprightCorrectAnAssumption) {
+  for (const double turns : {1.0, 0.4})
+    for (const glm::dvec3 up : {glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0), glm::dvec3(1, 0, 0)}) {
+      const std::vector<Camera> cameras = arc(up, turns);
+      const UpGuess guess =
+          guess_up({.stored = {0, 1, 0}, .stored_is_assumed = true, .cameras = cameras});
+      EXPECT_EQ(guess.axis, up) << guess.why;
+      EXPECT_NE(guess.why.find("24 cameras"), std::string::npos);
+    }
+}
+
+TEST(UpAxis, ASceneThatNobodyAlignedKeepsTheMeanItself) {
+  const glm::dvec3 up = glm::normalize(glm::dvec3(1, 1, 1));
+  const std::vector<Camera> cameras = arc(up, 1);
+  const UpGuess guess = guess_up({.cameras = cameras});
+  EXPECT_LT(glm::length(guess.axis - up), 1e-9);
+  EXPECT_NE(guess.why.find("(0.577, 0.577, 0.577)"), std::string::npos) << guess.why;
+}
+
+TEST(UpAxis, CamerasThatDisagreeSayNothing) {
+  std::vector<Camera> cameras = arc({0, 0, 1}, 1);
+  for (const Camera& camera : arc({0, 0, -1}, 1)) cameras.push_back(camera);
+  const UpGuess guess =
+      guess_up({.stored = {0, 1, 0}, .stored_is_assumed = true, .cameras = cameras});
+  EXPECT_EQ(guess.axis, glm::dvec3(0, 1, 0));
+  EXPECT_NE(guess.why.find("assumed"), std::string::npos);
+}
+
+TEST(UpAxis, FlatScenesLie) {
+  const UpEvidence evidence{
+      .stored = {0, 1, 0}, .stored_is_assumed = true, .cameras = {}, .extent = {10, 12, 2}};
+  EXPECT_EQ(guess_up(evidence).axis, glm::dvec3(0, 0, 1));
+  UpEvidence along = evidence;
+  along.stored = {0, 0, -1};  // the same line: the reader's sign stays
+  EXPECT_EQ(guess_up(along).axis, glm::dvec3(0, 0, -1));
+  UpEvidence cube = evidence;
+  cube.extent = {1, 1, 0.9};
+  EXPECT_EQ(guess_up(cube).axis, glm::dvec3(0, 1, 0));
+}
+
+TEST(UpAxis, NothingAndNonsenseGiveY) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Camera broken;
+  broken.view_from_world = glm::dmat4(nan);
+  const std::vector<Camera> cameras(5, broken);
+  EXPECT_EQ(guess_up({}).axis, glm::dvec3(0, 1, 0));
+  EXPECT_EQ(guess_up({.stored = {nan, 0, 0}, .cameras = cameras, .extent = {nan, 1, 1}}).axis,
+            glm::dvec3(0, 1, 0));
+}
+
+TEST(UpAxis, AxesHaveNames) {
+  EXPECT_EQ(axis_name({0, 0, 3}), "z");
+  EXPECT_EQ(axis_name({-1, 0, 0}), "-x");
+  EXPECT_EQ(axis_name({0, 0, 0}), "nothing");
+}
+
+}  // namespace
+}  // namespace tureen
