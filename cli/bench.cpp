@@ -105,13 +105,15 @@ BenchResult run(const Options& options) {
   const Contestants contestants = make_contestants(options.contestants, context, scene);
   result.notes.insert(result.notes.end(), contestants.notes.begin(), contestants.notes.end());
   result.load = load_of(contestants, read_ms.count());
-  for (const auto& contestant : contestants.list)
-    result.configurations.push_back(contestant->configuration);
   add_measurements(result, measure(contestants, views.views,
                                    {.rounds = options.rounds,
                                     .most_seconds = options.seconds,
                                     .clock = clock,
                                     .folder = options.reports.folder}));
+  for (const auto& contestant : contestants.list) {
+    contestant->tell_plan();
+    result.configurations.push_back(contestant->configuration);
+  }
   return result;
 }
 
@@ -151,6 +153,8 @@ Examples:
   tureen bench soup.glb --ceilings -o timed               a page, plots, and the pictures timed
   tureen bench soup.glb --against timed/bench.json        what has become faster or slower since
   tureen bench soup.glb --only tureen,triangles --seconds 60
+  tureen bench soup.glb --only tureen-fragment,tureen-compute
+                                                          shading by compute shaders
 
 Exit codes: 0 done, 1 slower than --fail-slower allows, 2 wrong usage, 3 the scene or the
 cameras cannot be read, 4 no OpenGL context, 5 it does not fit on the device or cannot be

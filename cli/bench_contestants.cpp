@@ -15,10 +15,13 @@ namespace {
 
 constexpr const char* ours = "tureen";
 constexpr const char* generic = "generic";
+constexpr const char* in_fragments = "tureen-fragment";
+constexpr const char* as_compute = "tureen-compute";
 constexpr const char* published = "published";
 constexpr const char* triangles = "triangles";
 constexpr const char* copy = "copy";
-const std::vector<std::string> all_names{ours, generic, published, triangles, copy};
+const std::vector<std::string> all_names{ours,      in_fragments, as_compute, generic,
+                                         published, triangles,    copy};
 
 constexpr double bytes_per_mib = 1 << 20;
 
@@ -50,7 +53,7 @@ class RendererContestant final : public Contestant {
         RenderOptions{.plan = preferences, .background = glm::vec4(scene.info.background, 1.0f)});
     renderer_->finish();
     configuration.upload_ms = milliseconds_since(start);
-    configuration.plan = renderer_->plan().sentences;
+    tell_plan();
     configuration.device_mib = double(renderer_->device_bytes()) / bytes_per_mib;
   }
   void draw(const Camera& camera) override { renderer_->draw(camera); }
@@ -61,6 +64,7 @@ class RendererContestant final : public Contestant {
     constexpr int repeats = 20;
     return time_passes(context_, *renderer_, cameras, repeats);
   }
+  void tell_plan() override { configuration.plan = renderer_->plan().sentences; }
 
  private:
   const gl::Context& context_;
@@ -115,24 +119,33 @@ Setting setting_of(const std::string& name, const DrawingOptions& drawing) {
   PlanPreferences plan = drawing.plan;
   if (name == published) {
     plan.pipeline = PipelineKind::published;
+    plan.shading_stage = ShadingStage::fragment;  // it has no other
     return {plan, {"--pipeline", "published"}};
   }
   plan.pipeline = PipelineKind::tureen;
   // The published viewer knows no knobs of a scene.
   if (drawing.scene_preset.preset)
     plan.preset = combined(*drawing.scene_preset.preset, plan.preset.value_or(RenderPreset()));
-  if (name == generic) {
-    plan.specialise = false;
-    return {plan, {"--no-specialise"}};
+  if (name == in_fragments) plan.shading_stage = ShadingStage::fragment;
+  if (name == as_compute) plan.shading_stage = ShadingStage::compute;
+  std::vector<std::string> options;
+  if (plan.shading_stage != ShadingStage::measured)
+    options = {"--shading", plan.shading_stage == ShadingStage::compute ? "compute" : "fragment"};
+  if (name == triangles) {
+    plan.site = ShadingSite::nowhere;
+    plan.shading_stage = ShadingStage::fragment;  // nothing is shaded
   }
-  plan.specialise = true;
-  if (name == triangles) plan.site = ShadingSite::nowhere;
+  plan.specialise = name != generic;
+  if (!plan.specialise) {
+    options.emplace_back("--no-specialise");
+    return {plan, options};
+  }
   std::string kept;
   for (const LeaveOutName& known : leave_out_names())
     if (!plan.leave_out.has(known.what))
       kept += (kept.empty() ? "" : ",") + std::string(known.name);
-  if (kept.empty()) return {plan, {}};
-  return {plan, {"--keep", kept}};
+  if (!kept.empty()) options.insert(options.end(), {"--keep", kept});
+  return {plan, options};
 }
 
 std::unique_ptr<Contestant> make_contestant(const std::string& name,
@@ -159,9 +172,10 @@ void add_contestant_options(CLI::App& command, ContestantOptions& options) {
   command
       .add_option(
           "--only", options.only,
-          "who takes part, with commas between: tureen (the plan), generic (nothing left "
-          "out), published (DiffSoup's viewer), triangles and copy (the ceilings); the first "
-          "is what the others are held against")
+          "who takes part, with commas between: tureen (the plan), tureen-fragment and "
+          "tureen-compute (the same, with --shading), generic (nothing left out), published "
+          "(DiffSoup's viewer), triangles and copy (the ceilings); the first is what the others "
+          "are held against")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->option_text("NAME,..");
@@ -174,8 +188,10 @@ void check(const ContestantOptions& options) {
   for (std::size_t i = 0; i < options.only.size(); ++i) {
     const std::string& name = options.only[i];
     if (std::find(all_names.begin(), all_names.end(), name) == all_names.end())
-      throw UsageError("--only takes tureen, generic, published, triangles and copy, not '" + name +
-                       "'" + did_you_mean(name, all_names));
+      throw UsageError(
+          "--only takes tureen, tureen-fragment, tureen-compute, generic, published, triangles and "
+          "copy, not '" +
+          name + "'" + did_you_mean(name, all_names));
     if (std::find(options.only.begin(), options.only.begin() + std::ptrdiff_t(i), name) !=
         options.only.begin() + std::ptrdiff_t(i))
       throw UsageError("--only names " + name + " twice");

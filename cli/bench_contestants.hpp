@@ -1,5 +1,6 @@
-// Who takes part in `tureen bench`: the plan, the same pipeline with nothing left out, the
-// published pipeline, and the device's ceilings, each ready to draw.
+// Who takes part in `tureen bench`: the plan, with either shading stage where asked for, the same
+// pipeline with nothing left out, the published pipeline, and the device's ceilings, each ready to
+// draw.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -37,6 +38,9 @@ class Contestant {
   virtual Image8 last_frame() const = 0;
   /// Of these views; a reason and no times where nobody can tell.
   virtual PassTimes passes(std::span<const Camera> cameras) = 0;
+
+  /// Brings the plan in `configuration` up to date: a first frame may have measured something.
+  virtual void tell_plan() {}
 
   BenchConfiguration configuration;  // as the result describes it
 

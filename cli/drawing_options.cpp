@@ -61,6 +61,14 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
       ->option_text("NAMES")
       ->delimiter(',')
       ->allow_extra_args(false);
+  add_choice<ShadingStage>(command, "--shading", options.plan.shading_stage,
+                           {{"measured", ShadingStage::measured},
+                            {"fragment", ShadingStage::fragment},
+                            {"compute", ShadingStage::compute}},
+                           "what colours the pixels of scenes that are shaded once a pixel: "
+                           "measured (default, whichever is faster in the first frame; software "
+                           "OpenGL takes fragment), fragment or compute shaders")
+      ->option_text("NAME");
   CLI::Option* supersample = command.add_option_function<int>(
       "--supersample", [&options](int n) { preset_of(options).supersampling = n; },
       "smooth edges: N x N samples a pixel, 1 to 8; costs N x N times the pixels");

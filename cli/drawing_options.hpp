@@ -36,8 +36,8 @@ CheckedRenderer make_renderer(const gl::Context& context, const TriangleSoup& so
 /// What the plan says, for people: with the sentence on the preset first, where there is one.
 std::vector<std::string> plan_sentences(const CheckedRenderer& renderer);
 
-/// --context, --pipeline, --preset, --no-specialise, --keep and --supersample, which is part of
-/// options.plan.preset. `options` must live until the arguments are parsed.
+/// --context, --pipeline, --preset, --no-specialise, --keep, --shading and --supersample, which is
+/// part of options.plan.preset. `options` must live until the arguments are parsed.
 void add_drawing_options(CLI::App& command, DrawingOptions& options);
 
 /// --scale, which is part of it, too; after add_drawing_options. Not where a dataset's photographs

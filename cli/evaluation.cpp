@@ -116,7 +116,6 @@ Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
   Evaluation result;
   result.context = context.description();
   result.renderer = context.capabilities().renderer;
-  result.plan = plan_sentences(checked);
 
   std::vector<Image8> thumbnails;
   // One view more than cores is in memory at a time. Destroying what is left waits for it.
@@ -144,6 +143,7 @@ Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
     result.output.push_back(sheet.string());
   }
   result.mean = mean_of(result.views);
+  result.plan = plan_sentences(checked);  // with what the first frame has measured
   return result;
 }
 

@@ -120,4 +120,15 @@ void set_eye(const gl::Program& program, glm::dvec3 eye) {
   program.set("eye_low", glm::vec3(eye - glm::dvec3(high)));
 }
 
+void set_rays(const gl::Program& program, const Camera& camera) {
+  const glm::dmat3 axes = camera.world_from_view_rotation();
+  const glm::dvec3 per_column = axes[0] / camera.fx;
+  const glm::dvec3 per_row = axes[1] / camera.fy;
+  const glm::dvec3 at_corner =
+      -axes[2] - camera.cx * per_column - (camera.height - camera.cy) * per_row;
+  program.set("ray_at_corner", glm::vec3(at_corner));
+  program.set("ray_per_column", glm::vec3(per_column));
+  program.set("ray_per_row", glm::vec3(per_row));
+}
+
 }  // namespace tureen

@@ -41,4 +41,7 @@ class Geometry {
 /// near the eye however far both are from the origin (specs 05, G3).
 void set_eye(const gl::Program& program, glm::dvec3 eye);
 
+/// Sets the uniforms of view_direction.glsl: window y runs up, image y down.
+void set_rays(const gl::Program& program, const Camera& camera);
+
 }  // namespace tureen

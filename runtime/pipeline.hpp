@@ -5,7 +5,9 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <memory>
+#include <optional>
 
+#include "runtime/choose_shading_stage.hpp"
 #include "runtime/clip_range.hpp"
 #include "runtime/gl/context.hpp"
 #include "runtime/gl/objects.hpp"
@@ -42,6 +44,9 @@ class Pipeline {
   virtual glm::ivec2 sample_size() const = 0;
   /// Buffers and textures of the scene, not the targets.
   virtual std::size_t device_bytes() const = 0;
+
+  /// Which stage shades, where the plan leaves that to measurement and a frame has been drawn.
+  virtual std::optional<StageChoice> shading_choice() const { return std::nullopt; }
 
   /// See Renderer::leave_context(). resize() comes before the next draw().
   virtual void leave_context() = 0;

@@ -29,6 +29,31 @@ void choose_site(PlanDraft& draft) {
                     "the shading pass, colours are cheap enough to write at once (exact)");
 }
 
+/// After the knobs: features that are stored want another shading pass.
+void choose_stage(PlanDraft& draft, const DeviceLimits& limits) {
+  RenderPlan& plan = draft.plan;
+  const ShadingStage wanted = draft.preferences.shading_stage;
+  if (wanted == ShadingStage::compute && !limits.compute_shaders)
+    throw DeviceLimitError(
+        "shading as compute needs compute shaders, OpenGL 4.3 or ES 3.1, which this device has "
+        "not");
+  if (plan.site != ShadingSite::deferred) {
+    if (wanted == ShadingStage::compute)
+      draft.say("nothing is shaded as compute, as colours are written at once");
+    return;
+  }
+  if (plan.feature_storage != RenderPreset::FeatureStorage::visibility) {
+    if (wanted == ShadingStage::compute)
+      draft.say("features that are stored are shaded in the fragment stage, not as compute");
+    return;
+  }
+  if (wanted == ShadingStage::compute) draft.say("shading runs as compute, as asked");
+  // Measured once, for all software renderers (docs/benchmarks.md): pictures made by the processor
+  // shall not depend on a race.
+  const bool race = limits.compute_shaders && !limits.software;
+  plan.shading_stage = wanted == ShadingStage::measured && !race ? ShadingStage::fragment : wanted;
+}
+
 void describe_drawing(PlanDraft& draft) {
   RenderPlan& plan = draft.plan;
   std::string sentence = formatted("draws %zu of %zu faces (%s), near ones first in %zu clusters, ",
@@ -80,6 +105,7 @@ RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
   std::visit([&](const auto& appearance) { plan_appearance(draft, appearance); }, soup.appearance);
   choose_site(draft);
   if (preferences.preset) obey_drawing_knobs(*preferences.preset, limits, draft.plan);
+  choose_stage(draft, limits);
   describe_drawing(draft);
   return std::move(draft.plan);
 }

@@ -25,6 +25,7 @@ struct DeviceLimits {
   bool clip_control = false;
   bool half_float_targets = true;              // RGBA16F can be drawn into
   std::vector<int> sample_counts = {2, 4, 8};  // that multisampling has, rising
+  bool compute_shaders = false;                // with images that they write
   bool software = false;  // the processor draws: triangles are dear, its time is ours
 };
 
@@ -41,6 +42,14 @@ enum class ShadingSite {
              // background's. How fast a device can be asked to draw them at all (a ceiling)
 };
 
+/// What runs the shading pass of a deferred plan that names faces.
+enum class ShadingStage {
+  measured,  // whichever is faster, as the first frame measures; where the processor draws,
+             // fragment
+  fragment,  // a triangle over the window
+  compute,   // a compute shader
+};
+
 struct PlanPreferences {
   PipelineKind pipeline = PipelineKind::tureen;
   /// Without it nothing is left out: every face is alpha-tested, every pixel shaded, network
@@ -50,6 +59,7 @@ struct PlanPreferences {
   LeaveOutSet leave_out = LeaveOutSet::all();
   bool reversed_depth = true;            // where the device can
   std::optional<ShadingSite> site = {};  // the plan's own choice when absent
+  ShadingStage shading_stage = ShadingStage::measured;
   /// Knobs that trade error for time; none: faithful. Without a defect() for the soup.
   std::optional<RenderPreset> preset = {};
 };
@@ -103,6 +113,9 @@ struct RenderPlan {
   /// What a deferred plan stores of the nearest fragment; features only where color_mlp and
   /// depth_rejects_background.
   RenderPreset::FeatureStorage feature_storage = RenderPreset::FeatureStorage::visibility;
+  /// `fragment` where there is no choice; `measured` leaves it to the first frame
+  /// (shading_pass.hpp).
+  ShadingStage shading_stage = ShadingStage::fragment;
   /// Alpha to coverage of so many samples a pixel instead of the alpha test; 0: none. Forward.
   int coverage_samples = 0;
   /// Rows and columns drawn for each of the picture's, and samples a pixel and axis: one of the two
@@ -119,7 +132,7 @@ struct RenderPlan {
 /// where there is a preset, as Renderer has it; the plan obeys the other knobs. Throws UsageError
 /// when the published pipeline is asked for and cannot draw this soup or is given a knob that it
 /// does not have, and for a preset with a defect(); DeviceLimitError for alpha to coverage where
-/// there is no multisampling.
+/// there is no multisampling, and for the compute stage where there are no compute shaders.
 RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
                      const PlanPreferences& preferences = {});
 

@@ -14,6 +14,8 @@ void plan_published(PlanDraft& draft) {
     throw UsageError(std::string("the published pipeline draws lattice textures with a color MLP; "
                                  "this soup has ") +
                      appearance_name(soup.appearance));
+  if (draft.preferences.shading_stage == ShadingStage::compute)
+    throw UsageError("the published pipeline shades in the fragment stage, never as compute");
   const std::uint32_t level = texture->patches.empty() ? 0 : texture->patches.front().level;
   for (const LatticePatch& patch : texture->patches)
     if (patch.level != level)

@@ -32,6 +32,16 @@ struct Renderer::State {
   std::unique_ptr<Pipeline> pipeline;
   int max_side = 0;
   int width = 0, height = 0;
+  std::optional<StageChoice> told_choice;  // by the last of the plan's sentences
+
+  /// What the frame has measured becomes a sentence of the plan.
+  void tell_choice() {
+    const std::optional<StageChoice> choice = pipeline->shading_choice();
+    if (choice == told_choice) return;
+    if (told_choice) plan.sentences.pop_back();
+    plan.sentences.push_back(sentence_of(*choice));
+    told_choice = choice;
+  }
 };
 
 DeviceLimits device_limits(const gl::Capabilities& capabilities) {
@@ -40,6 +50,7 @@ DeviceLimits device_limits(const gl::Capabilities& capabilities) {
           .clip_control = capabilities.clip_control,
           .half_float_targets = capabilities.half_float_targets,
           .sample_counts = capabilities.sample_counts,
+          .compute_shaders = capabilities.compute_shaders,
           .software = capabilities.software};
 }
 
@@ -113,6 +124,7 @@ void Renderer::draw(const Camera& camera) {
       state_->plan.reversed_depth ? DepthStorage::reversed_float : DepthStorage::fixed_24;
   state_->pipeline->draw({camera, eye, clip_range(state_->bounds, eye, storage)},
                          state_->background);
+  state_->tell_choice();
 }
 
 void Renderer::finish() const { glFinish(); }

@@ -64,6 +64,7 @@ class ResampledPipeline : public Pipeline {
   GLuint visibility_framebuffer() const final { return pipeline_->visibility_framebuffer(); }
   glm::ivec2 sample_size() const final { return pipeline_->sample_size(); }
   std::size_t device_bytes() const final { return pipeline_->device_bytes(); }
+  std::optional<StageChoice> shading_choice() const final { return pipeline_->shading_choice(); }
   void leave_context() final {
     nothing_.forget();
     color_framebuffer_ = {};

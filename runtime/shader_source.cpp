@@ -47,10 +47,18 @@ class Assembler {
   std::set<std::string> included_;
 };
 
+std::string version_line(std::string_view file, gl::Api api) {
+  constexpr std::string_view compute = ".comp";
+  const bool computes =
+      file.size() > compute.size() && file.substr(file.size() - compute.size()) == compute;
+  if (api == gl::Api::es) return computes ? "#version 310 es\n" : "#version 300 es\n";
+  return computes ? "#version 430 core\n" : "#version 330 core\n";
+}
+
 }  // namespace
 
 std::string assemble(const ShaderSource& source, gl::Api api) {
-  std::string out = api == gl::Api::es ? "#version 300 es\n" : "#version 330 core\n";
+  std::string out = version_line(source.file, api);
   // Phones have 16-bit medium floats and 16-bit default integers; texel indices need 32.
   out +=
       "precision highp float;\n"

@@ -1,4 +1,5 @@
-// Complete GLSL for a context from the files of shaders/: the version line, precisions, constants
+// Complete GLSL for a context from the files of shaders/: the version line (the oldest that we draw
+// with, or the oldest with compute shaders for those), precisions, constants
 // from a typed configuration, and #include "file" resolved (each file once).
 #pragma once
 
@@ -11,7 +12,7 @@
 namespace tureen {
 
 struct ShaderSource {
-  std::string_view file;  // such as "shading.frag"
+  std::string_view file;  // such as "shading.frag"; compute shaders end with ".comp"
   /// Becomes `#define NAME VALUE`.
   std::map<std::string, std::string> constants = {};
   /// Texts that stand for #include files of these names (generated code).

@@ -8,15 +8,32 @@
 
 namespace tureen {
 
+namespace {
+
+/// Of the texture that is bound.
+void use_nearest_sampling() {
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+}  // namespace
+
 gl::Texture make_target(const TargetFormat& format, int width, int height) {
   gl::Texture texture = gl::Texture::create();
   glBindTexture(GL_TEXTURE_2D, texture.id());
   glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format.internal_format), width, height, 0,
                format.format, format.type, nullptr);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  use_nearest_sampling();
+  return texture;
+}
+
+gl::Texture make_image_target(const TargetFormat& format, int width, int height) {
+  gl::Texture texture = gl::Texture::create();
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glTexStorage2D(GL_TEXTURE_2D, 1, format.internal_format, width, height);
+  use_nearest_sampling();
   return texture;
 }
 

@@ -24,6 +24,10 @@ inline constexpr TargetFormat depth32f{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT
 /// A texture to draw into; nearest sampling.
 gl::Texture make_target(const TargetFormat& format, int width, int height);
 
+/// The same for what compute shaders write; ES lets them write only to storage that never changes.
+/// Needs ES 3.0 or OpenGL 4.2.
+gl::Texture make_image_target(const TargetFormat& format, int width, int height);
+
 /// `colors` become attachments 0, 1, ..; all of them are drawn to. Leaves it bound. Throws as
 /// require_complete_framebuffer().
 gl::Framebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint depth);

@@ -11,6 +11,7 @@
 #include "runtime/gl/state.hpp"
 #include "runtime/pipeline.hpp"
 #include "runtime/shader_source.hpp"
+#include "runtime/shading_pass.hpp"
 #include "runtime/targets.hpp"
 
 namespace tureen {
@@ -42,11 +43,7 @@ class TureenPipeline final : public Pipeline {
     if (cut_out > 0)
       cut_out_ = program(capabilities.api, "geometry.vert", fragment,
                          {{"ALPHA_TEST", "1"}, {"PARTS", plan.parts.empty() ? "0" : "1"}});
-    if (plan.site == ShadingSite::deferred)
-      shading_ = program(capabilities.api, "full_screen.vert",
-                         FragmentStore::shading_shader(plan.feature_storage),
-                         {{"NO_FACE", "0xffffffffu"},
-                          {"DEPTH_REJECTS_BACKGROUND", plan.depth_rejects_background ? "1" : "0"}});
+    if (plan.site == ShadingSite::deferred) shading_.emplace(plan, shading_sources());
     if (plan.site == ShadingSite::forward && plan.coverage_samples > 0)
       coverage_.emplace(capabilities.api);
     gl::check("TureenPipeline");
@@ -57,7 +54,9 @@ class TureenPipeline final : public Pipeline {
     height_ = height;
     const TargetFormat& depth =
         plan_.reversed_depth ? target_formats::depth32f : target_formats::depth24;
-    color_ = make_target(target_formats::rgba8, width, height);
+    color_ = plan_.shading_stage == ShadingStage::fragment
+                 ? make_target(target_formats::rgba8, width, height)
+                 : make_image_target(target_formats::rgba8, width, height);
     if (coverage_) {
       coverage_->resize({width, height, plan_.coverage_samples, depth.internal_format});
       color_framebuffer_ = make_framebuffer({color_.id()}, 0);
@@ -75,7 +74,15 @@ class TureenPipeline final : public Pipeline {
     if (plan_.reversed_depth) set_clip_control(true);
     if (plan_.site == ShadingSite::deferred) {
       draw_store(frame);
-      draw_shading(frame, background);
+      shading_->draw({.camera = frame,
+                      .background = background,
+                      .store = store_,
+                      .appearance = appearance_,
+                      .color_framebuffer = color_framebuffer_.id(),
+                      .color_texture = color_.id(),
+                      .width = width_,
+                      .height = height_},
+                     timer_);
     } else {
       draw_forward(frame, background);
     }
@@ -85,7 +92,7 @@ class TureenPipeline final : public Pipeline {
 
   void leave_context() override {
     geometry_.leave_context();
-    nothing_.forget();
+    if (shading_) shading_->leave_context();
     color_framebuffer_ = {};
     store_ = {};
     if (coverage_) coverage_->leave_context();
@@ -94,22 +101,47 @@ class TureenPipeline final : public Pipeline {
   GLuint color_texture() const override { return color_.id(); }
   glm::ivec2 sample_size() const override { return {width_, height_}; }
   GLuint visibility_framebuffer() const override { return store_.visibility_framebuffer(); }
+  std::optional<StageChoice> shading_choice() const override {
+    return shading_ ? shading_->choice() : std::nullopt;
+  }
   std::size_t device_bytes() const override {
     return appearance_.device_bytes() + geometry_.device_bytes() +
            (covered_ ? covered_->bytes() : 0);
   }
 
  private:
+  using Constants = std::map<std::string, std::string>;
+
   gl::Program program(gl::Api api, const char* vertex, const char* fragment,
-                      const std::map<std::string, std::string>& constants) const {
-    ShaderSource source{.file = fragment,
+                      const Constants& constants) const {
+    return gl::Program(assemble({.file = vertex, .constants = constants, .generated = {}}, api),
+                       with_appearance(fragment, constants));
+  }
+
+  /// GLSL of a file that reads the appearance.
+  std::string with_appearance(const char* file, const Constants& constants) const {
+    ShaderSource source{.file = file,
                         .constants = appearance_.constants,
                         .generated = {{"appearance.glsl", appearance_.glsl},
                                       {"network.glsl", appearance_.mlp.text}}};
     source.constants["ALPHA_TO_COVERAGE"] = plan_.coverage_samples > 0 ? "1" : "0";
     source.constants.insert(constants.begin(), constants.end());
-    return gl::Program(assemble({.file = vertex, .constants = constants, .generated = {}}, api),
-                       assemble(source, api));
+    return assemble(source, api_);
+  }
+
+  ShadingSources shading_sources() const {
+    const Constants constants{
+        {"NO_FACE", "0xffffffffu"},
+        {"DEPTH_REJECTS_BACKGROUND", plan_.depth_rejects_background ? "1" : "0"},
+        {"GROUP_SIDE", std::to_string(shading_group_side)}};
+    ShadingSources sources{
+        .vertex = assemble({.file = "full_screen.vert"}, api_), .fragment = {}, .compute = {}};
+    if (plan_.shading_stage != ShadingStage::compute)
+      sources.fragment =
+          with_appearance(FragmentStore::shading_shader(plan_.feature_storage), constants);
+    if (plan_.shading_stage != ShadingStage::fragment)
+      sources.compute = with_appearance("shading.comp", constants);
+    return sources;
   }
 
   void set_clip_control(bool zero_to_one) const {
@@ -186,7 +218,7 @@ class TureenPipeline final : public Pipeline {
                          plan_.reversed_depth
                              ? clip_from_view_reversed(frame.camera, frame.range.near)
                              : clip_from_view(frame.camera, frame.range.near, frame.range.far));
-    set_rays(program, frame);
+    set_rays(program, frame.camera);
     const glm::dvec3 forward = -frame.camera.world_from_view_rotation()[2];
     order_.sort(clusters, glm::vec3(frame.eye), glm::vec3(forward), first_slot);
     const auto first = order_.first_vertices(), count = order_.vertex_counts();
@@ -215,49 +247,12 @@ class TureenPipeline final : public Pipeline {
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(vertices_.size()), GL_UNSIGNED_INT, nullptr);
   }
 
-  void draw_shading(const FrameCamera& frame, const glm::vec4& background) {
-    const gl::TimedPass pass(timer_, "shading");
-    glBindFramebuffer(GL_FRAMEBUFFER, color_framebuffer_.id());
-    glDepthMask(GL_FALSE);
-    if (plan_.depth_rejects_background) {
-      glClearBufferfv(GL_COLOR, 0, &background[0]);
-      // The triangle lies at the cleared depth: it passes exactly where something nearer was drawn.
-      glDepthFunc(plan_.reversed_depth ? GL_LESS : GL_GREATER);
-    } else {
-      glDepthFunc(GL_ALWAYS);
-    }
-    shading_.use();
-    appearance_.bind(shading_);
-    set_rays(shading_, frame);
-    set_eye(shading_, frame.eye);
-    shading_.set("background", background);
-    shading_.set("background_depth", plan_.reversed_depth ? 0.0f : 1.0f);
-    store_.bind(shading_, appearance_.unit_count());
-    nothing_.bind();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glDepthMask(GL_TRUE);
-  }
-
-  /// The uniforms of view_direction.glsl: window y runs up, image y down.
-  static void set_rays(const gl::Program& program, const FrameCamera& frame) {
-    const Camera& camera = frame.camera;
-    const glm::dmat3 axes = camera.world_from_view_rotation();
-    const glm::dvec3 per_column = axes[0] / camera.fx;
-    const glm::dvec3 per_row = axes[1] / camera.fy;
-    const glm::dvec3 at_corner =
-        -axes[2] - camera.cx * per_column - (camera.height - camera.cy) * per_row;
-    program.set("ray_at_corner", glm::vec3(at_corner));
-    program.set("ray_per_column", glm::vec3(per_column));
-    program.set("ray_per_row", glm::vec3(per_row));
-  }
-
   const RenderPlan& plan_;
   gl::Api api_;
   bool multi_draw_;
   DeviceAppearance appearance_;
   Geometry geometry_;
-  gl::LocalVertexArray nothing_;
-  gl::Program opaque_, cut_out_, shading_;
+  gl::Program opaque_, cut_out_;
   FrontToBack order_;
   std::optional<CoveredFaces> covered_;  // where faces between pixels are dropped
   gl::Buffer covered_vertices_;
@@ -266,7 +261,8 @@ class TureenPipeline final : public Pipeline {
   int width_ = 0, height_ = 0;
   gl::Texture depth_, color_;
   gl::Framebuffer color_framebuffer_;
-  FragmentStore store_;                     // where the plan is deferred
+  std::optional<ShadingPass> shading_;      // where the plan is deferred
+  FragmentStore store_;                     // there, too
   std::optional<CoverageTarget> coverage_;  // where it asks for alpha to coverage
 };
 

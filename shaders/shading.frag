@@ -1,8 +1,6 @@
 // Colours the pixels that the visibility pass has named.
-#include "appearance.glsl"
-#include "view_direction.glsl"
+#include "visible_color.glsl"
 
-uniform usampler2D visible;  // written by visibility.frag
 #if !DEPTH_REJECTS_BACKGROUND
 uniform vec4 background;
 #endif
@@ -17,6 +15,5 @@ void main() {
     return;
   }
 #endif
-  vec2 b = vec2(fragment.y & 0xffffu, fragment.y >> 16) / 65535.0;
-  color = vec4(fragment_color(fragment.x, b, direction_to_eye(gl_FragCoord.xy)), 1.0);
+  color = visible_color(fragment, gl_FragCoord.xy);
 }

@@ -87,6 +87,15 @@ bool has_timer_queries(Api api) {
 #endif
 }
 
+bool has_compute_shaders(Api api, int version) {
+#ifdef __EMSCRIPTEN__
+  (void)api, (void)version;
+  return false;
+#else
+  return version >= (api == Api::desktop ? 43 : 31);
+#endif
+}
+
 Capabilities query_capabilities(Api api) {
   Capabilities result;
   result.api = api;
@@ -115,6 +124,7 @@ Capabilities query_capabilities(Api api) {
   result.half_float_targets = desktop || version >= 32 ||
                               has_extension("GL_EXT_color_buffer_half_float") ||
                               has_extension("GL_EXT_color_buffer_float");
+  result.compute_shaders = has_compute_shaders(api, version);
   result.sample_counts = query_sample_counts();
   return result;
 }

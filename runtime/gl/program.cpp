@@ -1,5 +1,6 @@
 #include "runtime/gl/program.hpp"
 
+#include <cassert>
 #include <glm/gtc/type_ptr.hpp>
 #include <sstream>
 
@@ -50,6 +51,24 @@ Program::Program(const std::string& vertex_source, const std::string& fragment_s
   const Shader fragment(GL_FRAGMENT_SHADER, fragment_source);
   glAttachShader(object_.id(), vertex.id());
   glAttachShader(object_.id(), fragment.id());
+  link();
+}
+
+Program Program::compute(const std::string& source) {
+  Program program;
+#ifdef __EMSCRIPTEN__
+  (void)source;
+  assert(false && "WebGL has no compute shaders");
+#else
+  program.object_ = Object<ProgramTraits>::create();
+  const Shader shader(GL_COMPUTE_SHADER, source);
+  glAttachShader(program.object_.id(), shader.id());
+  program.link();
+#endif
+  return program;
+}
+
+void Program::link() const {
   glLinkProgram(object_.id());
   GLint linked = 0;
   glGetProgramiv(object_.id(), GL_LINK_STATUS, &linked);

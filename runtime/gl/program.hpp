@@ -19,6 +19,9 @@ class Program {
   /// driver's: throws ContextError with the driver's log and the numbered source.
   Program(const std::string& vertex_source, const std::string& fragment_source);
 
+  /// A compute program, for contexts with Capabilities::compute_shaders; throws as the other.
+  static Program compute(const std::string& source);
+
   void use() const { glUseProgram(object_.id()); }
 
   // Uniforms of the program in use; a name that the linker has removed is ignored.
@@ -32,6 +35,7 @@ class Program {
   void set(const char* name, std::span<const glm::vec4> values) const;
 
  private:
+  void link() const;
   GLint location(const char* name) const { return glGetUniformLocation(object_.id(), name); }
 
   Object<ProgramTraits> object_;

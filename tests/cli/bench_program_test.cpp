@@ -127,6 +127,19 @@ TEST_F(Bench, WhoTakesPartCanBeChosen) {
   EXPECT_NE(ceilings["measurements"][0]["pixels_hash"], ceilings["measurements"][1]["pixels_hash"]);
 }
 
+TEST_F(Bench, EitherShadingStageCanTakePart) {
+  const nlohmann::json json = bench_json({"--only", "tureen-fragment,tureen-compute"});
+  EXPECT_THAT(json["configurations"][0]["options"], ElementsAre("--shading", "fragment"));
+  EXPECT_THAT(json["configurations"][1]["options"], ElementsAre("--shading", "compute"));
+  EXPECT_THAT(json["configurations"][1]["plan"].get<std::vector<std::string>>(),
+              testing::Contains("shading runs as compute, as asked"));
+  EXPECT_EQ(json["measurements"][0]["pixels_hash"], json["measurements"][1]["pixels_hash"]);
+  const nlohmann::json asked = bench_json({"--shading", "compute"})["configurations"];
+  EXPECT_THAT(asked[0]["options"], ElementsAre("--shading", "compute"));
+  EXPECT_THAT(asked[1]["options"], ElementsAre("--shading", "compute", "--no-specialise"));
+  EXPECT_THAT(asked[2]["options"], ElementsAre("--pipeline", "published"));
+}
+
 TEST_F(Bench, ASceneThatThePublishedPipelineCannotDrawIsTimedWithoutIt) {
   write_scene();
   const ChildResult result = run(

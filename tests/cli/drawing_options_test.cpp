@@ -26,6 +26,13 @@ TEST(DrawingOptions, WhatIsToBeKeptIsNotLeftOut) {
   EXPECT_FALSE(parsed("--no-specialise").specialise);
 }
 
+TEST(DrawingOptions, TheShadingStageIsMeasuredUnlessToldOtherwise) {
+  EXPECT_EQ(parsed("").shading_stage, ShadingStage::measured);
+  EXPECT_EQ(parsed("--shading fragment").shading_stage, ShadingStage::fragment);
+  EXPECT_EQ(parsed("--shading compute").shading_stage, ShadingStage::compute);
+  EXPECT_THROW(parsed("--shading vertex"), UsageError);
+}
+
 TEST(DrawingOptions, AnUnknownNameIsRefusedWithTheNearest) {
   try {
     parsed("--keep alpha-tset");
