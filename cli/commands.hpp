@@ -25,5 +25,6 @@ void add_plot(CLI::App& program, Action& action);
 void add_render(CLI::App& program, Action& action);
 void add_tradeoff(CLI::App& program, Action& action, std::vector<std::string> arguments);
 void add_train(CLI::App& program, Action& action);
+void add_view(CLI::App& program, Action& action);
 
 }  // namespace tureen::cli

@@ -103,6 +103,7 @@ int run_program(int argc, char** argv) {
   program.footer(R"(Examples:
   tureen render soup.glb -o picture.png
   tureen info soup.glb
+  tureen view soup.glb
   tureen COMMAND --help               what a command takes, with examples
 
 Exit codes: 0 done, 1 the comparison or the check failed, 2 wrong usage, 3 the input is
@@ -110,6 +111,7 @@ bad, 4 no OpenGL context, 5 anything else.)");
 
   Action action;
   add_render(program, action);
+  add_view(program, action);
   add_train(program, action);
   add_info(program, action);
   add_convert(program, action);

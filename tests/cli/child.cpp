@@ -30,9 +30,10 @@ void redirect(const char* path, int flags, int target) {
 
 }  // namespace
 
-Child::Child(const std::vector<std::string>& arguments, std::filesystem::path folder)
+Child::Child(const std::vector<std::string>& arguments, std::filesystem::path folder,
+             const std::string& program)
     : folder_(std::move(folder)) {
-  std::vector<std::string> words{TUREEN_PROGRAM};
+  std::vector<std::string> words{program.empty() ? TUREEN_PROGRAM : program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());

@@ -18,8 +18,10 @@ struct ChildResult {
 /// A program that runs beside the test. Ended hard where the test forgets it.
 class Child {
  public:
-  /// `tureen` with these arguments, in `folder`.
-  Child(const std::vector<std::string>& arguments, std::filesystem::path folder);
+  /// `program`, the one that the test was built for (`tureen`) where it is empty, with these
+  /// arguments, in `folder`.
+  Child(const std::vector<std::string>& arguments, std::filesystem::path folder,
+        const std::string& program = "");
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
   ~Child();

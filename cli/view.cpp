@@ -1,0 +1,65 @@
+// `tureen view`: starts the window, a program of its own, so that this one needs no window
+// libraries.
+#include <cerrno>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+#ifdef _WIN32
+#include <process.h>
+#else
+#include <unistd.h>
+#endif
+
+#include "cli/commands.hpp"
+#include "soup/error.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+constexpr const char* window_program = "tureen-view";
+
+/// Beside this program, or wherever PATH has it.
+std::string find_window_program() {
+  std::error_code failed;
+  const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe", failed);
+  if (!failed)
+    if (const auto beside = own.parent_path() / window_program;
+        std::filesystem::exists(beside, failed))
+      return beside.string();
+  return window_program;
+}
+
+/// Becomes the other program; comes back only where that cannot be.
+ExitCode become_window(const std::vector<std::string>& arguments) {
+  const std::string program = find_window_program();
+  std::vector<char*> argv{const_cast<char*>(program.c_str())};  // execvp changes none of them
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+#ifdef _WIN32
+  const auto status = _spawnvp(_P_WAIT, program.c_str(), argv.data());
+  if (status >= 0) return static_cast<ExitCode>(status);
+#else
+  execvp(program.c_str(), argv.data());
+#endif
+  if (errno == ENOENT)
+    throw UsageError("the window is a program of its own, " + std::string(window_program) +
+                     ", which is neither beside this one nor on PATH: build it with GLFW and Dear "
+                     "ImGui (libglfw3-dev, libimgui-dev). tureen render draws without it");
+  throw OutputError({program, {}, {}}, "cannot be started");
+}
+
+}  // namespace
+
+void add_view(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("view", "A window to look around in");
+  // All that follows, --help too, is the other program's.
+  command->set_help_flag();
+  command->prefix_command();
+  command->callback([command, &action] {
+    action = [arguments = command->remaining()] { return become_window(arguments); };
+  });
+}
+
+}  // namespace tureen::cli

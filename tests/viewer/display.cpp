@@ -1,0 +1,40 @@
+#include "viewer/display.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <stdexcept>
+
+namespace tureen::test {
+
+Display::Display() {
+  int ends[2];
+  if (::pipe(ends) != 0) throw std::runtime_error("no pipe can be made");
+  pid_ = ::fork();
+  if (pid_ < 0) throw std::runtime_error("no process can be made");
+  if (pid_ == 0) {
+    // The server says on this descriptor which number it took: no two tests fight for one.
+    const std::string descriptor = std::to_string(ends[1]);
+    const int nowhere = ::open("/dev/null", O_WRONLY);
+    ::dup2(nowhere, STDERR_FILENO);
+    ::execlp("Xvfb", "Xvfb", "-displayfd", descriptor.c_str(), "-screen", "0", "1600x1200x24",
+             "-nolisten", "tcp", static_cast<char*>(nullptr));
+    ::_exit(127);
+  }
+  ::close(ends[1]);
+  std::string number;
+  for (char letter = 0; ::read(ends[0], &letter, 1) == 1 && letter != '\n';) number += letter;
+  ::close(ends[0]);
+  if (number.empty()) throw std::runtime_error("Xvfb did not start: is xvfb installed?");
+  ::setenv("DISPLAY", (":" + number).c_str(), 1);
+}
+
+Display::~Display() {
+  ::kill(pid_, SIGTERM);
+  ::waitpid(pid_, nullptr, 0);
+}
+
+}  // namespace tureen::test

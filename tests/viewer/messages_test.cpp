@@ -1,0 +1,32 @@
+// Notes fade, errors stay.
+#include "viewer/messages.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tureen::viewer {
+namespace {
+
+TEST(Messages, NotesFadeAndErrorsStay) {
+  Messages messages;
+  messages.note("saved", 1.0);
+  messages.error("bad.glb", "it is cut short", 1.0);
+  EXPECT_TRUE(messages.fading());
+  messages.age(1.0 + Messages::note_seconds + 0.1);
+  ASSERT_EQ(messages.list().size(), 1u);
+  EXPECT_EQ(messages.list()[0].title, "bad.glb");
+  EXPECT_FALSE(messages.fading());
+  messages.dismiss(0);
+  EXPECT_TRUE(messages.list().empty());
+}
+
+TEST(Messages, TheSameAgainIsNotASecondOne) {
+  Messages messages;
+  for (int i = 0; i < 3; ++i) messages.error("bad.glb", "it is cut short", i);
+  EXPECT_EQ(messages.list().size(), 1u);
+  for (int i = 0; i < 30; ++i) messages.note(std::to_string(i), i);
+  EXPECT_EQ(messages.list().size(), Messages::most);
+  EXPECT_EQ(messages.list().back().text, "29");
+}
+
+}  // namespace
+}  // namespace tureen::viewer

@@ -1,0 +1,92 @@
+// Which drag and which key moves what. The movements themselves are runtime/camera_controls's.
+#include "viewer/navigation_input.hpp"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+namespace tureen::viewer {
+namespace {
+
+constexpr NavigationInput::Taken nobodys{};
+
+struct NavigationTest : testing::Test {
+  NavigationTest() {
+    controls.set_smoothing(0);
+    controls.set_viewport(800, 600);
+    send(PointerMoved{400, 300});
+  }
+  void send(const Event& event, NavigationInput::Taken taken = nobodys) {
+    input.handle(event, taken, controls);
+  }
+  void drag(Button button, double dx, double dy, NavigationInput::Taken taken = nobodys) {
+    send(ButtonChanged{button, true}, taken);
+    send(PointerMoved{400 + dx, 300 + dy}, taken);
+    send(ButtonChanged{button, false}, taken);
+    send(PointerMoved{400, 300});
+  }
+  CameraControls controls;
+  NavigationInput input;
+};
+
+TEST_F(NavigationTest, ALeftDragTurnsAboutTheTarget) {
+  const glm::dvec3 eye = controls.eye(), target = controls.target();
+  drag(Button::left, 50, 0);
+  EXPECT_EQ(controls.target(), target);
+  EXPECT_GT(glm::distance(controls.eye(), eye), 0.01);
+}
+
+TEST_F(NavigationTest, ARightDragAndShiftWithTheLeftMoveAlong) {
+  for (const bool shift : {false, true}) {
+    const glm::dvec3 target = controls.target();
+    if (shift) send(KeyChanged{Key::shift, true});
+    drag(shift ? Button::left : Button::right, 50, 0);
+    if (shift) send(KeyChanged{Key::shift, false});
+    EXPECT_GT(glm::distance(controls.target(), target), 0.01) << "shift " << shift;
+  }
+}
+
+TEST_F(NavigationTest, ADragThatBeganOnAPanelIsThePanels) {
+  const glm::dvec3 eye = controls.eye();
+  drag(Button::left, 50, 0, {.pointer = true});
+  EXPECT_EQ(controls.eye(), eye);
+  send(Scrolled{0, 1}, {.pointer = true});
+  EXPECT_EQ(controls.eye(), eye);
+  EXPECT_FALSE(input.dragging());
+}
+
+TEST_F(NavigationTest, ADragThatBeganOnThePictureStaysThere) {
+  const glm::dvec3 eye = controls.eye();
+  send(ButtonChanged{Button::left, true});
+  send(PointerMoved{500, 300}, {.pointer = true});  // now over a panel
+  EXPECT_GT(glm::distance(controls.eye(), eye), 0.01);
+}
+
+TEST_F(NavigationTest, KeysFlyFasterAndSlower) {
+  send(KeyChanged{Key::w, true});
+  EXPECT_EQ(controls.mode(), NavigationMode::fly);
+  EXPECT_EQ(input.flight().direction, glm::dvec3(0, 0, -1));
+  EXPECT_EQ(input.flight().factor, 1);
+  send(KeyChanged{Key::shift, true});
+  EXPECT_EQ(input.flight().factor, fast_factor);
+  send(KeyChanged{Key::shift, false});
+  send(KeyChanged{Key::alt, true});
+  EXPECT_EQ(input.flight().factor, slow_factor);
+  send(KeyChanged{Key::d, true});
+  EXPECT_NEAR(glm::length(input.flight().direction), 1, 1e-15) << "not faster across";
+  send(FocusChanged{false});
+  EXPECT_FALSE(input.flying()) << "keys let go of elsewhere";
+}
+
+TEST_F(NavigationTest, LettersTypedIntoAFieldOrWithCtrlFlyNowhere) {
+  send(KeyChanged{Key::w, true}, {.keys = true});
+  EXPECT_FALSE(input.flying());
+  send(KeyChanged{Key::w, false});
+  send(KeyChanged{Key::control, true});
+  send(KeyChanged{Key::s, true});
+  EXPECT_FALSE(input.flying());
+  EXPECT_EQ(controls.mode(), NavigationMode::orbit);
+}
+
+}  // namespace
+}  // namespace tureen::viewer

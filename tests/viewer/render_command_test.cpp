@@ -1,0 +1,93 @@
+// The command line that draws the window's picture: what a shell and tureen render make of it is
+// the same camera.
+#include "viewer/render_command.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <sstream>
+
+#include "runtime/camera_controls.hpp"
+
+namespace tureen::viewer {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// The words that a POSIX shell makes of a line.
+std::vector<std::string> words_of(const std::string& line) {
+  std::FILE* shell =
+      popen(("for word in " + line + "; do printf '%s\\n' \"$word\"; done").c_str(), "r");
+  std::string text;
+  for (int letter = 0; (letter = std::fgetc(shell)) != EOF;) text += char(letter);
+  pclose(shell);
+  std::vector<std::string> words;
+  std::istringstream stream(text);
+  for (std::string word; std::getline(stream, word);) words.push_back(word);
+  return words;
+}
+
+glm::dvec3 vector_after(const std::vector<std::string>& words, const std::string& option) {
+  const auto at = std::find(words.begin(), words.end(), option);
+  glm::dvec3 v(0.0);
+  EXPECT_NE(at, words.end());
+  EXPECT_EQ(std::sscanf(at[1].c_str(), "%lf,%lf,%lf", &v.x, &v.y, &v.z), 3) << at[1];
+  return v;
+}
+
+StageSource source(const std::string& path) {
+  StageSource result;
+  result.path = path;
+  return result;
+}
+
+TEST(RenderCommand, NamesTheSameCamera) {
+  CameraControls controls({.low = {100, -2, 3}, .high = {104, 5, 9}, .up = {0, 0, 1}});
+  controls.set_smoothing(0);
+  controls.orbit(37, -12);
+  controls.pan(5, 7);
+  controls.set_fov(0.7);
+  const Camera camera = controls.camera(801, 633);
+  ASSERT_FALSE(needs_camera_file(camera));
+  const auto words = words_of(render_command(source("it's a soup.glb"), {}, camera, ""));
+  ASSERT_GE(words.size(), 3u);
+  EXPECT_EQ(words[2], "it's a soup.glb") << "quoted for the shell";
+  double fov = 0;
+  const auto at = std::find(words.begin(), words.end(), "--fov");
+  ASSERT_EQ(std::sscanf(at[1].c_str(), "%lf", &fov), 1);
+  const Camera read = look_at(vector_after(words, "--eye"), vector_after(words, "--target"),
+                              vector_after(words, "--up"), fov / 57.295779513082320877, 801, 633);
+  // Rounding alone: far below the 1/256 pixel that vertices snap to.
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row)
+      EXPECT_NEAR(read.view_from_world[column][row], camera.view_from_world[column][row], 1e-11);
+  EXPECT_NEAR(read.fy, camera.fy, 1e-9);
+  EXPECT_NEAR(read.cx, camera.cx, 1e-9);
+}
+
+TEST(RenderCommand, WhatOptionsCannotSayComesFromAFile) {
+  Camera camera = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.8, 400, 300);
+  camera.cx += 3;
+  ASSERT_TRUE(needs_camera_file(camera));
+  const std::string command = render_command(source("a.glb"), {}, camera, "a-1.camera.json");
+  EXPECT_THAT(command, HasSubstr("--camera a-1.camera.json"));
+  EXPECT_THAT(command, Not(HasSubstr("--eye")));
+}
+
+TEST(RenderCommand, SaysHowItIsDrawn) {
+  const Camera camera = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.8, 400, 300);
+  DrawingChoice choice;
+  choice.supersampling = 3;
+  choice.plan.leave_out = LeaveOutSet::all().without(LeaveOut::alpha_test);
+  choice.obey_preset = false;
+  const std::string command = render_command(source("a.glb"), choice, camera, "");
+  EXPECT_THAT(command, HasSubstr("--supersample 3"));
+  EXPECT_THAT(command, HasSubstr("--keep alpha-test"));
+  EXPECT_THAT(command, HasSubstr("--preset"));
+}
+
+}  // namespace
+}  // namespace tureen::viewer

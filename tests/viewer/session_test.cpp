@@ -1,0 +1,105 @@
+// Session files: what is recorded comes back, and what people write wrong is told by its place.
+#include "viewer/session.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "soup/error.hpp"
+
+namespace tureen::viewer {
+namespace {
+
+using testing::HasSubstr;
+
+std::filesystem::path written(const std::string& text) {
+  const std::filesystem::path path =
+      std::filesystem::path(testing::TempDir()) /
+      (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".json");
+  std::ofstream(path) << text;
+  return path;
+}
+
+Session read(const std::string& text) { return read_session(written(text)); }
+
+std::string refusal(const std::string& text) {
+  try {
+    read(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "it was read";
+}
+
+std::string with_event(const std::string& event) {
+  return R"({"tureen_session": 1, "window": [640, 480], "events": [)" + event + "]}";
+}
+
+TEST(Session, ComesBackAsItWasRecorded) {
+  Recorder recorder({800, 600});
+  const std::vector<Event> first = {PointerMoved{0.1, -3}, ButtonChanged{Button::middle, true},
+                                    Scrolled{0, -1}, KeyChanged{Key::left_bracket, true}};
+  const std::vector<Event> second = {TextTyped{0x20ac}, FilesDropped{{"a b.glb", "\"quoted\".off"}},
+                                     Resized{20, 10},   FocusChanged{false},
+                                     AwaitRest{},       WindowPictured{"x.png"},
+                                     CloseAsked{}};
+  recorder.add(0.1, first);
+  recorder.add(1.0 / 3, second);
+  const std::string text = session_to_json(recorder.session());
+  const Session session = read(text);
+  EXPECT_EQ(session.window, glm::ivec2(800, 600));
+  ASSERT_EQ(session.events.size(), first.size() + second.size());
+  EXPECT_EQ(session.events.back().seconds, 1.0 / 3) << "bit by bit";
+  EXPECT_EQ(session_to_json(session), text);
+  EXPECT_EQ(std::get<FilesDropped>(session.events[5].event).paths.at(1), "\"quoted\".off");
+}
+
+TEST(Session, EveryKeyHasANameOfItsOwn) {
+  for (int i = 0; i < key_count; ++i)
+    EXPECT_EQ(key_named(name_of(Key(i))), std::optional(Key(i))) << name_of(Key(i));
+  EXPECT_EQ(key_named("Nonsense"), std::nullopt);
+}
+
+TEST(Session, WhatIsWrongIsToldByItsPlace) {
+  EXPECT_THAT(refusal("{"), HasSubstr("WhatIsWrongIsToldByItsPlace.json"));
+  EXPECT_THAT(refusal(R"({"tureen_session": 2, "window": [1, 1], "events": []})"),
+              HasSubstr("version 1"));
+  EXPECT_THAT(refusal(R"({"tureen_session": 1, "window": [0, 1], "events": []})"),
+              HasSubstr("at least a point"));
+  EXPECT_THAT(refusal(with_event(R"({"at": 0, "key": "Wx", "down": true})")),
+              HasSubstr("events[0].key: there is no key \"Wx\""));
+  EXPECT_THAT(refusal(with_event(R"({"at": 0, "dance": true})")),
+              HasSubstr("events[0]: an event is one of"));
+  EXPECT_THAT(refusal(with_event(R"({"at": 1, "await": true}, {"at": 0.5, "await": true})")),
+              HasSubstr("events[1].at: time falls"));
+  EXPECT_THAT(refusal(with_event(R"({"at": 0, "pointer": [1]})")), HasSubstr("two numbers"));
+  EXPECT_THAT(refusal(with_event(R"({"at": 0, "button": "left"})")), HasSubstr("down"));
+}
+
+TEST(Replay, DealsByItsOwnClock) {
+  Replay replay(read(with_event(R"({"at": 0, "wheel": [0, 1]}, {"at": 0.05, "wheel": [0, 2]})")));
+  EXPECT_EQ(replay.next(true).events.size(), 1u);
+  int frames = 1;
+  while (!replay.finished()) {
+    replay.next(true);
+    ++frames;
+  }
+  EXPECT_EQ(frames, 3) << "0.05 s are three frames of a sixtieth";
+}
+
+TEST(Replay, WaitsForRestAndEndsAFrameWithAPicture) {
+  Replay replay(read(with_event(
+      R"({"at": 0, "await": true}, {"at": 0, "picture": "a.png"}, {"at": 0, "wheel": [0, 1]})")));
+  for (int i = 0; i < 10; ++i) EXPECT_TRUE(replay.next(false).events.empty());
+  EXPECT_EQ(replay.now(), 0) << "the clock stands while it waits";
+  const Replay::Step picture = replay.next(true);
+  ASSERT_EQ(picture.events.size(), 1u);
+  EXPECT_TRUE(std::holds_alternative<WindowPictured>(picture.events[0]));
+  EXPECT_EQ(replay.next(true).events.size(), 1u);
+  EXPECT_TRUE(replay.finished());
+}
+
+}  // namespace
+}  // namespace tureen::viewer

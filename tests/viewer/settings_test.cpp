@@ -1,0 +1,79 @@
+// Settings between runs.
+#include "viewer/settings.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "soup/error.hpp"
+
+namespace tureen::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path folder() {
+  const fs::path path =
+      fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  fs::remove_all(path);
+  fs::create_directories(path);
+  return path;
+}
+
+TEST(Settings, ComeBackAsTheyWereLeft) {
+  const fs::path file = folder() / "tureen" / "viewer.json";
+  Settings settings{.window = {999, 777},
+                    .vsync = false,
+                    .smooth_motion = false,
+                    .show_frame_times = true,
+                    .recent = {},
+                    .pictures = "/some where"};
+  remember(settings, "/b.glb");
+  remember(settings, "/a folder/");
+  remember(settings, "/b.glb");
+  write_settings(settings, file);
+  const Settings read = read_settings(file);
+  EXPECT_EQ(read.window, settings.window);
+  EXPECT_EQ(read.vsync, false);
+  EXPECT_EQ(read.smooth_motion, false);
+  EXPECT_EQ(read.show_frame_times, true);
+  EXPECT_EQ(read.pictures, "/some where");
+  EXPECT_THAT(read.recent, testing::ElementsAre("/b.glb", "/a folder")) << "newest first, once";
+}
+
+TEST(Settings, OnlyTheNewestScenesAreRemembered) {
+  Settings settings;
+  for (int i = 0; i < 40; ++i) remember(settings, "/" + std::to_string(i));
+  ASSERT_EQ(settings.recent.size(), most_recent);
+  EXPECT_EQ(settings.recent.front(), "/39");
+}
+
+TEST(Settings, WithoutAFileThereAreDefaults) {
+  EXPECT_EQ(read_settings(folder() / "none.json").window, Settings{}.window);
+}
+
+TEST(Settings, AFileThatIsNotOursIsRefusedWithItsName) {
+  const fs::path file = folder() / "viewer.json";
+  for (const char* text : {"[1]", "{\"vsync\": 3}", "{\"recent\": [1]}", "{"}) {
+    std::ofstream(file) << text;
+    try {
+      read_settings(file);
+      ADD_FAILURE() << text << " was read";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("viewer.json")) << text;
+    }
+  }
+}
+
+TEST(Settings, LieWhereTheEnvironmentSays) {
+  ::setenv("XDG_CONFIG_HOME", "/somewhere/config", 1);
+  EXPECT_EQ(settings_file(), std::optional<fs::path>("/somewhere/config/tureen/viewer.json"));
+  ::setenv("XDG_CONFIG_HOME", "relative", 1);
+  ::setenv("HOME", "/home/someone", 1);
+  EXPECT_EQ(settings_file(), std::optional<fs::path>("/home/someone/.config/tureen/viewer.json"));
+}
+
+}  // namespace
+}  // namespace tureen::viewer

@@ -1,0 +1,260 @@
+// The window itself, as a person uses it: sessions replayed under an X server that draws into
+// memory, what the window shows held against goldens, and its pictures against `tureen render`.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "cli/child.hpp"
+#include "formats/input.hpp"
+#include "formats/png.hpp"
+#include "support/golden.hpp"
+#include "viewer/display.hpp"
+#include "viewer/session.hpp"
+
+namespace tureen::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using namespace tureen::viewer;
+
+/// One server for all tests of this process.
+class DisplayEnvironment : public testing::Environment {
+ public:
+  void SetUp() override { display_ = std::make_unique<Display>(); }
+  void TearDown() override { display_.reset(); }
+
+ private:
+  std::unique_ptr<Display> display_;
+};
+[[maybe_unused]] const auto* const environment =
+    testing::AddGlobalTestEnvironment(new DisplayEnvironment);  // GoogleTest owns it
+
+/// What a person does, a step after the other. Times are of the session's own clock.
+class Person {
+ public:
+  explicit Person(glm::ivec2 window = {720, 450}) { session_.window = window; }
+
+  Person& wait() { return add(AwaitRest{}); }
+  Person& press(Key key) { return add(KeyChanged{key, true}).add(KeyChanged{key, false}); }
+  Person& press_with_control(Key key) {
+    return add(KeyChanged{Key::control, true}).press(key).add(KeyChanged{Key::control, false});
+  }
+  Person& hold(Key key, double seconds) {
+    add(KeyChanged{key, true});
+    now_ += seconds;
+    return add(KeyChanged{key, false});
+  }
+  Person& drag(Button button, glm::dvec2 from, glm::dvec2 to) {
+    add(PointerMoved{from.x, from.y}).add(ButtonChanged{button, true});
+    for (int i = 1; i <= 5; ++i) {
+      const glm::dvec2 at = from + (to - from) * (i / 5.0);
+      add(PointerMoved{at.x, at.y});
+    }
+    return add(ButtonChanged{button, false});
+  }
+  Person& click(glm::dvec2 at) { return drag(Button::left, at, at); }
+  Person& turn_wheel(double away) { return add(Scrolled{0, away}); }
+  Person& drop(const std::string& path) { return add(FilesDropped{{path}}); }
+  Person& resize(glm::ivec2 size) { return add(Resized{size.x, size.y}); }
+  Person& replace(const std::string& file, const std::string& with) {
+    return add(FileReplaced{.from = with, .to = file});
+  }
+  /// Waits until all is at rest, then a picture of the window.
+  Person& look(const std::string& name) { return wait().add(WindowPictured{name + ".png"}); }
+
+  const Session& session() const { return session_; }
+
+ private:
+  Person& add(Event event) {
+    now_ += 0.02;
+    session_.events.push_back({now_, std::move(event)});
+    return *this;
+  }
+  Session session_;
+  double now_ = 0;
+};
+
+class Window : public testing::Test {
+ protected:
+  Window()
+      : folder_(fs::path(testing::TempDir()) / "window" /
+                testing::UnitTest::GetInstance()->current_test_info()->name()) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    fs::copy(fs::path(TUREEN_SOURCE_DIR) / "examples/soup.glb", folder_ / "soup.glb");
+    ::setenv("XDG_CONFIG_HOME", (folder_ / "config").c_str(), 1);
+  }
+
+  ChildResult replay(const Person& person, std::vector<std::string> arguments = {"soup.glb"}) {
+    std::ofstream(folder_ / "session.json") << session_to_json(person.session());
+    arguments.insert(arguments.end(), {"--replay", "session.json", "--pictures", "pictures"});
+    return Child(arguments, folder_).wait();
+  }
+  Image8 picture(const std::string& name) const {
+    Input input = Input::open(folder_ / "pictures" / (name + ".png"));
+    return read_image(input);
+  }
+  /// The picture of `tureen render` with these options.
+  Image8 rendered(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), {"render", "soup.glb"});
+    arguments.insert(arguments.end(), {"-o", "rendered.png"});
+    const ChildResult result = Child(arguments, folder_, TUREEN_HEADLESS_PROGRAM).wait();
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    Input input = Input::open(folder_ / "rendered.png");
+    return read_image(input);
+  }
+
+  fs::path folder_;
+};
+
+void expect_equal(const Image8& a, const Image8& b) {
+  ASSERT_EQ(a.width, b.width);
+  ASSERT_EQ(a.height, b.height);
+  std::size_t off = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) off += a.pixels[i] != b.pixels[i];
+  EXPECT_EQ(off, 0u) << "pixels of " << a.pixels.size();
+}
+
+TEST_F(Window, ShowsTheSceneAndItsPanels) {
+  const ChildResult result = replay(Person().look("loaded"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  expect_golden(picture("loaded"), "window_loaded");
+}
+
+TEST_F(Window, OrbitsFliesAndSwitchesViews) {
+  const ChildResult result = replay(Person()
+                                        .wait()
+                                        .press(Key::digit_7)
+                                        .drag(Button::left, {150, 200}, {230, 180})
+                                        .turn_wheel(2)
+                                        .drag(Button::right, {150, 200}, {160, 230})
+                                        .look("orbited")
+                                        .hold(Key::w, 0.4)
+                                        .hold(Key::d, 0.2)
+                                        .drag(Button::left, {150, 200}, {130, 210})
+                                        .look("flown"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  expect_golden(picture("orbited"), "window_orbited");
+  expect_golden(picture("flown"), "window_flown");
+}
+
+TEST_F(Window, ABadFileShowsItsErrorAndTheOldSceneStays) {
+  std::ofstream(folder_ / "bad.glb") << "glTF, it says";
+  const ChildResult result = replay(Person().wait().drop("bad.glb").look("bad"));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("bad.glb cannot be shown"));
+  expect_golden(picture("bad"), "window_bad_file");
+}
+
+TEST_F(Window, WithoutASceneAsksForOne) {
+  const ChildResult result = replay(Person().look("empty").press(Key::f1).look("keys"), {});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  expect_golden(picture("empty"), "window_empty");
+  expect_golden(picture("keys"), "window_keys");
+}
+
+// Without panels the window is the picture: the very pixels of the program without a window.
+TEST_F(Window, ShowsThePictureOfTureenRender) {
+  const ChildResult result = replay(Person({640, 400})
+                                        .wait()
+                                        .press(Key::h)
+                                        .press(Key::right_bracket)
+                                        .press(Key::right_bracket)
+                                        .look("second"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  expect_equal(picture("second"), rendered({"--camera", "soup.glb:1", "--size", "640x400"}));
+}
+
+TEST_F(Window, SavesPicturesUnderNewNames) {
+  const ChildResult result = replay(Person({640, 400})
+                                        .wait()
+                                        .press(Key::h)
+                                        .press(Key::right_bracket)
+                                        .press_with_control(Key::s)
+                                        .wait()
+                                        .press_with_control(Key::s)
+                                        .wait());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const Image8 expected = rendered({"--camera", "soup.glb:0", "--size", "640x400"});
+  expect_equal(picture("soup-1"), expected);
+  expect_equal(picture("soup-2"), expected);
+}
+
+TEST_F(Window, WorksOnEs) {
+  const Person person = Person().wait().press(Key::digit_7).look("es");
+  const ChildResult es = replay(person, {"soup.glb", "--api", "es"});
+  EXPECT_EQ(es.exit_code, 0) << es.err;
+  expect_golden(picture("es"), "window_three_quarter", "es");
+  const ChildResult desktop = replay(person);
+  EXPECT_EQ(desktop.exit_code, 0) << desktop.err;
+  expect_golden(picture("es"), "window_three_quarter");
+}
+
+TEST_F(Window, FollowsItsSize) {
+  const ChildResult result = replay(
+      Person().wait().press(Key::h).press(Key::right_bracket).resize({500, 300}).look("small"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  expect_equal(picture("small"), rendered({"--camera", "soup.glb:0", "--size", "500x300"}));
+}
+
+TEST_F(Window, AFileThatChangesOnTheDiskIsReadAgain) {
+  constexpr const char* corners = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n";
+  std::ofstream(folder_ / "scene.off") << corners << "3 0 1 2 255 0 0\n";
+  std::ofstream(folder_ / "next.off") << corners << "3 0 1 2 0 0 255\n";
+  const ChildResult result = replay(Person({320, 240})
+                                        .wait()
+                                        .press(Key::h)
+                                        .look("before")
+                                        .replace("scene.off", "next.off")
+                                        .hold(Key::super, 4)  // it is looked at once a second
+                                        .look("after"),
+                                    {"scene.off"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const Image8 before = picture("before"), after = picture("after");
+  const auto count = [](const Image8& image, glm::u8vec4 color) {
+    return std::count(image.pixels.begin(), image.pixels.end(), color);
+  };
+  const glm::u8vec4 red(255, 0, 0, 255), blue(0, 0, 255, 255);
+  EXPECT_GT(count(before, red), 1000);
+  EXPECT_EQ(count(before, blue), 0);
+  EXPECT_EQ(count(after, red), 0);
+  EXPECT_EQ(count(after, blue), count(before, red)) << "from the same view";
+}
+
+TEST_F(Window, TheSameSessionShowsTheSame) {
+  const Person person = Person().wait().press(Key::digit_7).hold(Key::w, 0.3).look("once");
+  EXPECT_EQ(replay(person).exit_code, 0);
+  const Image8 once = picture("once");
+  EXPECT_EQ(replay(person).exit_code, 0);
+  expect_equal(once, picture("once"));
+}
+
+TEST_F(Window, WhatCannotBeIsSaid) {
+  ChildResult result = Child({"--size", "8"}, folder_).wait();
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--size wants"));
+  result = Child({"--replay", "none.json"}, folder_).wait();
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, HasSubstr("none.json"));
+  const std::string display = std::getenv("DISPLAY");
+  ::unsetenv("DISPLAY");
+  result = Child({"soup.glb"}, folder_).wait();
+  ::setenv("DISPLAY", display.c_str(), 1);
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_THAT(result.err, HasSubstr("tureen render"));
+}
+
+// `tureen view` is the same program.
+TEST_F(Window, IsStartedByTureenView) {
+  const ChildResult help = Child({"view", "--help"}, folder_, TUREEN_HEADLESS_PROGRAM).wait();
+  EXPECT_EQ(help.exit_code, 0) << help.err;
+  EXPECT_THAT(help.out, HasSubstr("tureen view"));
+}
+
+}  // namespace
+}  // namespace tureen::test

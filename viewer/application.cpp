@@ -1,0 +1,258 @@
+#include "viewer/application.hpp"
+
+#include <algorithm>
+#include <bitset>
+#include <glm/common.hpp>
+#include <utility>
+
+#include "formats/output.hpp"
+#include "formats/png.hpp"
+#include "runtime/gl/api.hpp"
+#include "runtime/gl/state.hpp"
+#include "runtime/targets.hpp"
+#include "viewer/panels.hpp"
+#include "viewer/shortcuts.hpp"
+
+namespace tureen::viewer {
+
+namespace {
+
+/// Dear ImGui reacts to an event in the frame after it: one to take it in, one to show.
+constexpr int frames_after_event = 3;
+
+/// How long the window sleeps when nothing happens: what it looks at by itself are files.
+constexpr double idle_seconds = 0.5;
+
+/// After a pause (the window was idle, the machine asleep) no more than this is flown at once.
+constexpr double longest_step = 0.1;
+
+WindowOptions window_options(const ApplicationOptions& options, const Settings& settings) {
+  WindowOptions result{.api = options.api, .size = settings.window};
+  if (options.replay) result.size = options.replay->window;
+  if (options.window) result.size = *options.window;
+  return result;
+}
+
+Settings settings_of(const ApplicationOptions& options) {
+  return options.settings ? read_settings(*options.settings) : Settings{};
+}
+
+/// The events of a frame: no button or key changes twice within one, or whoever only looks at
+/// states once a frame would miss a click.
+std::vector<Event> take_frame(std::vector<Event>& pending) {
+  std::bitset<key_count> keys;
+  std::bitset<3> buttons;
+  std::size_t count = 0;
+  for (; count < pending.size(); ++count) {
+    if (const auto* key = std::get_if<KeyChanged>(&pending[count])) {
+      if (keys.test(std::size_t(key->key))) break;
+      keys.set(std::size_t(key->key));
+    }
+    if (const auto* button = std::get_if<ButtonChanged>(&pending[count])) {
+      if (buttons.test(std::size_t(button->button))) break;
+      buttons.set(std::size_t(button->button));
+    }
+    if (std::holds_alternative<WindowPictured>(pending[count])) {
+      ++count;
+      break;
+    }
+  }
+  const auto end = pending.begin() + static_cast<std::ptrdiff_t>(count);
+  std::vector<Event> result(std::make_move_iterator(pending.begin()), std::make_move_iterator(end));
+  pending.erase(pending.begin(), end);
+  return result;
+}
+
+/// What the layout is scaled by: where points are larger than pixels, they are that already.
+double layout_scale(const Window& window) {
+  const double pixels_per_point = double(window.pixels().x) / std::max(window.size().x, 1);
+  return window.content_scale() / std::max(pixels_per_point, 1.0);
+}
+
+}  // namespace
+
+Application::Application(ApplicationOptions options)
+    : options_(std::move(options)),
+      window_(window_options(options_, settings_of(options_))),
+      frame_clock_(window_.context(), [this] { return clock(); }),
+      worker_(window_) {
+  if (options_.replay) replay_.emplace(*options_.replay);
+  state_.settings = settings_of(options_);
+  if (!options_.pictures.empty()) state_.settings.pictures = options_.pictures.string();
+  if (!options_.record.empty()) recorder_.emplace(window_.size());
+  // A replay waits for nobody's screen.
+  window_.set_vsync(state_.settings.vsync && !replay_);
+  if (!options_.scene.empty()) state_.ask(OpenPath{options_.scene});
+  if (!options_.dataset.empty()) open_dataset(options_.dataset);
+}
+
+Application::~Application() = default;
+
+double Application::clock() const {
+  if (replay_) return replay_->now();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void Application::run() {
+  while (!quit_) frame();
+  if (recorder_) write_file(options_.record, session_to_json(recorder_->session()));
+  if (options_.settings) {
+    if (!window_.fullscreen()) state_.settings.window = window_.size();
+    write_settings(state_.settings, *options_.settings);
+  }
+}
+
+std::vector<std::string> Application::errors() const {
+  std::vector<std::string> result;
+  for (const Message& message : state_.messages.list())
+    if (message.kind == Message::Kind::error) result.push_back(message.title + ": " + message.text);
+  return result;
+}
+
+bool Application::at_rest() const {
+  return worker_.idle() && pending_.empty() && state_.requests.empty() && frames_wanted_ <= 0 &&
+         !state_.controls.moving();
+}
+
+double Application::wait_seconds() const {
+  const bool busy = frames_wanted_ > 0 || state_.controls.moving() || navigation_.flying() ||
+                    state_.draw_continuously || !pending_.empty() || !state_.requests.empty();
+  return busy ? 0 : idle_seconds;
+}
+
+std::vector<Event> Application::gather_live() {
+  std::vector<Event> events = window_.events(wait_seconds());
+  if (recorder_) recorder_->add(clock(), events);
+  pending_.insert(pending_.end(), events.begin(), events.end());
+  return take_frame(pending_);
+}
+
+std::vector<Event> Application::gather() {
+  if (!replay_) return gather_live();
+  for (const Event& event : window_.events(0))
+    if (std::holds_alternative<CloseAsked>(event)) quit_ = true;  // all else is the session's
+  if (pending_.empty()) {
+    if (replay_->finished()) quit_ = true;
+    pending_ = replay_->next(at_rest()).events;
+  }
+  return take_frame(pending_);
+}
+
+void Application::frame() {
+  const std::vector<Event> events = gather();
+  const double now = clock();
+  const double step = replay_ ? Replay::frame_seconds : std::min(now - last_, longest_step);
+  last_ = state_.now = now;
+  if (!events.empty()) frames_wanted_ = frames_after_event;
+
+  const bool was_busy = state_.busy.has_value();
+  worker_.collect();
+  state_.busy = worker_.status();
+  if (state_.busy || was_busy) frames_wanted_ = std::max(frames_wanted_, 1);
+  watch_file();
+  state_.messages.age(now);
+  if (state_.messages.fading()) frames_wanted_ = std::max(frames_wanted_, 1);
+
+  if (const double scale = layout_scale(window_); !gui_ || scale != gui_scale_) {
+    gui_.reset();
+    gui_ = std::make_unique<Gui>(window_, GuiOptions{.scale = scale, .machine_font = !replay_});
+    gui_scale_ = scale;
+  }
+  const bool moves = state_.controls.moving() || navigation_.flying();
+  if (frames_wanted_ <= 0 && !moves && !state_.draw_continuously && state_.requests.empty()) return;
+  --frames_wanted_;
+
+  const glm::ivec2 pixels = glm::max(window_.pixels(), 1), points = glm::max(window_.size(), 1);
+  for (const Event& event : events) gui_->feed(event);
+  gui_->begin({.points = points, .pixels = pixels, .seconds = step});
+  lay_out(points, pixels);
+  dispatch(events);
+  move(step);
+  carry_out();
+  draw(events);
+}
+
+void Application::lay_out(glm::ivec2 points, glm::ivec2 pixels) {
+  state_.points = points;
+  state_.points.x -= static_cast<int>(panels_width(state_, points.x));
+  state_.pixels = glm::max(
+      glm::ivec2(glm::round(glm::dvec2(state_.points) * glm::dvec2(pixels) / glm::dvec2(points))),
+      1);
+  state_.controls.set_viewport(state_.points.x, state_.points.y);
+}
+
+void Application::dispatch(const std::vector<Event>& events) {
+  const NavigationInput::Taken taken{.pointer = gui_->takes_pointer(), .keys = gui_->takes_keys()};
+  for (const Event& event : events) {
+    if (state_.stage) navigation_.handle(event, taken, state_.controls);
+    if (const auto* key = std::get_if<KeyChanged>(&event); key && key->down && !taken.keys)
+      run_shortcut(key->key, navigation_.held(Key::control) || navigation_.held(Key::super),
+                   state_);
+    handle(event);
+  }
+}
+
+void Application::handle(const Event& event) {
+  if (std::holds_alternative<CloseAsked>(event)) state_.ask(Quit{});
+  if (const auto* dropped = std::get_if<FilesDropped>(&event))
+    for (const std::string& path : dropped->paths) state_.ask(OpenPath{path});
+  if (const auto* size = std::get_if<Resized>(&event); size && replay_)
+    window_.resize({size->width, size->height});
+  if (const auto* replaced = std::get_if<FileReplaced>(&event))
+    std::filesystem::copy_file(replaced->from, replaced->to,
+                               std::filesystem::copy_options::overwrite_existing);
+}
+
+void Application::move(double seconds) {
+  // Replayed pictures must not depend on how long a machine takes.
+  state_.controls.set_smoothing(state_.settings.smooth_motion ? 0.06 : 0.0);
+  const Flight flight = navigation_.flight();
+  if (state_.controls.moving() || navigation_.flying())
+    frames_wanted_ = std::max(frames_wanted_, 1);
+  state_.controls.advance(seconds, flight);
+}
+
+void Application::draw(const std::vector<Event>& events) {
+  draw_picture();
+  compare_when_needed();
+  draw_panels(state_, frame_clock_);
+  draw_overlays(state_);
+  gui_->draw();
+  window_.set_pointer(gui_->pointer());
+  for (const Event& event : events)
+    if (const auto* picture = std::get_if<WindowPictured>(&event))
+      save_window_picture(picture->name);
+  window_.present();
+}
+
+void Application::draw_picture() {
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  gl::use_plain_rasterisation(1, 1);  // clearing heeds masks and scissors, not the viewport
+  const float empty[4] = {0.06f, 0.06f, 0.07f, 1.0f};
+  glClearBufferfv(GL_COLOR, 0, empty);
+  if (!state_.stage) return;
+  const Camera camera = state_.controls.camera(state_.pixels.x, state_.pixels.y);
+  const bool same = picture_is_current_ &&
+                    camera.view_from_world == drawn_camera_.view_from_world &&
+                    camera.width == drawn_camera_.width && camera.height == drawn_camera_.height &&
+                    camera.fx == drawn_camera_.fx && camera.fy == drawn_camera_.fy &&
+                    camera.cx == drawn_camera_.cx && camera.cy == drawn_camera_.cy;
+  if (!same || state_.draw_continuously) frame_clock_.draw(state_.stage->renderer(), camera);
+  drawn_camera_ = camera;
+  picture_is_current_ = true;
+  state_.stage->renderer().blit_to(0);
+}
+
+void Application::save_window_picture(const std::string& name) {
+  // The back buffer, before it is presented.
+  glFinish();
+  const glm::ivec2 size = window_.pixels();
+  const Image8 picture = read_pixels(0, size.x, size.y);
+  const std::filesystem::path folder = state_.settings.pictures.empty()
+                                           ? pictures_folder()
+                                           : std::filesystem::path(state_.settings.pictures);
+  make_folder(folder);
+  write_file(folder / name, encode_png(picture));
+}
+
+}  // namespace tureen::viewer

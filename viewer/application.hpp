@@ -1,0 +1,102 @@
+// The window's life: events in, state changed, requests carried out, a frame drawn; and nothing at
+// all while nothing moves.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewer/file_watch.hpp"
+#include "viewer/frame_clock.hpp"
+#include "viewer/gui.hpp"
+#include "viewer/navigation_input.hpp"
+#include "viewer/session.hpp"
+#include "viewer/state.hpp"
+#include "viewer/window.hpp"
+#include "viewer/worker.hpp"
+
+namespace tureen::viewer {
+
+struct ApplicationOptions {
+  std::filesystem::path scene;    // empty: none at first
+  std::filesystem::path dataset;  // likewise
+  DrawingChoice drawing = {};
+  gl::Api api = gl::Api::desktop;
+  std::optional<glm::ivec2> window = {};          // in points; the last run's otherwise
+  std::optional<std::filesystem::path> settings;  // where they are kept; nothing: nowhere
+  std::optional<Session> replay;                  // done instead of what a person does
+  std::filesystem::path record;                   // where the session is written; empty: nowhere
+  std::filesystem::path pictures;                 // folder for pictures; empty: as the settings say
+};
+
+class Application {
+ public:
+  /// Opens the window. Throws ContextError.
+  explicit Application(ApplicationOptions options);
+  ~Application();
+
+  /// Until the window is closed, or the session is at its end. Throws OutputError where the session
+  /// cannot be written.
+  void run();
+
+  /// What a replayed session ended with: the error messages that are still shown.
+  std::vector<std::string> errors() const;
+
+ private:
+  // -- a frame
+  void frame();
+  std::vector<Event> gather();
+  std::vector<Event> gather_live();
+  void lay_out(glm::ivec2 points, glm::ivec2 pixels);
+  void dispatch(const std::vector<Event>& events);
+  void handle(const Event& event);
+  void move(double seconds);
+  void draw(const std::vector<Event>& events);
+  void draw_picture();
+  bool at_rest() const;
+  double wait_seconds() const;
+  double clock() const;
+
+  // -- requests (application_requests.cpp)
+  void carry_out();
+  void carry_out(const OpenPath& request);
+  void carry_out(const CloseDataset& request);
+  void carry_out(const ReloadScene& request);
+  void carry_out(const ChooseDrawing& request);
+  void carry_out(const ShowRecorded& request);
+  void carry_out(const TakePicture& request);
+  void carry_out(const CopyCommand& request);
+  void carry_out(const ToggleFullscreen& request);
+  void carry_out(const Quit& request);
+  void open_scene(const std::filesystem::path& path, bool keep_view);
+  void open_dataset(const std::filesystem::path& path);
+  void show(std::unique_ptr<Stage> stage, bool keep_view);
+  void compare_when_needed();
+  void watch_file();
+  std::filesystem::path picture_path(const std::string& extension) const;
+  void save_window_picture(const std::string& name);
+
+  ApplicationOptions options_;
+  std::optional<Replay> replay_;
+  Window window_;
+  State state_;  // what it holds of GL goes before the window
+  std::unique_ptr<Gui> gui_;
+  double gui_scale_ = 1;
+  FrameClock frame_clock_;
+  NavigationInput navigation_;
+  std::optional<Recorder> recorder_;
+  std::vector<Event> pending_;
+  FileWatch watch_;
+  double watched_ = 0, last_ = 0;
+  int frames_wanted_ = 2;
+  bool picture_is_current_ = false;
+  Camera drawn_camera_;
+  bool quit_ = false;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Worker worker_;  // last: its jobs may use all of the above
+};
+
+}  // namespace tureen::viewer

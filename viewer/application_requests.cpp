@@ -1,0 +1,280 @@
+// What may be asked of the window, carried out.
+#include <algorithm>
+#include <ctime>
+
+#include "formats/camera_file.hpp"
+#include "formats/output.hpp"
+#include "formats/png.hpp"
+#include "viewer/application.hpp"
+#include "viewer/render_command.hpp"
+
+namespace tureen::viewer {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// How often the file is looked at.
+constexpr double watch_seconds = 1.0;
+
+/// "soup.glb"; the folder's name where the path ends with a slash.
+std::string short_name(const fs::path& path) {
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
+/// Whether read_dataset is the door to knock at. Scenes that are folders have no photographs.
+bool looks_like_photographs(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::is_directory(path, ignored)) return path.filename() == "transforms.json";
+  for (const char* mark : {"transforms.json", "transforms_train.json", "sparse", "colmap"})
+    if (fs::exists(path / mark, ignored)) return true;
+  return false;
+}
+
+}  // namespace
+
+void Application::carry_out() {
+  while (!state_.requests.empty()) {
+    const Request request = std::move(state_.requests.front());
+    state_.requests.pop_front();
+    try {
+      std::visit([this](const auto& each) { carry_out(each); }, request);
+    } catch (const std::exception& error) {
+      state_.messages.error("That did not work", error.what(), state_.now);
+    }
+    frames_wanted_ = std::max(frames_wanted_, 2);
+  }
+}
+
+void Application::carry_out(const OpenPath& request) {
+  if (looks_like_photographs(request.path))
+    open_dataset(request.path);
+  else
+    open_scene(request.path, false);
+}
+
+void Application::open_scene(const fs::path& path, bool keep_view) {
+  worker_.abandon(JobKind::drawing);
+  const DrawingChoice choice = state_.stage ? state_.stage->choice : options_.drawing;
+  worker_.start(
+      {.kind = JobKind::scene,
+       .what = "reading " + short_name(path),
+       .work =
+           [this, path, choice, keep_view](const Worker::Progress& progress) {
+             std::shared_ptr<Stage> stage = read_stage(path, {window_.context(), choice, progress});
+             return Worker::Completion([this, stage = std::move(stage), keep_view]() mutable {
+               show(std::make_unique<Stage>(std::move(*stage)), keep_view);
+             });
+           },
+       .failed =
+           [this, path](const std::string& reason) {
+             state_.messages.error(short_name(path) + " cannot be shown", reason, state_.now);
+           }});
+}
+
+void Application::show(std::unique_ptr<Stage> stage, bool keep_view) {
+  const bool same_scene = state_.stage && state_.stage->scene == stage->scene;
+  const bool other_path = !state_.stage || state_.stage->path != stage->path;
+  state_.stage = std::move(stage);
+  picture_is_current_ = false;
+  state_.comparison.forget();
+  frame_clock_.clear();
+  if (same_scene) return;  // only drawn by another choice
+  const Subject& subject = state_.stage->subject;
+  if (keep_view && !other_path) {
+    state_.controls.set_box(subject.low, subject.high);
+  } else {
+    state_.controls = CameraControls(subject);
+    state_.controls.set_viewport(state_.points.x, state_.points.y);
+    state_.controls.home();  // of this viewport
+    state_.controls.arrive();
+    state_.recorded = -1;
+    if (!state_.stage->scene->cameras.empty()) {
+      state_.controls.set_first_view(state_.stage->scene->cameras.front());
+      state_.controls.reset();
+      state_.controls.arrive();
+    }
+  }
+  watch_ = FileWatch(state_.stage->path);
+  remember(state_.settings, state_.stage->path);
+  window_.set_title(short_name(state_.stage->path) + " - Tureen");
+  for (const std::string& note : state_.stage->scene->info.notes)
+    state_.messages.note(note, state_.now);
+}
+
+void Application::open_dataset(const fs::path& path) {
+  worker_.start(
+      {.kind = JobKind::dataset,
+       .what = "reading the photographs of " + short_name(path),
+       .work =
+           [this, path](const Worker::Progress& progress) {
+             auto dataset = std::make_shared<Dataset>(read_dataset(path, {.progress = progress}));
+             return Worker::Completion([this, path, dataset] {
+               Photographs photographs{.path = path,
+                                       .list = std::move(dataset->train),
+                                       .train_count = 0,
+                                       .notes = std::move(dataset->notes)};
+               photographs.train_count = photographs.list.size();
+               std::move(dataset->test.begin(), dataset->test.end(),
+                         std::back_inserter(photographs.list));
+               state_.photographs = std::move(photographs);
+               state_.recorded = -1;
+               state_.comparison = {};
+               state_.messages.note(
+                   std::to_string(state_.photographs->list.size()) +
+                       " photographs: [ and ] go through their cameras, C compares",
+                   state_.now);
+             });
+           },
+       .failed =
+           [this, path](const std::string& reason) {
+             state_.messages.error(short_name(path) + " cannot be read", reason, state_.now);
+           }});
+}
+
+void Application::carry_out(const CloseDataset&) {
+  state_.photographs.reset();
+  state_.comparison = {};
+  state_.recorded = -1;
+}
+
+void Application::carry_out(const ReloadScene&) {
+  if (state_.stage) open_scene(state_.stage->path, true);
+}
+
+void Application::watch_file() {
+  if (!state_.stage || state_.now - watched_ < watch_seconds) return;
+  watched_ = state_.now;
+  if (!watch_.changed()) return;
+  state_.messages.note(short_name(state_.stage->path) + " has changed and is read again",
+                       state_.now);
+  state_.ask(ReloadScene{});
+}
+
+void Application::carry_out(const ChooseDrawing& request) {
+  if (!state_.stage) return;
+  // The scene stays alive for the job whatever becomes of the stage meanwhile.
+  auto from = std::make_shared<StageSource>(state_.stage->source());
+  worker_.start({.kind = JobKind::drawing,
+                 .what = "preparing " + short_name(state_.stage->path),
+                 .work =
+                     [this, from, choice = request.choice](const Worker::Progress& progress) {
+                       std::shared_ptr<Stage> stage =
+                           prepare_stage(*from, {window_.context(), choice, progress});
+                       return Worker::Completion([this, stage]() mutable {
+                         show(std::make_unique<Stage>(std::move(*stage)), true);
+                       });
+                     },
+                 .failed =
+                     [this](const std::string& reason) {
+                       state_.messages.error("It cannot be drawn so", reason, state_.now);
+                     }});
+}
+
+void Application::carry_out(const ShowRecorded& request) {
+  const std::vector<const Camera*> cameras = state_.recorded_cameras();
+  if (request.index < 0 || request.index >= int(cameras.size())) return;
+  state_.recorded = request.index;
+  state_.controls.adopt(*cameras[std::size_t(request.index)]);
+  state_.comparison.forget();
+}
+
+void Application::compare_when_needed() {
+  Comparison& comparison = state_.comparison;
+  const Photograph* photograph = state_.photograph();
+  if (!photograph || comparison.show == Comparison::Show::off || !state_.stage) return;
+  if (comparison.photograph != state_.recorded) {
+    comparison.texture = PictureTexture(photograph->image);
+    comparison.photograph = state_.recorded;
+    comparison.forget();
+  }
+  if (comparison.result || comparison.asked) return;
+  comparison.asked = true;
+  Renderer& renderer = state_.stage->renderer();
+  renderer.draw(photograph->camera);
+  auto drawn = std::make_shared<Image8>(renderer.read_color());
+  picture_is_current_ = false;  // the window's comes next
+  auto held = std::make_shared<Image8>(photograph->image);
+  const glm::vec3 background = state_.stage->scene->info.background;
+  worker_.start(
+      {.kind = JobKind::comparison,
+       .what = "comparing",
+       .work =
+           [this, drawn, held, background](const Worker::Progress&) {
+             const ImageF ours = composited(to_float(*drawn), background);
+             const ImageF theirs = composited(to_float(*held), background);
+             const Metrics metrics = compare(ours, theirs, {.with_flip = false});
+             auto map = std::make_shared<Image8>(ours.width, ours.height);
+             const std::vector<float> differences = difference_map(ours, theirs);
+             for (std::size_t i = 0; i < differences.size(); ++i)
+               map->pixels[i] = glm::u8vec4(glm::u8vec3(std::uint8_t(255 * differences[i])), 255);
+             return Worker::Completion([this, metrics, map] {
+               state_.comparison.result = Comparison::Result{metrics, PictureTexture(*map)};
+             });
+           },
+       .failed =
+           [this](const std::string& reason) {
+             state_.messages.error("The photograph cannot be compared", reason, state_.now);
+           }});
+}
+
+fs::path Application::picture_path(const std::string& extension) const {
+  const fs::path folder =
+      state_.settings.pictures.empty() ? pictures_folder() : fs::path(state_.settings.pictures);
+  make_folder(folder);
+  const std::string stem =
+      state_.stage ? fs::path(short_name(state_.stage->path)).stem().string() : "tureen";
+  for (int number = 1;; ++number) {
+    const fs::path path = folder / (stem + "-" + std::to_string(number) + extension);
+    if (std::error_code ignored; !fs::exists(path, ignored)) return path;
+  }
+}
+
+void Application::carry_out(const TakePicture& request) {
+  if (!state_.stage) return;
+  const glm::ivec2 size = request.size.x > 0 ? request.size : state_.pixels;
+  Renderer& renderer = state_.stage->renderer();
+  const glm::vec4 background(state_.stage->scene->info.background,
+                             request.transparent ? 0.0f : 1.0f);
+  renderer.set_background(background);
+  renderer.draw(state_.controls.camera(size.x, size.y));
+  const Image8 picture = renderer.read_color();
+  renderer.set_background(glm::vec4(state_.stage->scene->info.background, 1.0f));
+  picture_is_current_ = false;
+  const fs::path path = picture_path(".png");
+  // Compressing takes seconds for large pictures.
+  auto shared = std::make_shared<Image8>(picture);
+  worker_.start({.kind = JobKind::writing,
+                 .what = "writing " + short_name(path),
+                 .work =
+                     [this, path, shared](const Worker::Progress&) {
+                       write_file(path, encode_png(*shared));
+                       return Worker::Completion([this, path] {
+                         state_.messages.note("Saved " + path.string(), state_.now);
+                       });
+                     },
+                 .failed =
+                     [this](const std::string& reason) {
+                       state_.messages.error("The picture was not saved", reason, state_.now);
+                     }});
+}
+
+void Application::carry_out(const CopyCommand&) {
+  if (!state_.stage) return;
+  const Camera camera = state_.controls.camera(state_.pixels.x, state_.pixels.y);
+  fs::path file;
+  if (needs_camera_file(camera)) {
+    file = picture_path(".camera.json");
+    write_file(file, cameras_to_json(std::span(&camera, 1)));
+  }
+  window_.set_clipboard(render_command(*state_.stage, state_.stage->choice, camera, file));
+  state_.messages.note("The command that draws this picture is in the clipboard", state_.now);
+}
+
+void Application::carry_out(const ToggleFullscreen&) {
+  window_.set_fullscreen(!window_.fullscreen());
+}
+
+void Application::carry_out(const Quit&) { quit_ = true; }
+
+}  // namespace tureen::viewer

@@ -1,0 +1,87 @@
+// What happens to the window, as plain values: so that a session can be recorded, edited by hand
+// and replayed (viewer/session.hpp), and tests can play a person.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace tureen::viewer {
+
+/// Keys that the window or its text fields know; letters and digits stand where they stand on an
+/// American keyboard, whatever is printed on them.
+enum class Key {
+  // clang-format off
+  a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z,
+  digit_0, digit_1, digit_2, digit_3, digit_4, digit_5, digit_6, digit_7, digit_8, digit_9,
+  f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12,
+  left, right, up, down, home, end, page_up, page_down, insert, del,
+  left_bracket, right_bracket, minus, equal, comma, period, slash,
+  tab, backspace, enter, escape, space, shift, control, alt, super,
+  // clang-format on
+};
+inline constexpr int key_count = static_cast<int>(Key::super) + 1;
+
+/// "W", "F1", "[", "Home": as the list of keys and a session's file call it.
+std::string_view name_of(Key key);
+std::optional<Key> key_named(std::string_view name);
+
+enum class Button { left, right, middle };
+
+/// In points of the window from its upper left corner, which are pixels but on high-DPI screens.
+struct PointerMoved {
+  double x = 0, y = 0;
+};
+struct ButtonChanged {
+  Button button = Button::left;
+  bool down = false;
+};
+/// Steps of the wheel: to the right, and away from the person.
+struct Scrolled {
+  double right = 0, away = 0;
+};
+struct KeyChanged {
+  Key key = Key::a;
+  bool down = false;
+};
+struct TextTyped {
+  std::uint32_t code_point = 0;
+};
+struct FilesDropped {
+  std::vector<std::string> paths;
+};
+/// In points.
+struct Resized {
+  int width = 0, height = 0;
+};
+struct FocusChanged {
+  bool focused = false;
+};
+struct CloseAsked {};
+
+/// Only in sessions: later events wait until nothing is being loaded and nothing moves.
+struct AwaitRest {};
+/// Only in sessions: what the window shows, with its interface, goes to a PNG of this name in the
+/// session's folder of pictures.
+struct WindowPictured {
+  std::string name;
+};
+
+/// Only in sessions: somebody else writes one file over another.
+struct FileReplaced {
+  std::string from, to;
+};
+
+using Event =
+    std::variant<PointerMoved, ButtonChanged, Scrolled, KeyChanged, TextTyped, FilesDropped,
+                 Resized, FocusChanged, CloseAsked, AwaitRest, FileReplaced, WindowPictured>;
+
+struct TimedEvent {
+  double seconds = 0;  // since the session began
+  Event event;
+};
+
+}  // namespace tureen::viewer

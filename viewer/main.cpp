@@ -1,0 +1,113 @@
+// `tureen-view`: the window. `tureen view` starts it.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <string>
+
+#include "soup/error.hpp"
+#include "viewer/application.hpp"
+
+namespace tureen::viewer {
+
+namespace {
+
+// The exit codes of all programs here (ARCHITECTURE.md).
+enum class ExitCode { done = 0, failed = 1, usage = 2, bad_input = 3, no_context = 4, other = 5 };
+
+ExitCode code_of(const std::exception& error) {
+  if (dynamic_cast<const UsageError*>(&error)) return ExitCode::usage;
+  if (dynamic_cast<const InputError*>(&error)) return ExitCode::bad_input;
+  if (dynamic_cast<const ContextError*>(&error)) return ExitCode::no_context;
+  return ExitCode::other;
+}
+
+struct Arguments {
+  std::string scene, dataset, api = "gl", size, replay, record, pictures;
+  std::string pipeline = "auto";
+  bool no_specialise = false, no_settings = false;
+};
+
+void add_arguments(CLI::App& program, Arguments& arguments) {
+  program.add_option("SCENE", arguments.scene, "a scene: .glb, .off, .ply, .obj, .pt, a folder");
+  program.add_option("DATASET", arguments.dataset,
+                     "photographs to compare with: a folder of COLMAP's or NeRF's");
+  program.add_option("--size", arguments.size, "of the window, in points")->option_text("WxH");
+  program.add_option("--api", arguments.api, "gl: OpenGL 3.3; es: OpenGL ES 3.0")
+      ->check(CLI::IsMember({"gl", "es"}));
+  program
+      .add_option("--pipeline", arguments.pipeline,
+                  "auto, or published: the published viewer's, the baseline")
+      ->check(CLI::IsMember({"auto", "published"}));
+  program.add_flag("--no-specialise", arguments.no_specialise, "leave nothing out");
+  program.add_option("--pictures", arguments.pictures, "where pictures are saved")
+      ->option_text("FOLDER");
+  program.add_flag("--no-settings", arguments.no_settings,
+                   "neither read nor keep what the last run left");
+  program.add_option("--record", arguments.record, "write what happens to a session file")
+      ->option_text("FILE");
+  program
+      .add_option("--replay", arguments.replay,
+                  "do what a session file says, then end; 1 when it ends with an error shown")
+      ->option_text("FILE");
+}
+
+std::optional<glm::ivec2> parse_size(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  glm::ivec2 size(0);
+  int end = 0;
+  if (std::sscanf(text.c_str(), "%5dx%5d%n", &size.x, &size.y, &end) != 2 ||
+      std::size_t(end) != text.size() || size.x < 1 || size.y < 1)
+    throw UsageError("--size wants a width and a height, as in 1280x800");
+  return size;
+}
+
+int run(const Arguments& arguments) {
+  ApplicationOptions options;
+  options.scene = arguments.scene;
+  options.dataset = arguments.dataset;
+  options.api = arguments.api == "es" ? gl::Api::es : gl::Api::desktop;
+  options.window = parse_size(arguments.size);
+  options.record = arguments.record;
+  options.pictures = arguments.pictures;
+  if (arguments.pipeline == "published") options.drawing.plan.pipeline = PipelineKind::published;
+  options.drawing.plan.specialise = !arguments.no_specialise;
+  if (!arguments.replay.empty()) options.replay = read_session(arguments.replay);
+  // A session must not depend on what somebody did before.
+  if (!arguments.no_settings && arguments.replay.empty()) options.settings = settings_file();
+  Application application(std::move(options));
+  application.run();
+  if (arguments.replay.empty()) return int(ExitCode::done);
+  const std::vector<std::string> errors = application.errors();
+  for (const std::string& error : errors) std::fprintf(stderr, "tureen-view: %s\n", error.c_str());
+  return int(errors.empty() ? ExitCode::done : ExitCode::failed);
+}
+
+}  // namespace
+
+}  // namespace tureen::viewer
+
+int main(int argc, char** argv) {
+  using namespace tureen::viewer;
+  CLI::App program("Shows trained triangle soups in a window.", "tureen view");
+  program.footer(R"(Without SCENE the window asks for one; F1 lists the keys.
+
+Examples:
+  tureen view soup.glb
+  tureen view soup.glb photographs/          [ and ] go through the photographs' cameras
+
+Exit codes: 0 done, 1 a replayed session ended with an error, 2 wrong usage, 3 the session
+or the settings cannot be read, 4 no display or no OpenGL, 5 anything else.)");
+  Arguments arguments;
+  add_arguments(program, arguments);
+  try {
+    program.parse(argc, argv);
+    return run(arguments);
+  } catch (const CLI::Success& help) {
+    return program.exit(help);
+  } catch (const CLI::ParseError& error) {
+    std::fprintf(stderr, "tureen view: %s\nTry: tureen view --help\n", error.what());
+    return int(ExitCode::usage);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "tureen view: %s\n", error.what());
+    return int(code_of(error));
+  }
+}

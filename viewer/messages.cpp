@@ -1,0 +1,40 @@
+#include "viewer/messages.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace tureen::viewer {
+
+void Messages::note(std::string text, double now) {
+  add({Message::Kind::note, "", std::move(text), now});
+}
+
+void Messages::error(std::string title, std::string reason, double now) {
+  add({Message::Kind::error, std::move(title), std::move(reason), now});
+}
+
+void Messages::add(Message message) {
+  // The same again only renews what is there.
+  std::erase_if(list_, [&](const Message& other) {
+    return other.kind == message.kind && other.title == message.title && other.text == message.text;
+  });
+  list_.push_back(std::move(message));
+  if (list_.size() > most) list_.erase(list_.begin());
+}
+
+void Messages::dismiss(std::size_t index) {
+  list_.erase(list_.begin() + static_cast<std::ptrdiff_t>(index));
+}
+
+void Messages::age(double now) {
+  std::erase_if(list_, [now](const Message& message) {
+    return message.kind == Message::Kind::note && now - message.since > note_seconds;
+  });
+}
+
+bool Messages::fading() const {
+  return std::any_of(list_.begin(), list_.end(),
+                     [](const Message& message) { return message.kind == Message::Kind::note; });
+}
+
+}  // namespace tureen::viewer

@@ -1,0 +1,79 @@
+#include "viewer/navigation_input.hpp"
+
+#include <glm/geometric.hpp>
+
+namespace tureen::viewer {
+
+namespace {
+
+struct Push {
+  Key key;
+  glm::dvec3 direction;  // in the camera's axes
+};
+
+constexpr double one = 1.0;
+const std::array<Push, 6> pushes = {{{Key::w, {0, 0, -one}},
+                                     {Key::s, {0, 0, one}},
+                                     {Key::a, {-one, 0, 0}},
+                                     {Key::d, {one, 0, 0}},
+                                     {Key::q, {0, -one, 0}},
+                                     {Key::e, {0, one, 0}}}};
+
+bool pushes_anywhere(Key key) {
+  for (const Push& push : pushes)
+    if (push.key == key) return true;
+  return false;
+}
+
+}  // namespace
+
+void NavigationInput::handle(const Event& event, Taken taken, CameraControls& controls) {
+  if (const auto* button = std::get_if<ButtonChanged>(&event)) press(*button, taken.pointer);
+  if (const auto* pointer = std::get_if<PointerMoved>(&event)) move(*pointer, controls);
+  if (const auto* key = std::get_if<KeyChanged>(&event)) change(*key, taken.keys, controls);
+  if (const auto* wheel = std::get_if<Scrolled>(&event); wheel && !taken.pointer)
+    controls.wheel(wheel->away, pointer_);
+  if (const auto* focus = std::get_if<FocusChanged>(&event); focus && !focus->focused) {
+    held_.fill(false);  // keys let go of elsewhere are never reported
+    drag_ = Drag::none;
+  }
+}
+
+void NavigationInput::press(const ButtonChanged& event, bool taken) {
+  if (!event.down) {
+    if (event.button == drag_button_) drag_ = Drag::none;
+    return;
+  }
+  if (taken || drag_ != Drag::none) return;
+  drag_button_ = event.button;
+  drag_ = event.button == Button::left && !held(Key::shift) ? Drag::turn : Drag::pan;
+}
+
+void NavigationInput::move(const PointerMoved& event, CameraControls& controls) {
+  const glm::dvec2 to(event.x, event.y), way = to - pointer_;
+  pointer_ = to;
+  if (drag_ == Drag::turn) controls.drag(way.x, way.y);
+  if (drag_ == Drag::pan) controls.pan(way.x, way.y);
+}
+
+void NavigationInput::change(const KeyChanged& event, bool taken, CameraControls& controls) {
+  const bool modified = held(Key::control) || held(Key::super);  // Ctrl+S is no step back
+  held_[static_cast<std::size_t>(event.key)] = event.down && !taken;
+  if (event.down && !taken && !modified && pushes_anywhere(event.key))
+    controls.set_mode(NavigationMode::fly);
+}
+
+Flight NavigationInput::flight() const {
+  Flight flight;
+  if (held(Key::control) || held(Key::super)) return flight;
+  for (const Push& push : pushes)
+    if (held(push.key)) flight.direction += push.direction;
+  if (const double length = glm::length(flight.direction); length > 0) flight.direction /= length;
+  if (held(Key::shift)) flight.factor *= fast_factor;
+  if (held(Key::alt)) flight.factor *= slow_factor;
+  return flight;
+}
+
+bool NavigationInput::flying() const { return flight().direction != glm::dvec3(0.0); }
+
+}  // namespace tureen::viewer

@@ -1,0 +1,34 @@
+// The panels around the picture. Each is a file in panels/ that reads the state, changes settings
+// in it and asks for what must be done (viewer/state.hpp).
+#pragma once
+
+#include "viewer/frame_clock.hpp"
+#include "viewer/state.hpp"
+
+namespace tureen::viewer {
+
+/// How much of the window's width the panels take, in points; 0 where they are hidden.
+double panels_width(const State& state, double window_width);
+
+/// The column at the right with everything in it.
+void draw_panels(State& state, const FrameClock& clock);
+
+/// What lies over the picture with or without the panels: photographs, progress, messages, keys.
+void draw_overlays(State& state);
+
+// The parts of both, in their order. They are drawn between ImGui::Begin and End.
+void scene_panel(State& state);
+void view_panel(State& state);
+void drawing_panel(State& state);
+void comparison_panel(State& state);
+void picture_panel(State& state);
+void times_panel(State& state, const FrameClock& clock);
+
+void photograph_overlay(State& state);
+void status_overlay(const State& state);
+void message_overlay(State& state);
+void keys_overlay(State& state);
+void files_overlay(State& state);
+void welcome_overlay(State& state);
+
+}  // namespace tureen::viewer

@@ -1,0 +1,86 @@
+// How it is drawn: the plan in words, and what can be switched to see what it costs.
+#include "viewer/panels.hpp"
+#include "viewer/panels/widgets.hpp"
+
+namespace tureen::viewer {
+
+namespace {
+
+/// Returns whether the choice changed.
+bool sampling(DrawingChoice& choice) {
+  static constexpr struct {
+    const char* name;
+    double scale;
+    int supersampling;
+  } samplings[] = {{"a quarter of the resolution", 0.25, 1},
+                   {"half the resolution", 0.5, 1},
+                   {"three quarters of it", 0.75, 1},
+                   {"once a pixel", 1, 1},
+                   {"2 x 2 a pixel", 1, 2},
+                   {"3 x 3 a pixel", 1, 3},
+                   {"4 x 4 a pixel", 1, 4},
+                   {"8 x 8 a pixel", 1, 8}};
+  const char* current = "as asked for";
+  for (const auto& each : samplings)
+    if (each.scale == choice.resolution_scale && each.supersampling == choice.supersampling)
+      current = each.name;
+  bool changed = false;
+  ImGui::SetNextItemWidth(14 * ImGui::GetFontSize());
+  if (!ImGui::BeginCombo("samples", current)) return false;
+  for (const auto& each : samplings)
+    if (ImGui::Selectable(each.name, each.name == current)) {
+      choice.resolution_scale = each.scale;
+      choice.supersampling = each.supersampling;
+      changed = true;
+    }
+  ImGui::EndCombo();
+  return changed;
+}
+
+/// What this plan leaves out, each to be kept: to see what it costs, or to look for a fault.
+bool left_out(DrawingChoice& choice, const RenderPlan& plan) {
+  bool changed = false;
+  for (const LeaveOutName& entry : leave_out_names()) {
+    const bool allowed = choice.plan.leave_out.has(entry.what);
+    if (allowed && !plan.left_out.has(entry.what)) continue;  // nothing of it in this scene
+    bool out = allowed;
+    if (!ImGui::Checkbox(entry.title, &out)) continue;
+    if (out)
+      choice.plan.leave_out.add(entry.what);
+    else
+      choice.plan.leave_out = choice.plan.leave_out.without(entry.what);
+    changed = true;
+  }
+  return changed;
+}
+
+}  // namespace
+
+void drawing_panel(State& state) {
+  Stage& stage = *state.stage;
+  DrawingChoice choice = stage.choice;
+  bool changed = sampling(choice);
+  bool published = choice.plan.pipeline == PipelineKind::published;
+  if (ImGui::Checkbox("the published pipeline", &published)) {
+    choice.plan.pipeline = published ? PipelineKind::published : PipelineKind::tureen;
+    changed = true;
+  }
+  tip("A likeness of the viewer that was published with DiffSoup: the baseline");
+  if (stage.scene->preset) {
+    changed |= ImGui::Checkbox("the scene's preset", &choice.obey_preset);
+    if (!stage.drawn.sentence.empty()) aside(stage.drawn.sentence);
+  }
+  if (!published) {
+    changed |= ImGui::Checkbox("leave out what the scene does not need", &choice.plan.specialise);
+    if (choice.plan.specialise) {
+      ImGui::Indent();
+      changed |= left_out(choice, stage.renderer().plan());
+      ImGui::Unindent();
+    }
+  }
+  if (changed) state.ask(ChooseDrawing{choice});
+  ImGui::Separator();
+  for (const std::string& sentence : stage.renderer().plan().sentences) aside(sentence);
+}
+
+}  // namespace tureen::viewer

@@ -1,0 +1,66 @@
+// The photograph, or the map of differences, over the part of the picture that it shows.
+#include <algorithm>
+
+#include "viewer/panels.hpp"
+#include "viewer/panels/widgets.hpp"
+
+namespace tureen::viewer {
+
+namespace {
+
+/// The divider can be taken within so many points.
+constexpr float grip = 6;
+
+/// A drag of the divider over a picture of this size; where it is, in points.
+float divider(Comparison& comparison, ImVec2 window) {
+  const auto x = static_cast<float>(comparison.divider) * window.x;
+  ImGui::SetNextWindowPos({x - grip, 0});
+  ImGui::SetNextWindowSize({2 * grip, window.y});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+  ImGui::Begin("divider", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus);
+  ImGui::InvisibleButton("grip", {2 * grip, window.y});
+  if (ImGui::IsItemHovered() || ImGui::IsItemActive())
+    ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  if (ImGui::IsItemActive())
+    comparison.divider = std::clamp(double(ImGui::GetIO().MousePos.x) / window.x, 0.0, 1.0);
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+  return static_cast<float>(comparison.divider) * window.x;
+}
+
+}  // namespace
+
+void photograph_overlay(State& state) {
+  Comparison& comparison = state.comparison;
+  const Photograph* photograph = state.photograph();
+  if (!photograph || comparison.show == Comparison::Show::off) return;
+  const ImVec2 window{float(state.points.x), float(state.points.y)};
+  const double points_per_pixel = double(state.points.x) / state.pixels.x;
+  const PlacedPhotograph placed = place(
+      photograph->camera, state.controls.camera(state.pixels.x, state.pixels.y), points_per_pixel);
+  const ImVec2 low{float(placed.low.x), float(placed.low.y)};
+  const ImVec2 high{float(placed.high.x), float(placed.high.y)};
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const bool difference = comparison.show == Comparison::Show::difference;
+  const bool split = comparison.show == Comparison::Show::split;
+  const PictureTexture* texture = &comparison.texture;
+  if (difference) {
+    if (!comparison.result) return;
+    texture = &comparison.result->difference;
+  }
+  if (!*texture) return;
+  const float edge = split ? divider(comparison, window) : window.x;
+  list.PushClipRect({0, 0}, {edge, window.y});
+  // What is transparent in the photograph lies over the scene's background.
+  const glm::vec3 back = state.stage->scene->info.background;
+  list.AddRectFilled(low, high, ImGui::GetColorU32(ImVec4(back.r, back.g, back.b, 1)));
+  list.AddImage(texture->id(), low, high);
+  list.PopClipRect();
+  if (split) list.AddLine({edge, 0}, {edge, window.y}, IM_COL32(255, 255, 255, 160), 1.5f);
+}
+
+}  // namespace tureen::viewer

@@ -1,0 +1,36 @@
+// Pictures to keep, and the command that makes the same without a window.
+// clang-format off: the second header wants the first
+#include <imgui/imgui.h>
+#include <imgui/imgui_stdlib.h>
+// clang-format on
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+#include "viewer/panels.hpp"
+#include "viewer/panels/widgets.hpp"
+
+namespace tureen::viewer {
+
+void picture_panel(State& state) {
+  PictureWish& wish = state.picture;
+  ImGui::Checkbox("as large as the window", &wish.window_size);
+  if (!wish.window_size) {
+    ImGui::SetNextItemWidth(10 * ImGui::GetFontSize());
+    ImGui::InputInt2("pixels", &wish.size.x);
+    // 2^28 pixels are what a PNG of ours holds (formats/png.hpp).
+    wish.size = glm::clamp(wish.size, 1, 65536);
+    tip("Any size, beyond the window's and the device's: it is drawn in tiles");
+  }
+  ImGui::Checkbox("transparent background", &wish.transparent);
+  ImGui::SetNextItemWidth(14 * ImGui::GetFontSize());
+  ImGui::InputTextWithHint("folder", pictures_folder().string().c_str(), &state.settings.pictures);
+  if (ImGui::Button("Save the picture"))
+    state.ask(TakePicture{wish.window_size ? glm::ivec2(0) : wish.size, wish.transparent});
+  tip("Ctrl+S; a new name each time");
+  ImGui::SameLine();
+  if (ImGui::Button("Copy the command")) state.ask(CopyCommand{});
+  tip("Ctrl+C: tureen render .. that draws this picture without a window");
+}
+
+}  // namespace tureen::viewer

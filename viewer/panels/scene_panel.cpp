@@ -1,0 +1,44 @@
+// What is shown: where it comes from, what it is made of, what it takes; and the ways to other
+// scenes.
+#include <filesystem>
+
+#include "viewer/panels.hpp"
+#include "viewer/panels/widgets.hpp"
+
+namespace tureen::viewer {
+
+namespace {
+
+void recent_menu(State& state) {
+  if (ImGui::Button("Recent")) ImGui::OpenPopup("recent");
+  if (!ImGui::BeginPopup("recent")) return;
+  if (state.settings.recent.empty()) aside("nothing yet");
+  for (const std::string& path : state.settings.recent)
+    if (ImGui::MenuItem(path.c_str())) state.ask(OpenPath{path});
+  ImGui::EndPopup();
+}
+
+}  // namespace
+
+void scene_panel(State& state) {
+  Stage& stage = *state.stage;
+  const Scene& scene = *stage.scene;
+  paragraph(stage.path.string());
+  const TriangleSoup& soup = stage.soup();
+  paragraph(
+      fmt::format("{} triangles, {}", soup.triangles.size(), appearance_name(soup.appearance)));
+  text("{:.1f} MiB on the device", double(stage.renderer().device_bytes()) / (1 << 20));
+  tip(fmt::format("read in {:.2f} s, prepared in {:.2f} s", stage.read_seconds,
+                  stage.prepare_seconds));
+  if (!scene.info.source.empty()) aside("from " + scene.info.source);
+  for (const std::string& note : scene.info.notes) aside(note);
+  if (ImGui::Button("Open")) state.show_files = true;
+  tip("Ctrl+O, or drop a file or a folder on the window");
+  ImGui::SameLine();
+  recent_menu(state);
+  ImGui::SameLine();
+  if (ImGui::Button("Read again")) state.ask(ReloadScene{});
+  tip("F5; a file that changes on the disk is read again by itself");
+}
+
+}  // namespace tureen::viewer

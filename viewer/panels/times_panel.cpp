@@ -1,0 +1,69 @@
+// How long frames take.
+#include <algorithm>
+#include <vector>
+
+#include "viewer/panels.hpp"
+#include "viewer/panels/widgets.hpp"
+
+namespace tureen::viewer {
+
+namespace {
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+struct Series {
+  std::vector<float> device, whole;  // ms
+};
+
+void graph(const std::vector<FrameParts>& frames) {
+  Series series;
+  float most = 1;
+  for (const FrameParts& frame : frames) {
+    series.device.push_back(float(frame.device_ms));
+    series.whole.push_back(float(frame.device_ms + frame.processor_ms));
+    most = std::max(most, series.whole.back());
+  }
+  const ImVec2 size{ImGui::GetContentRegionAvail().x, 5 * ImGui::GetFontSize()};
+  const ImVec2 at = ImGui::GetCursorPos();
+  const auto count = static_cast<int>(frames.size());
+  ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImVec4(0.55f, 0.56f, 0.60f, 1));
+  ImGui::PlotHistogram("##whole", series.whole.data(), count, 0, nullptr, 0, most, size);
+  ImGui::PopStyleColor();
+  ImGui::SetCursorPos(at);
+  ImGui::PushStyleColor(ImGuiCol_FrameBg, ImVec4(0, 0, 0, 0));
+  ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImVec4(0.27f, 0.55f, 0.85f, 1));
+  ImGui::PlotHistogram("##device", series.device.data(), count, 0, nullptr, 0, most, size);
+  ImGui::PopStyleColor(2);
+}
+
+}  // namespace
+
+void times_panel(State& state, const FrameClock& clock) {
+  const std::vector<FrameParts>& frames = clock.frames();
+  if (frames.empty()) {
+    aside("Nothing has been drawn.");
+  } else {
+    std::vector<double> device, processor;
+    for (const FrameParts& frame : frames) {
+      device.push_back(frame.device_ms);
+      processor.push_back(frame.processor_ms);
+    }
+    graph(frames);
+    text("drawing {:.2f} ms (blue), asking for it {:.2f} ms", median(device), median(processor));
+    aside(fmt::format("medians of the last {} frames; a frame is drawn when something changes",
+                      frames.size()));
+    for (const gl::PassTimer::PassTime& pass : clock.passes())
+      aside(fmt::format("{}: {:.3f} ms", pass.pass, pass.ms));
+    if (clock.why_no_passes()) aside(*clock.why_no_passes());
+  }
+  ImGui::Checkbox("draw all the time", &state.draw_continuously);
+  tip("To watch times; otherwise the window rests when nothing moves");
+  ImGui::SameLine();
+  ImGui::Checkbox("wait for the screen", &state.settings.vsync);
+}
+
+}  // namespace tureen::viewer

@@ -1,0 +1,85 @@
+// Where the eye is and how it moves.
+#include <array>
+#include <glm/geometric.hpp>
+
+#include "viewer/panels.hpp"
+#include "viewer/panels/widgets.hpp"
+
+namespace tureen::viewer {
+
+namespace {
+
+constexpr double degrees_per_radian = 57.295779513082320877;
+
+void mode_buttons(CameraControls& controls) {
+  int mode = static_cast<int>(controls.mode());
+  ImGui::RadioButton("orbit", &mode, static_cast<int>(NavigationMode::orbit));
+  tip("A drag turns the scene, the wheel comes nearer. Tab changes");
+  ImGui::SameLine();
+  ImGui::RadioButton("fly", &mode, static_cast<int>(NavigationMode::fly));
+  tip("A drag turns the head, W A S D Q E fly, the wheel sets the speed. Tab changes");
+  controls.set_mode(static_cast<NavigationMode>(mode));
+  ImGui::SameLine();
+  aside(fmt::format("{:.3g} units a second", controls.speed()));
+}
+
+void up_menu(State& state) {
+  CameraControls& controls = state.controls;
+  static const std::array<glm::dvec3, 6> axes = {
+      {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
+  ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
+  if (ImGui::BeginCombo("up", axis_name(controls.up()).c_str())) {
+    for (const glm::dvec3& axis : axes)
+      if (ImGui::Selectable(axis_name(axis).c_str(), glm::dot(axis, controls.up()) > 0.999))
+        controls.set_up(axis);
+    ImGui::EndCombo();
+  }
+  tip(state.stage->up.why + " U changes");
+}
+
+void view_menu(CameraControls& controls) {
+  ImGui::SetNextItemWidth(10 * ImGui::GetFontSize());
+  if (!ImGui::BeginCombo("##views", "look from ..")) return;
+  for (const NamedView view : named_views)
+    if (ImGui::Selectable(name_of(view))) controls.look_from(view);
+  ImGui::EndCombo();
+}
+
+void recorded_slider(State& state) {
+  const auto cameras = state.recorded_cameras();
+  if (cameras.empty()) return;
+  int index = state.recorded;
+  const std::string name =
+      index < 0 ? "none" : fmt::format("{}: {}", index, cameras[std::size_t(index)]->name);
+  ImGui::SetNextItemWidth(12 * ImGui::GetFontSize());
+  if (ImGui::SliderInt("recorded", &index, 0, int(cameras.size()) - 1, name.c_str(),
+                       ImGuiSliderFlags_AlwaysClamp))
+    state.ask(ShowRecorded{index});
+  tip("The cameras of the dataset, or of the scene. [ and ] go through them");
+}
+
+}  // namespace
+
+void view_panel(State& state) {
+  CameraControls& controls = state.controls;
+  mode_buttons(controls);
+  view_menu(controls);
+  ImGui::SameLine();
+  up_menu(state);
+  if (ImGui::Button("Frame")) controls.frame();
+  tip("F: all of the scene in the picture");
+  ImGui::SameLine();
+  if (ImGui::Button("Reset")) controls.reset();
+  tip("R: the first view");
+  ImGui::SameLine();
+  auto fov = static_cast<float>(controls.fov() * degrees_per_radian);
+  ImGui::SetNextItemWidth(7 * ImGui::GetFontSize());
+  if (ImGui::SliderFloat("angle", &fov, 5, 120, "%.1f deg", ImGuiSliderFlags_AlwaysClamp))
+    controls.set_fov(fov / degrees_per_radian);
+  recorded_slider(state);
+  const glm::dvec3 eye = controls.eye();
+  aside(fmt::format("eye {:.4g}, {:.4g}, {:.4g}", eye.x, eye.y, eye.z));
+  ImGui::Checkbox("smooth motion", &state.settings.smooth_motion);
+}
+
+}  // namespace tureen::viewer

@@ -1,0 +1,51 @@
+// Small things that several panels are made of.
+#pragma once
+
+#include <fmt/format.h>
+#include <imgui/imgui.h>
+
+#include <string>
+#include <utility>
+
+namespace tureen::viewer {
+
+template <class... Args>
+void text(fmt::format_string<Args...> format, Args&&... args) {
+  const std::string line = fmt::format(format, std::forward<Args>(args)...);
+  ImGui::TextUnformatted(line.data(), line.data() + line.size());
+}
+
+/// Broken between words at the panel's edge.
+inline void paragraph(const std::string& words) {
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(words.data(), words.data() + words.size());
+  ImGui::PopTextWrapPos();
+}
+
+/// Dimmed: what explains, and what is not there.
+inline void aside(const std::string& words) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  paragraph(words);
+  ImGui::PopStyleColor();
+}
+
+/// Shown while the pointer rests on the last thing drawn.
+inline void tip(const std::string& words) {
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(24 * ImGui::GetFontSize());
+  ImGui::TextUnformatted(words.data(), words.data() + words.size());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+/// Greys what is drawn until its end.
+class Disabled {
+ public:
+  explicit Disabled(bool disabled) { ImGui::BeginDisabled(disabled); }
+  ~Disabled() { ImGui::EndDisabled(); }
+  Disabled(const Disabled&) = delete;
+  Disabled& operator=(const Disabled&) = delete;
+};
+
+}  // namespace tureen::viewer

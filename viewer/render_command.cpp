@@ -1,0 +1,77 @@
+#include "viewer/render_command.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <string_view>
+
+namespace tureen::viewer {
+
+namespace {
+
+/// The shortest text that reads back as the same double.
+std::string list_of(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
+
+constexpr double degrees_per_radian = 57.295779513082320877;
+
+void add_choice(std::string& command, const DrawingChoice& choice) {
+  if (choice.plan.pipeline == PipelineKind::published) command += " --pipeline published";
+  if (!choice.plan.specialise) command += " --no-specialise";
+  std::string kept;
+  for (const LeaveOutName& entry : leave_out_names())
+    if (!choice.plan.leave_out.has(entry.what))
+      kept += (kept.empty() ? "" : ",") + std::string(entry.name);
+  if (choice.plan.specialise && !kept.empty()) command += " --keep " + kept;
+  if (choice.supersampling > 1)
+    command += fmt::format(" --supersample {}", choice.supersampling);
+  else if (choice.resolution_scale < 1)
+    command += fmt::format(" --scale {}", choice.resolution_scale);
+  if (!choice.obey_preset) command += " --preset faithful";
+}
+
+}  // namespace
+
+std::string quoted(const std::string& text) {
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:+=@%";
+  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
+  std::string result = "'";
+  for (const char letter : text) {
+    if (letter == '\'')
+      result += "'\\''";
+    else
+      result += letter;
+  }
+  return result + "'";
+}
+
+bool needs_camera_file(const Camera& camera) {
+  // What look_at makes: one focal length, the principal point in the middle. Half a thousandth of a
+  // pixel is far below the 1/256 that vertices snap to.
+  constexpr double pixels = 0.0005;
+  return std::abs(camera.cx - 0.5 * camera.width) > pixels ||
+         std::abs(camera.cy - 0.5 * camera.height) > pixels ||
+         std::abs(camera.fx / camera.fy - 1) * camera.width > pixels;
+}
+
+std::string render_command(const StageSource& scene, const DrawingChoice& choice,
+                           const Camera& camera, const std::filesystem::path& camera_file) {
+  std::string command = "tureen render " + quoted(scene.path.string());
+  if (needs_camera_file(camera)) {
+    command += " --camera " + quoted(camera_file.string());
+  } else {
+    const glm::dmat3 axes = camera.world_from_view_rotation();
+    const glm::dvec3 eye = camera.eye();
+    // A target that far away that its digits say the direction as well as the eye's say the place.
+    const double reach = std::max(1.0, glm::length(eye));
+    const double fov = 2 * std::atan2(0.5 * camera.height, camera.fy) * degrees_per_radian;
+    command += " --eye " + list_of(eye) + " --target " + list_of(eye - reach * axes[2]) + " --up " +
+               list_of(axes[1]) + fmt::format(" --fov {}", fov);
+  }
+  command += fmt::format(" --size {}x{}", camera.width, camera.height);
+  add_choice(command, choice);
+  return command + " -o picture.png";
+}
+
+}  // namespace tureen::viewer

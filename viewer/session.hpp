@@ -1,0 +1,81 @@
+// A session: what a person did at the window, written down so that it can be done again. A JSON
+// file that people can read and edit:
+//
+//   { "tureen_session": 1, "window": [960, 600],
+//     "events": [ {"at": 0.0,  "await": true},
+//                 {"at": 0.5,  "pointer": [480, 300]},
+//                 {"at": 0.5,  "button": "left", "down": true},
+//                 {"at": 0.9,  "pointer": [600, 320]},
+//                 {"at": 0.9,  "button": "left", "down": false},
+//                 {"at": 1.0,  "key": "F", "down": true},
+//                 {"at": 1.1,  "key": "F", "down": false},
+//                 {"at": 1.2,  "wheel": [0, 1]},
+//                 {"at": 1.3,  "text": "7"},
+//                 {"at": 1.4,  "drop": ["other.glb"]},
+//                 {"at": 1.5,  "resize": [800, 600]},
+//                 {"at": 1.6,  "replace": ["other.glb", "with.glb"]},
+//                 {"at": 2.0,  "picture": "after.png"},
+//                 {"at": 2.1,  "close": true} ] }
+//
+// "at" is in seconds since the session began, never falling. "await" lets the clock stand until
+// nothing is being loaded and nothing moves; "picture" saves what the window shows; "replace"
+// copies the second file over the first, as a trainer that is still at work would. Paths are as the
+// program finds them: relative ones from the folder it was started in.
+#pragma once
+
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "viewer/event.hpp"
+
+namespace tureen::viewer {
+
+struct Session {
+  glm::ivec2 window{1280, 800};  // in points
+  std::vector<TimedEvent> events;
+};
+
+/// Throws InputError with the file and the event.
+Session read_session(const std::filesystem::path& file);
+
+std::string session_to_json(const Session& session);
+
+/// What happened so far, with this clock.
+class Recorder {
+ public:
+  explicit Recorder(glm::ivec2 window) : session_{window, {}} {}
+  void add(double seconds, std::span<const Event> events);
+  const Session& session() const { return session_; }
+
+ private:
+  Session session_;
+};
+
+/// Deals a session out by a clock of its own: a frame is a sixtieth of a second, however long it
+/// takes, so that the same session shows the same pictures on every machine.
+class Replay {
+ public:
+  explicit Replay(Session session) : session_(std::move(session)) {}
+
+  static constexpr double frame_seconds = 1.0 / 60;
+
+  struct Step {
+    std::vector<Event> events;
+    double seconds = frame_seconds;  // since the last; 0 while the clock stands
+  };
+  /// Of the next frame. `at_rest`: nothing is being loaded and nothing moves. A picture ends the
+  /// frame's events, so that it shows all of those before it.
+  Step next(bool at_rest);
+  bool finished() const { return position_ == session_.events.size(); }
+  double now() const { return clock_; }
+
+ private:
+  Session session_;
+  std::size_t position_ = 0;
+  double clock_ = 0;
+};
+
+}  // namespace tureen::viewer

@@ -1,0 +1,102 @@
+#include "viewer/settings.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <glm/common.hpp>
+#include <nlohmann/json.hpp>
+
+#include "formats/input.hpp"
+#include "formats/json_file.hpp"
+#include "formats/output.hpp"
+#include "soup/error.hpp"
+
+namespace tureen::viewer {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// A folder that the environment names; the specification has relative ones ignored.
+std::optional<fs::path> folder_of(const char* variable) {
+  const char* value = std::getenv(variable);
+  if (!value || !fs::path(value).is_absolute()) return std::nullopt;
+  return value;
+}
+
+template <class T>
+void take(const Json& object, const char* key, T& value, const std::string& file) {
+  const auto found = object.find(key);
+  if (found == object.end()) return;
+  try {
+    found->get_to(value);
+  } catch (const Json::exception&) {
+    throw InputError({file, {}, {}}, std::string(key) + " is not what it should be");
+  }
+}
+
+/// A window that can be seen and that every screen can hold.
+constexpr glm::ivec2 least_window{320, 240}, most_window{16384, 16384};
+
+}  // namespace
+
+std::optional<fs::path> settings_file() {
+  std::optional<fs::path> folder = folder_of("XDG_CONFIG_HOME");
+  if (const auto home = folder_of("HOME"); !folder && home) folder = *home / ".config";
+  if (!folder) return std::nullopt;
+  return *folder / "tureen" / "viewer.json";
+}
+
+fs::path pictures_folder() {
+  std::error_code ignored;
+  if (const auto folder = folder_of("XDG_PICTURES_DIR");
+      folder && fs::is_directory(*folder, ignored))
+    return *folder;
+  if (const auto home = folder_of("HOME"); home && fs::is_directory(*home / "Pictures", ignored))
+    return *home / "Pictures";
+  return ".";
+}
+
+Settings read_settings(const fs::path& file) {
+  Settings settings;
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return settings;
+  Input input = Input::open(file);
+  const Json json = read_json(input);
+  const std::string name = file.string();
+  if (!json.is_object()) throw InputError({name, {}, {}}, "not an object of settings");
+  std::vector<int> window{settings.window.x, settings.window.y};
+  take(json, "window", window, name);
+  if (window.size() == 2)
+    settings.window = glm::clamp(glm::ivec2(window[0], window[1]), least_window, most_window);
+  take(json, "vsync", settings.vsync, name);
+  take(json, "smooth_motion", settings.smooth_motion, name);
+  take(json, "show_frame_times", settings.show_frame_times, name);
+  take(json, "recent", settings.recent, name);
+  settings.recent.resize(std::min(settings.recent.size(), most_recent));
+  take(json, "pictures", settings.pictures, name);
+  return settings;
+}
+
+void write_settings(const Settings& settings, const fs::path& file) {
+  const Json json = {{"window", {settings.window.x, settings.window.y}},
+                     {"vsync", settings.vsync},
+                     {"smooth_motion", settings.smooth_motion},
+                     {"show_frame_times", settings.show_frame_times},
+                     {"recent", settings.recent},
+                     {"pictures", settings.pictures}};
+  make_folder(file.parent_path());
+  // Names of files may hold any bytes.
+  write_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void remember(Settings& settings, const fs::path& scene) {
+  std::error_code ignored;
+  fs::path path = fs::absolute(scene, ignored).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();  // a folder with a slash behind it
+  std::erase(settings.recent, path.string());
+  settings.recent.insert(settings.recent.begin(), path.string());
+  settings.recent.resize(std::min(settings.recent.size(), most_recent));
+}
+
+}  // namespace tureen::viewer

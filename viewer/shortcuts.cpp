@@ -1,0 +1,106 @@
+#include "viewer/shortcuts.hpp"
+
+#include <array>
+#include <glm/geometric.hpp>
+
+namespace tureen::viewer {
+
+namespace {
+
+/// Forwards or backwards through the recorded cameras, round and round.
+void step_recorded(State& state, int step) {
+  const int count = static_cast<int>(state.recorded_cameras().size());
+  if (count == 0) {
+    state.messages.note("Neither a dataset nor the scene has recorded cameras", state.now);
+    return;
+  }
+  const int from = state.recorded < 0 && step < 0 ? 0 : state.recorded;
+  state.ask(ShowRecorded{(from + step + count) % count});
+}
+
+template <NamedView view>
+void look_from(State& state) {
+  state.controls.set_mode(NavigationMode::orbit);
+  state.controls.look_from(view);
+}
+
+/// y, z, x and their negatives: the likelier first.
+void next_up(State& state) {
+  static const std::array<glm::dvec3, 6> axes = {
+      {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {-1, 0, 0}}};
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    if (glm::dot(axes[i], state.controls.up()) > 0.999) next = (i + 1) % axes.size();
+  state.controls.set_up(axes[next]);
+  state.messages.note("Up is now " + axis_name(axes[next]), state.now);
+}
+
+void next_comparison(State& state) {
+  if (!state.photographs) {
+    state.messages.note("There are no photographs to compare with: open a dataset", state.now);
+    return;
+  }
+  state.comparison.show = static_cast<Comparison::Show>((int(state.comparison.show) + 1) % 4);
+}
+
+// clang-format off
+constexpr const char *looking = "Looking around", *views = "Views", *pictures = "Pictures",
+                     *window = "Window";
+const std::array table = {
+    Shortcut{Key::tab, false, looking, "orbit or fly: what a drag does",
+             [](State& s) { s.controls.set_mode(s.controls.mode() == NavigationMode::orbit
+                                                    ? NavigationMode::fly : NavigationMode::orbit); }},
+    Shortcut{Key::f, false, looking, "all of the scene in the picture",
+             [](State& s) { s.controls.set_mode(NavigationMode::orbit); s.controls.frame(); }},
+    Shortcut{Key::r, false, looking, "back to the first view",
+             [](State& s) { s.controls.set_mode(NavigationMode::orbit); s.controls.reset(); }},
+    Shortcut{Key::home, false, looking, "home: three sides of the scene",
+             [](State& s) { s.controls.set_mode(NavigationMode::orbit); s.controls.home(); }},
+    Shortcut{Key::u, false, looking, "another axis is up", next_up},
+    Shortcut{Key::digit_1, false, views, "front", look_from<NamedView::front>},
+    Shortcut{Key::digit_2, false, views, "back", look_from<NamedView::back>},
+    Shortcut{Key::digit_3, false, views, "left", look_from<NamedView::left>},
+    Shortcut{Key::digit_4, false, views, "right", look_from<NamedView::right>},
+    Shortcut{Key::digit_5, false, views, "top", look_from<NamedView::top>},
+    Shortcut{Key::digit_6, false, views, "bottom", look_from<NamedView::bottom>},
+    Shortcut{Key::digit_7, false, views, "three-quarter", look_from<NamedView::three_quarter>},
+    Shortcut{Key::digit_8, false, views, "three-quarter from the left",
+             look_from<NamedView::three_quarter_left>},
+    Shortcut{Key::digit_9, false, views, "three-quarter from behind",
+             look_from<NamedView::three_quarter_back>},
+    Shortcut{Key::left_bracket, false, views, "the recorded camera before",
+             [](State& s) { step_recorded(s, -1); }},
+    Shortcut{Key::right_bracket, false, views, "the next recorded camera",
+             [](State& s) { step_recorded(s, 1); }},
+    Shortcut{Key::c, false, views, "photograph: off, split, alone, difference", next_comparison},
+    Shortcut{Key::s, true, pictures, "save the picture",
+             [](State& s) { s.ask(TakePicture{s.picture.window_size ? glm::ivec2(0) : s.picture.size,
+                                              s.picture.transparent}); }},
+    Shortcut{Key::c, true, pictures, "copy the command that draws it without a window",
+             [](State& s) { s.ask(CopyCommand{}); }},
+    Shortcut{Key::o, true, window, "open a file", [](State& s) { s.show_files = !s.show_files; }},
+    Shortcut{Key::h, false, window, "hide or show the panels",
+             [](State& s) { s.show_interface = !s.show_interface; }},
+    Shortcut{Key::f1, false, window, "this list", [](State& s) { s.show_keys = !s.show_keys; }},
+    Shortcut{Key::f5, false, window, "read the file again", [](State& s) { s.ask(ReloadScene{}); }},
+    Shortcut{Key::f11, false, window, "the whole screen", [](State& s) { s.ask(ToggleFullscreen{}); }},
+    Shortcut{Key::escape, false, window, "close what lies over the picture",
+             [](State& s) { s.show_keys = s.show_files = false; }},
+    Shortcut{Key::q, true, window, "quit", [](State& s) { s.ask(Quit{}); }},
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const Shortcut> shortcuts() { return table; }
+
+bool run_shortcut(Key key, bool control, State& state) {
+  for (const Shortcut& shortcut : table)
+    if (shortcut.key == key && shortcut.control == control) {
+      shortcut.run(state);
+      return true;
+    }
+  return false;
+}
+
+}  // namespace tureen::viewer

@@ -1,0 +1,83 @@
+#include "viewer/stage.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "formats/scene_file.hpp"
+
+namespace tureen::viewer {
+
+namespace {
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Reading is most of the work; preparing shows as the last tenth.
+constexpr double reading_share = 0.9;
+
+UpGuess guess(const Scene& scene, const Subject& subject) {
+  return guess_up({.stored = subject.up,
+                   .stored_is_assumed = scene.info.source.empty(),
+                   .cameras = scene.cameras,
+                   .extent = subject.high - subject.low});
+}
+
+CheckedRenderer prepare(const Scene& scene, const StageRequest& request) {
+  const ScenePreset preset = request.choice.obey_preset && scene.preset
+                                 ? ScenePreset{scene.preset, preset_views(scene)}
+                                 : ScenePreset{};
+  RenderOptions options = render_options(request.choice, scene);
+  options.progress = [&](double done) {
+    request.progress(reading_share + (1 - reading_share) * done);
+  };
+  CheckedRenderer drawn = checked_renderer(
+      request.context, std::get<TriangleSoup>(scene.primitives), scene.origin, options, preset);
+  drawn.renderer.leave_context();
+  return drawn;
+}
+
+}  // namespace
+
+RenderOptions render_options(const DrawingChoice& choice, const Scene& scene) {
+  RenderOptions options;
+  options.plan = choice.plan;
+  options.background = glm::vec4(scene.info.background, 1.0f);
+  if (choice.resolution_scale < 1 || choice.supersampling > 1) {
+    RenderPreset knobs = choice.plan.preset.value_or(RenderPreset{});
+    knobs.resolution_scale = choice.supersampling > 1 ? 1.0 : choice.resolution_scale;
+    knobs.supersampling = choice.supersampling;
+    options.plan.preset = knobs;
+  }
+  return options;
+}
+
+std::unique_ptr<Stage> read_stage(const std::filesystem::path& path, const StageRequest& request) {
+  const Stopwatch reading;
+  auto scene = std::make_shared<Scene>(
+      read_scene(path, {.progress = [&](double done) { request.progress(reading_share * done); }}));
+  opaque_soup(*scene);
+  StageSource source;
+  source.path = path;
+  source.scene = scene;
+  source.subject = subject_of(*scene);
+  source.up = guess(*scene, source.subject);
+  source.subject.up = source.up.axis;
+  source.read_seconds = reading.seconds();
+  return prepare_stage(source, request);
+}
+
+std::unique_ptr<Stage> prepare_stage(const StageSource& source, const StageRequest& request) {
+  const Stopwatch preparing;
+  CheckedRenderer drawn = prepare(*source.scene, request);
+  return std::make_unique<Stage>(
+      Stage{{source}, request.choice, std::move(drawn), preparing.seconds()});
+}
+
+}  // namespace tureen::viewer

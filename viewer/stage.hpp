@@ -1,0 +1,62 @@
+// A scene that stands ready to be drawn: read, planned and on the device. Made by the worker, used
+// by the main thread.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "runtime/navigation.hpp"
+#include "runtime/preset_check.hpp"
+#include "runtime/up_axis.hpp"
+#include "soup/scene.hpp"
+
+namespace tureen::viewer {
+
+/// How a person wants it drawn: what a plan may leave out, and the knobs that the window offers.
+struct DrawingChoice {
+  PlanPreferences plan = {};
+  double resolution_scale = 1;  // RenderPreset::resolution_scale; 1 where supersampling is more
+  int supersampling = 1;        // RenderPreset::supersampling
+  bool obey_preset = true;      // of the scene, where it has one
+};
+
+/// The choice as the runtime takes it.
+RenderOptions render_options(const DrawingChoice& choice, const Scene& scene);
+
+/// What was read.
+struct StageSource {
+  std::filesystem::path path;
+  std::shared_ptr<const Scene> scene;  // its primitives are a TriangleSoup
+  Subject subject;                     // with the guessed up axis
+  UpGuess up;
+  double read_seconds = 0;
+
+  const TriangleSoup& soup() const { return std::get<TriangleSoup>(scene->primitives); }
+};
+
+struct Stage : StageSource {
+  DrawingChoice choice;  // what `drawn` was made with
+  CheckedRenderer drawn;
+  double prepare_seconds = 0;
+
+  const StageSource& source() const { return *this; }
+  Renderer& renderer() { return drawn.renderer; }
+};
+
+/// What takes part in preparing; `context` describes the device, and one that shares with it is
+/// current.
+struct StageRequest {
+  const gl::Context& context;
+  DrawingChoice choice;
+  std::function<void(double)> progress;  // 0..1; may throw to abandon
+};
+
+/// Reads a scene and prepares it. What was prepared has left the context: the thread that draws
+/// takes over. Throws InputError, DeviceLimitError, UsageError.
+std::unique_ptr<Stage> read_stage(const std::filesystem::path& path, const StageRequest& request);
+
+/// Prepares what was read, likewise.
+std::unique_ptr<Stage> prepare_stage(const StageSource& source, const StageRequest& request);
+
+}  // namespace tureen::viewer

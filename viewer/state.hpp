@@ -1,0 +1,95 @@
+// All that the window knows, and what may be asked of it. Panels read the state, change what is
+// plainly a setting, and ask for the rest; viewer/application carries it out between frames.
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "formats/dataset.hpp"
+#include "runtime/camera_controls.hpp"
+#include "viewer/comparison.hpp"
+#include "viewer/frame_clock.hpp"
+#include "viewer/messages.hpp"
+#include "viewer/settings.hpp"
+#include "viewer/stage.hpp"
+#include "viewer/worker.hpp"
+
+namespace tureen::viewer {
+
+/// A scene, or a folder of photographs: told by what it holds.
+struct OpenPath {
+  std::filesystem::path path;
+};
+struct CloseDataset {};
+struct ReloadScene {};
+/// Draw the scene by this choice.
+struct ChooseDrawing {
+  DrawingChoice choice;
+};
+/// Look through the recorded camera of this index.
+struct ShowRecorded {
+  int index = 0;
+};
+struct TakePicture {
+  glm::ivec2 size{0};  // (0, 0): the window's
+  bool transparent = false;
+};
+/// The command that draws this picture without a window goes to the clipboard.
+struct CopyCommand {};
+struct ToggleFullscreen {};
+struct Quit {};
+
+using Request = std::variant<OpenPath, CloseDataset, ReloadScene, ChooseDrawing, ShowRecorded,
+                             TakePicture, CopyCommand, ToggleFullscreen, Quit>;
+
+/// The photographs at hand; those to train on first.
+struct Photographs {
+  std::filesystem::path path;
+  std::vector<Photograph> list;
+  std::size_t train_count = 0;
+  std::vector<std::string> notes;
+};
+
+/// The picture-taking panel's fields.
+struct PictureWish {
+  bool window_size = true;
+  glm::ivec2 size{3840, 2160};
+  bool transparent = false;
+};
+
+struct State {
+  Settings settings;
+  std::unique_ptr<Stage> stage;  // nothing before the first scene
+  std::optional<Photographs> photographs;
+  CameraControls controls;
+  int recorded = -1;  // the recorded camera that was last gone to
+  Comparison comparison;
+  Messages messages;
+  PictureWish picture;
+  bool show_interface = true;
+  bool show_keys = false;
+  bool show_files = false;  // the window to pick a file in
+  bool draw_continuously = false;
+  std::optional<Worker::Status> busy;
+  /// Of the picture, which leaves room for the panels at its right.
+  glm::ivec2 points{1, 1}, pixels{1, 1};
+  double now = 0;  // seconds of the window's clock
+
+  /// Those of the photographs, or else of the scene.
+  std::vector<const Camera*> recorded_cameras() const;
+  /// The photograph whose camera the view is, unmoved.
+  const Photograph* photograph() const;
+
+  template <class Wish>
+  void ask(Wish wish) {
+    requests.emplace_back(std::move(wish));
+  }
+  std::deque<Request> requests;
+};
+
+}  // namespace tureen::viewer

@@ -1,0 +1,115 @@
+#include "viewer/worker.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <utility>
+
+namespace tureen::viewer {
+
+namespace {
+
+/// Ends a job that nobody wants any more.
+struct Abandoned {};
+
+}  // namespace
+
+Worker::Worker(const Window& window) : window_(window), thread_([this] { run(); }) {}
+
+Worker::~Worker() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = abandoned_ = true;
+    waiting_.clear();
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void Worker::start(Job job) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (running_ && running_->kind == job.kind) abandoned_ = true;
+    std::erase_if(done_, [&](const Done& done) { return done.kind == job.kind; });
+    std::erase_if(waiting_, [&](const Job& other) { return other.kind == job.kind; });
+    waiting_.push_back(std::move(job));
+  }
+  changed_.notify_all();
+}
+
+void Worker::abandon(JobKind kind) {
+  const std::lock_guard lock(mutex_);
+  if (running_ && running_->kind == kind) abandoned_ = true;
+  std::erase_if(done_, [&](const Done& done) { return done.kind == kind; });
+  std::erase_if(waiting_, [&](const Job& other) { return other.kind == kind; });
+}
+
+void Worker::collect() {
+  std::vector<Done> done;
+  {
+    const std::lock_guard lock(mutex_);
+    done = std::exchange(done_, {});
+  }
+  for (const Done& each : done) each.completion();
+}
+
+std::optional<Worker::Status> Worker::status() const {
+  const std::lock_guard lock(mutex_);
+  return running_;
+}
+
+bool Worker::idle() const {
+  const std::lock_guard lock(mutex_);
+  return !running_ && waiting_.empty() && done_.empty();
+}
+
+void Worker::run() {
+  window_.make_worker_context_current();
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
+    if (ending_) break;
+    Job job = std::move(waiting_.front());
+    waiting_.erase(waiting_.begin());
+    running_ = Status{job.what, 0, job.kind};
+    abandoned_ = false;
+    lock.unlock();
+    run(job);
+    lock.lock();
+    running_.reset();
+    lock.unlock();
+    Window::wake();
+    lock.lock();
+  }
+  lock.unlock();
+  window_.release_worker_context();
+}
+
+void Worker::run(Job& job) {
+  Completion completion;
+  try {
+    completion = job.work([this](double fraction) { report(fraction); });
+  } catch (const Abandoned&) {
+    return;
+  } catch (const std::bad_alloc&) {
+    completion = [failed = job.failed] { failed("there is not enough memory for it"); };
+  } catch (const std::exception& error) {
+    completion = [failed = job.failed, reason = std::string(error.what())] { failed(reason); };
+  }
+  const std::lock_guard lock(mutex_);
+  if (!abandoned_) done_.push_back({job.kind, std::move(completion)});
+}
+
+void Worker::report(double fraction) {
+  bool shown = false;
+  {
+    const std::lock_guard lock(mutex_);
+    if (abandoned_) throw Abandoned{};
+    // A window that waits for events redraws its progress bar by whole percents.
+    shown = static_cast<int>(running_->fraction * 100) == static_cast<int>(fraction * 100);
+    running_->fraction = std::clamp(fraction, 0.0, 1.0);
+  }
+  if (!shown) Window::wake();
+}
+
+}  // namespace tureen::viewer
