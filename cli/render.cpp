@@ -15,7 +15,9 @@
 #include "cli/scene_argument.hpp"
 #include "cli/values.hpp"
 #include "cli/view_options.hpp"
+#include "formats/video_file.hpp"
 #include "runtime/renderer.hpp"
+#include "soup/error.hpp"
 
 namespace tureen::cli {
 
@@ -76,8 +78,27 @@ struct Pictures {
   FrameTimes times;
 };
 
-Pictures draw_pictures(Renderer& renderer, const std::vector<Camera>& cameras,
-                       const std::string& pattern) {
+/// Frame by frame into one file.
+Pictures draw_video(Renderer& renderer, const Views& film, const std::string& path) {
+  const std::vector<Camera>& cameras = film.cameras;
+  const Camera& first = cameras.front();
+  Pictures result{{path}, {}};
+  VideoFile video(path, {first.width, first.height, film.frames_per_second});
+  Progress progress("drawing");
+  timed_draw(renderer, first);  // compiles shaders; not counted
+  for (const Camera& camera : cameras) {
+    progress.update(double(result.times.ms.size()) / double(cameras.size()));
+    result.times.ms.push_back(timed_draw(renderer, camera));
+    video.add(renderer.read_color());
+  }
+  video.commit();
+  return result;
+}
+
+Pictures draw_pictures(Renderer& renderer, const Views& views, const std::string& pattern) {
+  const std::vector<Camera>& cameras = views.cameras;
+  // Frames follow each other: a sheet of hundreds shows nothing.
+  const bool with_sheet = cameras.size() > 1 && views.frames_per_second == 0;
   const int count = int(cameras.size());
   Pictures result;
   std::vector<Image8> thumbnails;
@@ -90,9 +111,9 @@ Pictures draw_pictures(Renderer& renderer, const std::vector<Camera>& cameras,
     const std::filesystem::path path = picture_name(pattern, i, count);
     write_picture(picture, path);
     result.paths.push_back(path.string());
-    if (count > 1) thumbnails.push_back(thumbnail(picture));
+    if (with_sheet) thumbnails.push_back(thumbnail(picture));
   }
-  if (count > 1) {
+  if (with_sheet) {
     const std::filesystem::path sheet =
         picture_name(pattern, 0, count).replace_filename("contact_sheet.png");
     write_picture(contact_sheet(thumbnails), sheet);
@@ -101,13 +122,44 @@ Pictures draw_pictures(Renderer& renderer, const std::vector<Camera>& cameras,
   return result;
 }
 
+/// Throws UsageError.
+void check_output(const Options& options, const glm::vec4& background) {
+  if (!is_video_name(options.output)) {
+    require_png_name(options.output);
+    picture_name(options.output, 0, std::max(options.views.orbit, 1));
+    return;
+  }
+  if (!options.views.is_film())
+    throw UsageError("'" + options.output +
+                     "' is a video, which shows the frames of --path or "
+                     "--turntable");
+  if (!options.background.empty() && background.a < 1)
+    throw UsageError(
+        "a video shows no transparency: leave --background transparent away, or write "
+        "pictures, -o frame_%04d.png");
+  if (!have_ffmpeg()) throw UsageError(ffmpeg_missing);
+}
+
+/// What was written, for people: each file, or the first and last frame.
+void say_written(const Pictures& pictures, const Views& views) {
+  const std::vector<std::string>& paths = pictures.paths;
+  if (views.frames_per_second > 0)
+    say(fmt::format("{} frames, {:.2f} s at {:g} a second", views.cameras.size(),
+                    double(views.cameras.size()) / views.frames_per_second,
+                    views.frames_per_second));
+  if (views.frames_per_second > 0 && paths.size() > 2) {
+    say("wrote " + paths.front() + " to " + paths.back());
+    return;
+  }
+  for (const std::string& path : paths) say("wrote " + path);
+}
+
 ExitCode render(Options options) {
   // Everything that can be wrong with the arguments is said before the scene is read.
-  require_png_name(options.output);
-  picture_name(options.output, 0, std::max(options.views.orbit, 1));
-  if (!options.views.size.empty()) parse_size(options.views.size);
+  check(options.views);
   glm::vec4 background(0.0f);
   if (!options.background.empty()) background = parse_background(options.background);
+  check_output(options, background);
 
   Scene scene = read(options.scene);
   const TriangleSoup& soup = opaque_soup(scene);
@@ -120,7 +172,9 @@ ExitCode render(Options options) {
   CheckedRenderer checked = make_renderer(context, soup, scene.origin, options.drawing, background);
   Renderer& renderer = checked.renderer;
 
-  Pictures pictures = draw_pictures(renderer, views.cameras, options.output);
+  Pictures pictures = is_video_name(options.output)
+                          ? draw_video(renderer, views, options.output)
+                          : draw_pictures(renderer, views, options.output);
   if (options.frames > 0) pictures.times = benchmark(renderer, views.cameras, options.frames);
   const FrameTimes& times = pictures.times;
 
@@ -134,7 +188,7 @@ ExitCode render(Options options) {
                   first.height, device.renderer, context.description()));
   say(fmt::format("{:.2f} ms a frame (median of {}, 95 % within {:.2f} ms)", times.median(),
                   times.ms.size(), times.p95()));
-  for (const std::string& path : pictures.paths) say("wrote " + path);
+  say_written(pictures, views);
   if (options.json)
     print_json(
         {{"width", first.width},
@@ -162,6 +216,9 @@ Examples:
   tureen render soup.glb --orbit 8 -o orbit_%02d.png      and a contact_sheet.png
   tureen render soup.glb --eye 3,0,1 --target 0,0,0.5 --up 0,0,1 --fov 35
   tureen render soup.glb --camera transforms.json:12 --size 540x960
+  tureen render soup.glb --turntable 8 -o turn.mp4        a video, where ffmpeg is installed
+  tureen render soup.glb --path path.json --fps 25 -o frame_%04d.png
+                                                          the frames along a camera path
   tureen render soup.glb --supersample 4 -o smooth.png    16 samples a pixel
   tureen render soup.glb --frames 100 --json              milliseconds a frame
   tureen render soup.glb --pipeline published --frames 100 --json
@@ -171,8 +228,10 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
 5 it does not fit on the device or cannot be written.)");
   add_scene_argument(*command, options->scene);
   command
-      ->add_option("-o,--output", options->output,
-                   "the picture, out.png by default; of several views %d becomes the number")
+      ->add_option(
+          "-o,--output", options->output,
+          "the picture, out.png by default; of several views %d becomes the number; a name "
+          "that ends in .mp4 or .webm is a video of --path or --turntable, by ffmpeg")
       ->option_text("OUT.png");
   add_view_options(*command, options->views);
   command

@@ -1,5 +1,7 @@
 #include "cli/view_options.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -9,6 +11,7 @@
 #include "formats/camera_file.hpp"
 #include "formats/scene_file.hpp"
 #include "formats/suggestion.hpp"
+#include "runtime/camera_path.hpp"
 #include "runtime/navigation.hpp"
 #include "soup/error.hpp"
 
@@ -20,6 +23,8 @@ namespace fs = std::filesystem;
 
 constexpr double radians_per_degree = 0.017453292519943295;
 constexpr int most_orbit_views = 1000;
+constexpr double default_frames_per_second = 30;
+constexpr double most_frames = 100000;  // an hour of film; beyond it somebody mistook a unit
 
 /// "FILE:N" split where N is a number or "all"; the whole text is the file where one of that name
 /// exists, colon and all.
@@ -50,6 +55,28 @@ CameraFile cameras_in(const fs::path& file, const Scene& scene, const std::strin
   return {read_scene(file).cameras, {}};
 }
 
+/// The frames of a film. Throws UsageError where they are too many.
+Views film(CameraPathData data, const FrameRate& rate) {
+  const CameraPath path(std::move(data));
+  const double count = frame_count(path, rate.frames_per_second);
+  if (count > most_frames)
+    throw UsageError(
+        fmt::format("{:.0f} seconds at {} frames a second are {:.0f} frames, more than "
+                    "{:.0f}",
+                    path.duration(), rate.frames_per_second, count, most_frames));
+  return {frames(path, rate), {}, rate.frames_per_second};
+}
+
+Views film_along(const fs::path& file, FrameRate rate, const std::optional<PictureSize>& size) {
+  std::error_code error;
+  if (!fs::exists(file, error)) throw InputError({file.string(), {}, {}}, why_missing(file));
+  CameraPathData path = read_path(file);
+  const Camera& first = path.keyframes.front().camera;
+  rate.width = size ? size->width : first.width;
+  rate.height = size ? size->height : first.height;
+  return film(std::move(path), rate);
+}
+
 }  // namespace
 
 Views recorded_views(const std::string& argument, const std::string& which_without,
@@ -64,6 +91,40 @@ Views recorded_views(const std::string& argument, const std::string& which_witho
   if (wanted.which.size() > 9 || std::stol(wanted.which) > last)
     throw UsageError(argument + ": cameras are numbered from 0 to " + std::to_string(last));
   return {{found.cameras[std::size_t(std::stol(wanted.which))]}, std::move(found.notes)};
+}
+
+namespace {
+
+void add_film_options(CLI::App& command, ViewOptions& options) {
+  CLI::Option* path =
+      command
+          .add_option("--path", options.path,
+                      "the frames along a camera path: our JSON of cameras with \"seconds\"")
+          ->option_text("FILE.json");
+  for (const char* other : {"--camera", "--eye", "--fov", "--orbit"})
+    path->excludes(command.get_option(other));
+  CLI::Option* turntable =
+      command
+          .add_option("--turntable", options.turntable,
+                      "the frames of one turn around the up axis in so many seconds, like --orbit, "
+                      "or from --eye about --target")
+          ->option_text("SECONDS")
+          ->check(CLI::Range(0.001, 36000.0));
+  for (CLI::Option* other : {command.get_option("--camera"), command.get_option("--orbit"), path})
+    turntable->excludes(other);
+  command
+      .add_option("--fps", options.frames_per_second,
+                  "frames a second of --path and --turntable, 30 by default")
+      ->option_text("N")
+      ->check(CLI::Range(0.01, 1000.0));
+}
+
+}  // namespace
+
+void check(const ViewOptions& options) {
+  if (!options.size.empty()) parse_size(options.size);
+  if (options.frames_per_second && !options.is_film())
+    throw UsageError("--fps is for the frames of --path and --turntable");
 }
 
 void add_view_options(CLI::App& command, ViewOptions& options) {
@@ -102,17 +163,22 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
       ->check(CLI::Range(1, most_orbit_views))
       ->excludes(camera)
       ->excludes(eye);
+  add_film_options(command, options);
 }
 
 Views resolve_views(const ViewOptions& options, const Scene& scene, const std::string& scene_path) {
   std::optional<PictureSize> size;
   if (!options.size.empty()) size = parse_size(options.size);
 
+  FrameRate rate;
+  rate.frames_per_second = options.frames_per_second.value_or(default_frames_per_second);
+  if (!options.path.empty()) return film_along(options.path, rate, size);
+
   Views views;
   if (!options.camera.empty()) {
     views = recorded_views(options.camera, "0", scene, scene_path);
-  } else if (options.eye.empty() && options.orbit == 0 && !options.fov_degrees &&
-             !scene.cameras.empty()) {
+  } else if (options.eye.empty() && options.orbit == 0 && !options.is_film() &&
+             !options.fov_degrees && !scene.cameras.empty()) {
     views.cameras = {scene.cameras.front()};
   }
   if (!views.cameras.empty()) {
@@ -126,6 +192,8 @@ Views resolve_views(const ViewOptions& options, const Scene& scene, const std::s
     lens.width = size->width;
     lens.height = size->height;
   }
+  rate.width = lens.width;
+  rate.height = lens.height;
   if (options.fov_degrees) lens.fov_y = *options.fov_degrees * radians_per_degree;
   const Subject subject = subject_of(scene);
   if (!options.eye.empty()) {
@@ -134,6 +202,14 @@ Views resolve_views(const ViewOptions& options, const Scene& scene, const std::s
         options.target.empty() ? subject.centre() : parse_vector(options.target);
     if (!(glm::length(eye - target) > 0)) throw UsageError("--eye and --target are the same point");
     views.cameras = {look_at(eye, target, subject.up, lens.fov_y, lens.width, lens.height)};
+    if (options.turntable > 0)
+      return film(turntable({.first = views.cameras.front(),
+                             .distance = glm::length(eye - target),
+                             .up = subject.up,
+                             .seconds = options.turntable}),
+                  rate);
+  } else if (options.turntable > 0) {
+    return film(turntable(subject, {0.0, orbit_elevation}, lens, options.turntable), rate);
   } else if (options.orbit > 0) {
     views.cameras = orbit(subject, options.orbit, {0.0, orbit_elevation}, lens);
   } else {

@@ -1,7 +1,9 @@
 #include "formats/camera_file.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cctype>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -51,16 +53,75 @@ Camera our_camera(const CameraJson& json) {
   return camera;
 }
 
-CameraFile from_ours(const Json& root, const std::string& file) {
+/// The cameras of a file of ours, each to be read by our_camera.
+std::vector<CameraJson> our_cameras(const Json& root, const std::string& file) {
   const auto version = root.find("tureen_cameras");
   if (version != root.end() && *version != 1)
     throw InputError({file, {}, {}}, "tureen_cameras is not version 1");
-  CameraFile result;
+  std::vector<CameraJson> result;
   const Json& cameras = json_list(root, "cameras", file);
   for (std::size_t i = 0; i < cameras.size(); ++i)
-    result.cameras.push_back(our_camera(CameraJson(
-        {.object = cameras[i], .file = file, .where = "camera " + std::to_string(i) + ": "})));
+    result.push_back(CameraJson(
+        {.object = cameras[i], .file = file, .where = "camera " + std::to_string(i) + ": "}));
   return result;
+}
+
+CameraFile from_ours(const Json& root, const std::string& file) {
+  CameraFile result;
+  for (const CameraJson& json : our_cameras(root, file)) result.cameras.push_back(our_camera(json));
+  return result;
+}
+
+// ---- Paths
+// ---------------------------------------------------------------------------------------
+
+// Eleven days: whoever means more has mistaken the unit, and doubles keep a nanosecond up to here.
+constexpr double longest_path = 1e6;
+
+CameraKeyframe our_keyframe(const CameraJson& json) {
+  CameraKeyframe keyframe{.camera = our_camera(json),
+                          .seconds = json.number("seconds"),
+                          .target_distance = json.maybe_number("target_distance").value_or(0)};
+  if (!(keyframe.seconds >= 0 && keyframe.seconds <= longest_path))
+    json.fail("seconds is not from 0 to 1000000");
+  if (!(keyframe.target_distance >= 0 && std::isfinite(keyframe.target_distance)))
+    json.fail("target_distance is negative");
+  return keyframe;
+}
+
+/// After how many seconds the loop begins anew; 0 for none.
+double our_loop(const Json& root, const std::vector<CameraKeyframe>& keyframes,
+                const std::string& file) {
+  const auto fail = [&](const char* reason) { throw InputError({file, {}, {}}, reason); };
+  const auto loop = root.find("loop");
+  if (loop == root.end()) return 0;
+  if (!loop->is_boolean()) fail("loop is neither true nor false");
+  if (!loop->get<bool>()) return 0;
+  const auto seconds = root.find("loop_seconds");
+  const double span = keyframes.back().seconds - keyframes.front().seconds;
+  if (seconds == root.end()) {
+    const double gaps = double(keyframes.size()) - 1;
+    return span > 0 ? span + span / gaps : 1.0;
+  }
+  if (!seconds->is_number()) fail("loop_seconds is no number");
+  const double value = seconds->get<double>();
+  if (!(value > 0 && value <= longest_path)) fail("loop_seconds is not above 0, up to 1000000");
+  return value;
+}
+
+CameraPathData our_path(const Json& root, const std::string& file) {
+  if (!root.is_object() || !root.contains("cameras"))
+    throw InputError({file, {}, {}}, "there is no \"cameras\" in it: no camera path of ours");
+  CameraPathData path;
+  for (const CameraJson& json : our_cameras(root, file)) {
+    path.keyframes.push_back(our_keyframe(json));
+    const std::size_t count = path.keyframes.size();
+    if (count > 1 && path.keyframes[count - 1].seconds < path.keyframes[count - 2].seconds)
+      json.fail("seconds is less than that of the camera before it");
+  }
+  if (path.keyframes.empty()) throw InputError({file, {}, {}}, "it holds no cameras");
+  path.loop_seconds = our_loop(root, path.keyframes, file);
+  return path;
 }
 
 #ifndef __EMSCRIPTEN__
@@ -126,31 +187,67 @@ CameraFile read_cameras(const std::filesystem::path& path) {
   return read_cameras(input);
 }
 
-std::string cameras_to_json(std::span<const Camera> cameras) {
-  using Ordered = nlohmann::ordered_json;
-  Ordered list = Ordered::array();
-  for (const Camera& camera : cameras) {
-    Ordered json;
-    if (!camera.name.empty()) json["name"] = camera.name;
-    json["width"] = camera.width;
-    json["height"] = camera.height;
-    json["fx"] = camera.fx;
-    json["fy"] = camera.fy;
-    json["cx"] = camera.cx;
-    json["cy"] = camera.cy;
-    Ordered rows = Ordered::array();
-    for (int row = 0; row < 3; ++row) {
-      Ordered columns = Ordered::array();
-      for (int column = 0; column < 4; ++column)
-        columns.push_back(camera.view_from_world[column][row]);
-      rows.push_back(std::move(columns));
-    }
-    json["view_from_world"] = std::move(rows);
-    list.push_back(std::move(json));
+CameraPathData read_path(Input& input) { return our_path(read_json(input), input.name()); }
+
+CameraPathData read_path(const std::filesystem::path& path) {
+  Input input = Input::open(path);
+  return read_path(input);
+}
+
+// ---- Writing
+// -------------------------------------------------------------------------------------
+
+namespace {
+
+using Ordered = nlohmann::ordered_json;
+
+/// Adds what a camera has.
+void put_camera(const Camera& camera, Ordered& json) {
+  if (!camera.name.empty()) json["name"] = camera.name;
+  json["width"] = camera.width;
+  json["height"] = camera.height;
+  json["fx"] = camera.fx;
+  json["fy"] = camera.fy;
+  json["cx"] = camera.cx;
+  json["cy"] = camera.cy;
+  Ordered rows = Ordered::array();
+  for (int row = 0; row < 3; ++row) {
+    Ordered columns = Ordered::array();
+    for (int column = 0; column < 4; ++column)
+      columns.push_back(camera.view_from_world[column][row]);
+    rows.push_back(std::move(columns));
   }
-  const Ordered root = {{"tureen_cameras", 1}, {"cameras", std::move(list)}};
+  json["view_from_world"] = std::move(rows);
+}
+
+std::string text_of(const Ordered& root) {
   // A name need not be UTF-8: the bytes that are not become U+FFFD instead of an exception.
   return root.dump(2, ' ', false, Ordered::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string cameras_to_json(std::span<const Camera> cameras) {
+  Ordered list = Ordered::array();
+  for (const Camera& camera : cameras) put_camera(camera, list.emplace_back(Ordered::object()));
+  return text_of({{"tureen_cameras", 1}, {"cameras", std::move(list)}});
+}
+
+std::string path_to_json(const CameraPathData& path) {
+  Ordered list = Ordered::array();
+  [[maybe_unused]] double before = 0;
+  for (const CameraKeyframe& keyframe : path.keyframes) {
+    assert(keyframe.seconds >= before);
+    before = keyframe.seconds;
+    Ordered& json = list.emplace_back(Ordered::object());
+    json["seconds"] = keyframe.seconds;
+    if (keyframe.target_distance > 0) json["target_distance"] = keyframe.target_distance;
+    put_camera(keyframe.camera, json);
+  }
+  Ordered root = {{"tureen_cameras", 1}, {"loop", path.loop_seconds > 0}};
+  if (path.loop_seconds > 0) root["loop_seconds"] = path.loop_seconds;
+  root["cameras"] = std::move(list);
+  return text_of(root);
 }
 
 }  // namespace tureen

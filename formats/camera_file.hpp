@@ -8,6 +8,14 @@
 //                    "view_from_world": [[4 numbers], [4 numbers], [4 numbers]] } ] }
 // with the pixels and axes of soup/camera.hpp; the three rows of view_from_world are those of a
 // rotation and, in the last column, a translation. "name" may be missing.
+//
+// A path is the same file with times, so that whatever reads cameras reads its keyframes
+// (docs/camera-paths.md):
+//   { "tureen_cameras": 1, "loop": true, "loop_seconds": 8.0,
+//     "cameras": [ { "seconds": 0.0, "target_distance": 2.5, and what a camera has }, .. ] }
+// Times are 0 or more and do not decrease. "target_distance" may be missing, "loop" as well
+// (false), and "loop_seconds" where there is no loop; a loop without it closes in the mean time
+// between its keyframes.
 #pragma once
 
 #include <filesystem>
@@ -17,6 +25,7 @@
 
 #include "formats/input.hpp"
 #include "soup/camera.hpp"
+#include "soup/camera_path_data.hpp"
 
 namespace tureen {
 
@@ -46,5 +55,14 @@ CameraFile read_cameras(const std::filesystem::path& path);
 
 /// Our own file; reading it back gives the same bits.
 std::string cameras_to_json(std::span<const Camera> cameras);
+
+/// A path of ours, with at least one keyframe. Throws InputError like read_cameras, and with the
+/// camera where a time is missing, negative, above 1,000,000 or less than that before; where "loop"
+/// is neither true nor false or its seconds make no sense; and for files of others.
+CameraPathData read_path(Input& input);
+CameraPathData read_path(const std::filesystem::path& path);
+
+/// Reading it back gives the same bits. Asserts times that do not decrease.
+std::string path_to_json(const CameraPathData& path);
 
 }  // namespace tureen

@@ -38,6 +38,28 @@ double ViewLens::fov_y() const { return 2 * std::atan(0.5 / focal); }
 
 ViewLens lens_of_angle(double fov_y) { return {.focal = 0.5 / std::tan(0.5 * fov_y)}; }
 
+ViewLens lens_of(const Camera& camera) {
+  return {.focal = camera.fy / camera.height,
+          .aspect = camera.fx / camera.fy,
+          .offset = {(camera.cx - 0.5 * camera.width) / camera.height,
+                     (camera.cy - 0.5 * camera.height) / camera.height}};
+}
+
+Camera camera_of(const ViewLens& lens, const glm::dmat3& axes, const glm::dvec3& eye, int width,
+                 int height) {
+  Camera camera;
+  camera.width = width;
+  camera.height = height;
+  camera.fy = lens.focal * height;
+  camera.fx = camera.fy * lens.aspect;
+  camera.cx = 0.5 * width + lens.offset.x * height;
+  camera.cy = 0.5 * height + lens.offset.y * height;
+  const glm::dmat3 rotation = glm::transpose(axes);
+  camera.view_from_world = glm::dmat4(rotation);
+  camera.view_from_world[3] = glm::dvec4(-(rotation * eye), 1.0);
+  return camera;
+}
+
 glm::dmat3 rotation_of(const ViewState& state) {
   const glm::dmat3 level = level_rotation(Horizon(state.up), state.bearing);
   const double c = std::cos(state.roll), s = std::sin(state.roll);
@@ -49,17 +71,7 @@ glm::dvec3 eye_of(const ViewState& state) {
 }
 
 Camera camera_of(const ViewState& state, int width, int height) {
-  Camera camera;
-  camera.width = width;
-  camera.height = height;
-  camera.fy = state.lens.focal * height;
-  camera.fx = camera.fy * state.lens.aspect;
-  camera.cx = 0.5 * width + state.lens.offset.x * height;
-  camera.cy = 0.5 * height + state.lens.offset.y * height;
-  const glm::dmat3 rotation = glm::transpose(rotation_of(state));
-  camera.view_from_world = glm::dmat4(rotation);
-  camera.view_from_world[3] = glm::dvec4(-(rotation * eye_of(state)), 1.0);
-  return camera;
+  return camera_of(state.lens, rotation_of(state), eye_of(state), width, height);
 }
 
 ViewState state_of(const Camera& camera, const glm::dvec3& up, double distance) {
@@ -82,10 +94,7 @@ ViewState state_of(const Camera& camera, const glm::dvec3& up, double distance) 
     const glm::dmat3 without_roll = level_rotation(horizon, state.bearing);
     state.roll = std::atan2(glm::dot(axes[0], without_roll[1]), glm::dot(axes[0], without_roll[0]));
   }
-  state.lens = {.focal = camera.fy / camera.height,
-                .aspect = camera.fx / camera.fy,
-                .offset = {(camera.cx - 0.5 * camera.width) / camera.height,
-                           (camera.cy - 0.5 * camera.height) / camera.height}};
+  state.lens = lens_of(camera);
   place_eye(state, camera.eye());
   return state;
 }

@@ -29,6 +29,12 @@ struct ViewLens {
 };
 
 ViewLens lens_of_angle(double fov_y);
+ViewLens lens_of(const Camera& camera);
+
+/// Columns of `axes` are the camera's right, up and backward axes in world coordinates; width and
+/// height are in pixels. Without a name.
+Camera camera_of(const ViewLens& lens, const glm::dmat3& axes, const glm::dvec3& eye, int width,
+                 int height);
 
 struct ViewState {
   glm::dvec3 up{0, 1, 0};  // of unit length
@@ -43,7 +49,6 @@ struct ViewState {
 glm::dmat3 rotation_of(const ViewState& state);
 glm::dvec3 eye_of(const ViewState& state);
 
-/// No name; width and height in pixels.
 Camera camera_of(const ViewState& state, int width, int height);
 
 /// The state of a camera, with the target at `distance` before its eye. Where it looks along `up`

@@ -1,0 +1,178 @@
+// Films from outside: frames along a path or around the scene, as pictures and as videos.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "cli/program_fixture.hpp"
+#include "formats/camera_file.hpp"
+#include "formats/video_file.hpp"
+
+namespace tureen {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ChildResult;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+using testing::UnorderedElementsAre;
+
+class Film : public test::Program {
+ protected:
+  /// Three keyframes about the scene's middle in two seconds.
+  void write_path(double loop_seconds = 0) const {
+    CameraPathData path{.keyframes = {}, .loop_seconds = loop_seconds};
+    for (int i = 0; i < 3; ++i)
+      path.keyframes.push_back(
+          {look_at({3.0 * i - 3, -5, 1}, {0, 0, 0}, {0, 0, 1}, 0.7, 40, 30), double(i), 0});
+    write("path.json", path_to_json(path));
+  }
+  /// What is in the folder, but for the program's two streams.
+  std::vector<std::string> names() const {
+    std::vector<std::string> result;
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (entry.path().extension() != ".txt") result.push_back(entry.path().filename().string());
+    return result;
+  }
+  bool same_picture(const std::string& a, const std::string& b) const {
+    return read_png(a).pixels == read_png(b).pixels;
+  }
+};
+
+TEST_F(Film, FramesAlongAPathPassTheViewsOfItsKeyframes) {
+  write_scene();
+  write_path();
+  const ChildResult result =
+      run({"render", "scene.off", "--path", "path.json", "--fps", "4", "-o", "frame_%04d.png"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("9 frames, 2.25 s at 4 a second"));
+  EXPECT_THAT(result.err, HasSubstr("wrote frame_0000.png to frame_0008.png"));
+  EXPECT_EQ(names().size(), 2u + 9u) << "no contact sheet";
+  EXPECT_EQ(read_png("frame_0000.png").width, 40) << "the keyframes' own size";
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_EQ(
+        run({"render", "scene.off", "--camera", "path.json:" + std::to_string(i), "-o", "key.png"})
+            .exit_code,
+        0);
+    EXPECT_TRUE(same_picture("key.png", "frame_000" + std::to_string(4 * i) + ".png")) << i;
+  }
+  EXPECT_FALSE(same_picture("frame_0000.png", "frame_0001.png"));
+  EXPECT_FALSE(same_picture("frame_0001.png", "frame_0002.png"));
+}
+
+TEST_F(Film, ALoopDoesNotShowItsFirstFrameTwice) {
+  write_scene();
+  write_path(3);
+  const ChildResult result = run({"render", "scene.off", "--path", "path.json", "--fps", "4",
+                                  "--size", "20x20", "-o", "f.png", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["output"].size(), 12u);
+  EXPECT_EQ(json["output"][11], "f_11.png");
+  EXPECT_EQ(json["width"], 20);
+  EXPECT_FALSE(same_picture("f_00.png", "f_11.png"));
+}
+
+TEST_F(Film, ATurntableTurnsOnce) {
+  write_scene();
+  ASSERT_EQ(run({"render", "scene.off", "--turntable", "2", "--fps", "2", "--size", "40x30", "--up",
+                 "0,0,1", "-o", "turn_%d.png"})
+                .exit_code,
+            0);
+  EXPECT_THAT(names(), UnorderedElementsAre("scene.off", "turn_0.png", "turn_1.png", "turn_2.png",
+                                            "turn_3.png"));
+  // From an eye of one's own the first frame is that eye's picture.
+  ASSERT_EQ(run({"render", "scene.off", "--turntable", "2", "--fps", "2", "--size", "40x30",
+                 "--eye", "1,-5,2", "--target", "0,0,0", "--up", "0,0,1", "-o", "eye_%d.png"})
+                .exit_code,
+            0);
+  ASSERT_EQ(run({"render", "scene.off", "--size", "40x30", "--eye", "1,-5,2", "--target", "0,0,0",
+                 "--up", "0,0,1", "-o", "still.png"})
+                .exit_code,
+            0);
+  EXPECT_TRUE(same_picture("eye_0.png", "still.png"));
+  EXPECT_FALSE(same_picture("eye_2.png", "still.png"));
+}
+
+TEST_F(Film, AVideoIsWrittenWhole) {
+  if (!have_ffmpeg()) GTEST_SKIP() << ffmpeg_missing;
+  write_scene();
+  for (const char* name : {"turn.mp4", "turn.webm"}) {
+    const ChildResult result = run({"render", "scene.off", "--turntable", "1", "--fps", "8",
+                                    "--size", "64x48", "-o", name, "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("8 frames, 1.00 s at 8 a second"));
+    EXPECT_EQ(nlohmann::json::parse(result.out)["output"], nlohmann::json({name}));
+    EXPECT_GT(fs::file_size(folder / name), 500u);
+  }
+  EXPECT_THAT(names(), UnorderedElementsAre("scene.off", "turn.mp4", "turn.webm"));
+}
+
+TEST_F(Film, CtrlCLeavesNoHalfVideo) {
+  if (!have_ffmpeg()) GTEST_SKIP() << ffmpeg_missing;
+  write_scene();
+  test::Child child(
+      {"render", "scene.off", "--turntable", "3000", "--size", "320x240", "-o", "turn.mp4"},
+      folder);
+  const auto has_begun = [&] {
+    for (const std::string& name : names())
+      if (name.starts_with("turn.mp4.tmp")) return true;
+    return false;
+  };
+  for (int i = 0; i < 1000 && !has_begun() && child.running(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  ASSERT_TRUE(has_begun());
+  child.signal(SIGINT);
+  const ChildResult result = child.wait();
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_THAT(names(), Not(testing::Contains(HasSubstr("turn.mp4"))));
+}
+
+TEST_F(Film, WhatMakesNoSenseIsSaidBeforeAnythingIsRead) {
+  const auto expect = [&](std::vector<std::string> arguments, const std::string& words) {
+    arguments.insert(arguments.begin(), {"render", "none.off"});
+    const ChildResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 2) << words;
+    EXPECT_THAT(result.err, HasSubstr(words));
+  };
+  expect({"-o", "film.mp4"}, "'film.mp4' is a video, which shows the frames of --path or");
+  expect({"--fps", "30"}, "--fps is for the frames of --path and --turntable");
+  expect({"--path", "p.json", "--orbit", "3"}, "--orbit excludes --path");
+  expect({"--path", "p.json", "--turntable", "3"}, "excludes --");
+  expect({"--turntable", "0"}, "--turntable");
+  expect({"--turntable", "3", "--background", "transparent", "-o", "f.mp4"},
+         "a video shows no transparency");
+  expect({"--turntable", "3", "-o", "f.avi"}, "pictures are written as PNG");
+}
+
+TEST_F(Film, WithoutFfmpegThereIsAdvice) {
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", folder.c_str(), 1);
+  const ChildResult result = run({"render", "none.off", "--turntable", "3", "-o", "f.mp4"});
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr(ffmpeg_missing));
+}
+
+TEST_F(Film, ABadPathIsRefusedWithItsPlace) {
+  write_scene();
+  const Camera camera = look_at({0, -5, 1}, {0, 0, 0}, {0, 0, 1}, 0.7, 40, 30);
+  write("cameras.json", cameras_to_json({&camera, 1}));
+  const ChildResult timeless = run({"render", "scene.off", "--path", "cameras.json"});
+  EXPECT_EQ(timeless.exit_code, 3);
+  EXPECT_THAT(timeless.err, HasSubstr("cameras.json: camera 0: seconds is missing"));
+  const ChildResult missing = run({"render", "scene.off", "--path", "camera.json"});
+  EXPECT_EQ(missing.exit_code, 3);
+  EXPECT_THAT(missing.err, HasSubstr("camera.json"));
+  write_path(100000);
+  const ChildResult endless = run({"render", "scene.off", "--path", "path.json"});
+  EXPECT_EQ(endless.exit_code, 2);
+  EXPECT_THAT(endless.err, HasSubstr("more than 100000"));
+}
+
+}  // namespace
+}  // namespace tureen
