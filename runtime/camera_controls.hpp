@@ -28,6 +28,7 @@
 #include "runtime/navigation.hpp"
 #include "runtime/view_state.hpp"
 #include "soup/camera.hpp"
+#include "soup/camera_path_data.hpp"
 
 namespace tureen {
 
@@ -80,7 +81,8 @@ class CameraControls {
   explicit CameraControls(const Subject& subject = {});
 
   /// The picture's size in the unit of all deltas: pixels, or a window system's points. 1280 x 720
-  /// until it is called; sizes below 1 (a window that is minimised) are ignored.
+  /// until it is called; sizes below 1 (a window that is minimised) are ignored. What is shown
+  /// stays: home() and arrive() begin anew in another shape.
   void set_viewport(int width, int height);
 
   NavigationMode mode() const { return mode_; }
@@ -179,6 +181,12 @@ class CameraControls {
   /// What is shown, as a picture of any size: the vertical angle stays and a wider picture shows
   /// more at the sides. Asserts positive sizes.
   Camera camera(int width, int height) const;
+
+  /// What is shown, as a keyframe of a path that turns about the target
+  /// (soup/camera_path_data.hpp).
+  CameraKeyframe keyframe(int width, int height, double seconds) const {
+    return {camera(width, height), seconds, shown_.distance};
+  }
 
   /// Of the goal.
   const glm::dvec3& target() const { return goal_.target; }

@@ -1,6 +1,6 @@
 #include "runtime/up_axis.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
@@ -74,6 +74,18 @@ std::string axis_name(const glm::dvec3& axis) {
   char text[64];
   std::snprintf(text, sizeof text, "(%.3g, %.3g, %.3g)", direction->x, direction->y, direction->z);
   return text;
+}
+
+UpEvidence evidence_of(const Scene& scene, const Subject& subject) {
+  const auto& notes = scene.info.notes;
+  const bool assumed = std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+    return note.find("assumed") != std::string::npos &&
+           (note.find(" up ") != std::string::npos || note.find("--up ") != std::string::npos);
+  });
+  return {.stored = glm::dvec3(scene.info.up),
+          .stored_is_assumed = assumed,
+          .cameras = scene.cameras,
+          .extent = subject.high - subject.low};
 }
 
 UpGuess guess_up(const UpEvidence& evidence) {

@@ -7,7 +7,9 @@
 #include <span>
 #include <string>
 
+#include "runtime/navigation.hpp"
 #include "soup/camera.hpp"
+#include "soup/scene.hpp"
 
 namespace tureen {
 
@@ -18,6 +20,11 @@ struct UpEvidence {
   std::span<const Camera> cameras = {};
   glm::dvec3 extent{0.0};  // the sides of the scene's box
 };
+
+/// What a scene tells. Readers that assume an axis say so in a note with the words "up" and
+/// "assumed"; no field of the scene does. `subject` is subject_of(scene); the scene must outlive
+/// the evidence.
+UpEvidence evidence_of(const Scene& scene, const Subject& subject);
 
 struct UpGuess {
   glm::dvec3 axis{0, 1, 0};  // of unit length

@@ -9,6 +9,7 @@
 #include <glm/matrix.hpp>
 #include <limits>
 
+#include "runtime/camera_path.hpp"
 #include "support/random.hpp"
 
 namespace tureen {
@@ -593,6 +594,19 @@ TEST(CameraControls, ResetShowsTheFirstView) {
   EXPECT_TRUE(same_bits(controls.camera(first.width, first.height), first));
   controls.home();
   EXPECT_LT(largest_difference(home, shown(controls)), 1e-9);
+}
+
+TEST(CameraControls, KeyframesOfAnOrbitMakeAPathAroundItsTarget) {
+  CameraControls controls = stiff();
+  CameraPathData data;
+  for (int i = 0; i < 4; ++i) {
+    data.keyframes.push_back(controls.keyframe(width, height, i));
+    controls.orbit(200, 10);
+  }
+  const CameraPath path(data);
+  for (double t = 0; t < 3; t += 0.1)
+    EXPECT_NEAR(glm::length(path.at(t, width, height).eye() - controls.target()),
+                controls.distance(), 1e-9);
 }
 
 TEST(CameraControls, FocusBringsAPointToTheCentreAsLargeAsItWas) {

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <glm/geometric.hpp>
 #include <limits>
+
+#include "formats/scene_file.hpp"
 
 namespace tureen {
 namespace {
@@ -77,6 +80,31 @@ TEST(UpAxis, NothingAndNonsenseGiveY) {
   EXPECT_EQ(guess_up({}).axis, glm::dvec3(0, 1, 0));
   EXPECT_EQ(guess_up({.stored = {nan, 0, 0}, .cameras = cameras, .extent = {nan, 1, 1}}).axis,
             glm::dvec3(0, 1, 0));
+}
+
+/// What is known after the scene went through a file.
+UpEvidence through_file(const Scene& scene, const std::string& name, Scene& back) {
+  const std::string path = ::testing::TempDir() + "tureen_up_axis_" + name;
+  write_scene(scene, path);
+  back = read_scene(path);
+  std::filesystem::remove(path);
+  return evidence_of(back, subject_of(back));
+}
+
+TEST(UpAxis, ReadersSayInANoteWhatTheyAssumed) {
+  Scene scene, back;
+  scene.primitives = TriangleSoup{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}},
+                                  .triangles = {{0, 1, 2}},
+                                  .appearance = FaceColors{{glm::vec4(1)}}};
+  scene.info.up = {0, 1, 0};
+  for (const char* name : {"a.off", "a.ply"}) {
+    const UpEvidence evidence = through_file(scene, name, back);
+    EXPECT_TRUE(evidence.stored_is_assumed) << name;
+    EXPECT_EQ(evidence.extent, glm::dvec3(1, 2, 0));
+  }
+  const UpEvidence evidence = through_file(scene, "a.glb", back);
+  EXPECT_FALSE(evidence.stored_is_assumed);
+  EXPECT_EQ(evidence.stored, glm::dvec3(0, 1, 0));
 }
 
 TEST(UpAxis, AxesHaveNames) {
