@@ -133,10 +133,30 @@ part_frames() {
     measure "frames-fox-photographs" "$bin/tureen" bench "$path" "$photographs" "${options[@]}" \
       -o "$out/frames-fox-photographs"
   done
+  measure_stages
   options=()
   [[ -z $quick ]] || options=(--triangles 50000 --rounds 1 --width 160 --height 90)
   [[ -z $processor ]] || options+=(--processor-time)
   measure frames-dense "$bin/dense_benchmark" "${ficus:-examples/soup.glb}" "${options[@]}"
+}
+
+# The shading pass as a fragment and as a compute shader.
+measure_stages() {
+  local i options
+  if ! "$bin/tureen" render examples/soup.glb --shading compute --size 16x16 -o "$out/scenes/compute.png" \
+    >/dev/null 2>&1; then
+    skip "shading as compute, which this device cannot do"
+    return
+  fi
+  for i in "${!scene_names[@]}"; do
+    [[ ${scene_names[i]} != ficus ]] || continue # shaded forward
+    options=(--cameras hemisphere:4 --rounds 2 --seconds 30)
+    [[ -z $quick ]] || options=(--size 160x90 --rounds 1 --seconds 1)
+    options+=(--only "tureen-fragment,tureen-compute")
+    [[ -z $processor ]] || options+=(--processor-time)
+    measure "stages-${scene_names[i]}" "$bin/tureen" bench "${scene_paths[i]}" "${options[@]}" \
+      -o "$out/stages-${scene_names[i]}"
+  done
 }
 
 part_leave_out() {
