@@ -7,11 +7,11 @@
 
 #include "cli/choice.hpp"
 #include "cli/commands.hpp"
-#include "cli/heat_map.hpp"
 #include "cli/picture_file.hpp"
 #include "cli/report.hpp"
 #include "cli/values.hpp"
 #include "soup/error.hpp"
+#include "soup/heat_map.hpp"
 #include "soup/metrics.hpp"
 
 namespace tureen::cli {

@@ -11,11 +11,11 @@
 #include <thread>
 
 #include "cli/contact_sheet.hpp"
-#include "cli/heat_map.hpp"
 #include "cli/picture_file.hpp"
 #include "formats/output.hpp"
 #include "runtime/renderer.hpp"
 #include "soup/error.hpp"
+#include "soup/heat_map.hpp"
 
 namespace tureen::cli {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "cli/heat_map.hpp"
+#include "soup/heat_map.hpp"
 #include "soup/metrics.hpp"
 #include "soup/quantise.hpp"
 

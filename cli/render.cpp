@@ -2,21 +2,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 
 #include "cli/commands.hpp"
-#include "cli/contact_sheet.hpp"
 #include "cli/drawing_options.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/picture_file.hpp"
-#include "cli/progress.hpp"
+#include "cli/pictures.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
+#include "cli/show_option.hpp"
 #include "cli/values.hpp"
 #include "cli/view_options.hpp"
 #include "formats/video_file.hpp"
-#include "runtime/renderer.hpp"
+#include "runtime/inspector.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {
@@ -29,97 +28,62 @@ struct Options {
   std::string output = "out.png";
   std::string background;  // empty: the scene's own
   DrawingOptions drawing;
+  ShowOption show;
   int frames = 0;
   bool json = false;
 };
 
-/// Milliseconds a frame, each from before the draw to after the device has finished.
-struct FrameTimes {
-  std::vector<double> ms;
-
-  double median() const {
-    std::vector<double> sorted = ms;
-    std::sort(sorted.begin(), sorted.end());
-    const std::size_t half = sorted.size() / 2;
-    return sorted.size() % 2 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
-  }
-  /// The smallest that 95 % of all are not above.
-  double p95() const {
-    std::vector<double> sorted = ms;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted[(sorted.size() * 95 + 99) / 100 - 1];
-  }
+/// What is drawn, however, and what is said of it.
+struct Drawn {
+  Pictures pictures;
+  std::vector<std::string> plan;
+  std::vector<std::string> legend;  // of inspections
+  std::size_t device_bytes = 0;
 };
 
-double timed_draw(Renderer& renderer, const Camera& camera) {
-  const auto start = std::chrono::steady_clock::now();
-  renderer.draw(camera);
-  renderer.finish();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
+/// Pictures, or a film.
+Pictures draw_views(const Drawer& drawer, const gl::Capabilities& device, const Views& views,
+                    const std::string& output) {
+  if (is_video_name(output))
+    return draw_video(drawer, views.cameras, views.frames_per_second, output);
+  // Frames of a film follow each other: a sheet of hundreds shows nothing.
+  const Sheet sheet = views.frames_per_second > 0 ? Sheet::none : Sheet::of_several;
+  return draw_pictures(drawer, device, views.cameras, {output, sheet});
 }
 
-/// `frames` frames through all cameras in turn. The first ones, which compile shaders and fill
-/// caches, are drawn before and not counted.
-FrameTimes benchmark(Renderer& renderer, const std::vector<Camera>& cameras, int frames) {
-  const int warm_up = std::clamp(frames, 3, 10);
-  Progress progress("timing");
+Drawn draw_colors(const gl::Context& context, const Scene& scene, const TriangleSoup& soup,
+                  const Options& options, glm::vec4 background,
+                  const std::vector<Camera>& cameras) {
+  const gl::Capabilities& device = context.capabilities();
+  CheckedRenderer checked = make_renderer(context, soup, scene.origin, options.drawing, background);
+  const Drawer drawer = drawer_of(checked.renderer, device);
+  // What --frames refuses is said before hours of drawing.
   FrameTimes times;
-  for (int i = -warm_up; i < frames; ++i) {
-    const double ms = timed_draw(renderer, cameras[std::size_t(i + warm_up) % cameras.size()]);
-    if (i >= 0) times.ms.push_back(ms);
-    progress.update(double(i + warm_up + 1) / (frames + warm_up));
-  }
-  return times;
+  if (options.frames > 0) times = benchmark(drawer, device, views.cameras, options.frames);
+  Pictures pictures = draw_views(drawer, device, views, options.output);
+  if (options.frames > 0) pictures.times = times;
+  return {std::move(pictures), plan_sentences(checked), {}, checked.renderer.device_bytes()};
 }
 
-struct Pictures {
-  std::vector<std::string> paths;
-  FrameTimes times;
-};
-
-/// Frame by frame into one file.
-Pictures draw_video(Renderer& renderer, const Views& film, const std::string& path) {
-  const std::vector<Camera>& cameras = film.cameras;
-  const Camera& first = cameras.front();
-  Pictures result{{path}, {}};
-  VideoFile video(path, {first.width, first.height, film.frames_per_second});
-  Progress progress("drawing");
-  timed_draw(renderer, first);  // compiles shaders; not counted
-  for (const Camera& camera : cameras) {
-    progress.update(double(result.times.ms.size()) / double(cameras.size()));
-    result.times.ms.push_back(timed_draw(renderer, camera));
-    video.add(renderer.read_color());
-  }
-  video.commit();
-  return result;
+Drawn draw_inspection(const gl::Context& context, const Scene& scene, const TriangleSoup& soup,
+                      const Options& options, glm::vec4 background,
+                      const std::vector<Camera>& cameras) {
+  const gl::Capabilities& device = context.capabilities();
+  Inspector inspector(context, soup, scene.origin, {.background = background});
+  inspector.show(options.show.what, options.show.features);
+  Pictures pictures = draw_views(drawer_of(inspector, device), device, views, options.output);
+  const std::string sentence = std::string("shows ") + name_of(options.show.what) +
+                               " of the soup as it is stored, one sample a pixel";
+  return {
+      std::move(pictures), {sentence}, legend_lines(inspector.legend()), inspector.device_bytes()};
 }
 
-Pictures draw_pictures(Renderer& renderer, const Views& views, const std::string& pattern) {
-  const std::vector<Camera>& cameras = views.cameras;
-  // Frames follow each other: a sheet of hundreds shows nothing.
-  const bool with_sheet = cameras.size() > 1 && views.frames_per_second == 0;
-  const int count = int(cameras.size());
-  Pictures result;
-  std::vector<Image8> thumbnails;
-  Progress progress("drawing");
-  timed_draw(renderer, cameras.front());  // compiles shaders; not counted
-  for (int i = 0; i < count; ++i) {
-    progress.update(double(i) / count);
-    result.times.ms.push_back(timed_draw(renderer, cameras[std::size_t(i)]));
-    const Image8 picture = renderer.read_color();
-    const std::filesystem::path path = picture_name(pattern, i, count);
-    write_picture(picture, path);
-    result.paths.push_back(path.string());
-    if (with_sheet) thumbnails.push_back(thumbnail(picture));
-  }
-  if (with_sheet) {
-    const std::filesystem::path sheet =
-        picture_name(pattern, 0, count).replace_filename("contact_sheet.png");
-    write_picture(contact_sheet(thumbnails), sheet);
-    result.paths.push_back(sheet.string());
-  }
-  return result;
+/// Before a context is asked for.
+void require_shown(const ShowOption& show, const TriangleSoup& soup) {
+  std::optional<std::string> refusal = why_not(show.what, soup);
+  if (!refusal && show.what == Inspection::features)
+    refusal = why_not(show.features, feature_count(soup));
+  if (refusal) throw UsageError(std::string("--show ") + name_of(show.what) + ": " + *refusal);
 }
 
 /// Throws UsageError.
@@ -166,25 +130,23 @@ ExitCode render(Options options) {
   const Views views = resolve_views(options.views, scene, options.scene.path);
   if (options.background.empty()) background = glm::vec4(scene.info.background, 1.0f);
   use_preset_of(scene, options.drawing);
+  require_shown(options.show, soup);
 
   const gl::Context context = gl::Context::create({.backend = options.drawing.backend});
   throw_if_interrupted();
-  CheckedRenderer checked = make_renderer(context, soup, scene.origin, options.drawing, background);
-  Renderer& renderer = checked.renderer;
-
-  Pictures pictures = is_video_name(options.output)
-                          ? draw_video(renderer, views, options.output)
-                          : draw_pictures(renderer, views, options.output);
-  if (options.frames > 0) pictures.times = benchmark(renderer, views.cameras, options.frames);
+  const auto draw = options.show.what == Inspection::color ? draw_colors : draw_inspection;
+  const Drawn drawn = draw(context, scene, soup, options, background, views);
+  const Pictures& pictures = drawn.pictures;
   const FrameTimes& times = pictures.times;
 
   const Camera& first = views.cameras.front();
   const gl::Capabilities& device = context.capabilities();
   say_list("Reading " + options.scene.path + ":", scene.info.notes);
   say_list("Cameras:", views.notes);
-  say_list("Plan:", plan_sentences(checked));
+  say_list("Plan:", drawn.plan);
+  say_list("Legend:", drawn.legend);
   say(fmt::format("{} triangles, {} on the device; {} x {} on {} ({})",
-                  counted(soup.triangles.size()), bytes_text(renderer.device_bytes()), first.width,
+                  counted(soup.triangles.size()), bytes_text(drawn.device_bytes), first.width,
                   first.height, device.renderer, context.description()));
   say(fmt::format("{:.2f} ms a frame (median of {}, 95 % within {:.2f} ms)", times.median(),
                   times.ms.size(), times.p95()));
@@ -197,7 +159,7 @@ ExitCode render(Options options) {
          {"renderer", device.renderer},
          {"triangles", soup.triangles.size()},
          {"frame_ms", {{"median", times.median()}, {"p95", times.p95()}, {"n", times.ms.size()}}},
-         {"plan", plan_sentences(checked)},
+         {"plan", drawn.plan},
          {"output", pictures.paths}});
   return ExitCode::done;
 }
@@ -220,6 +182,8 @@ Examples:
   tureen render soup.glb --path path.json --fps 25 -o frame_%04d.png
                                                           the frames along a camera path
   tureen render soup.glb --supersample 4 -o smooth.png    16 samples a pixel
+  tureen render soup.glb --size 40000x20000 -o poster.png beyond what the device draws: in tiles
+  tureen render soup.glb --show depth -o depth.png        or normals, texels, overdraw, ..
   tureen render soup.glb --frames 100 --json              milliseconds a frame
   tureen render soup.glb --pipeline published --frames 100 --json
                                                           against the baseline
@@ -241,10 +205,15 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
       ->option_text("COLOR");
   add_drawing_options(*command, options->drawing);
   add_drawing_scale(*command, options->drawing);
+  CLI::Option* show = add_show_option(*command, options->show);
+  for (const char* other :
+       {"--supersample", "--scale", "--pipeline", "--shading", "--no-specialise", "--keep"})
+    show->excludes(command->get_option(other));
   command
       ->add_option("--frames", options->frames,
                    "draw so many frames more, after a warm-up, and tell the time of each")
       ->check(CLI::Range(1, 1000000))
+      ->excludes(show)
       ->option_text("N");
   command->add_flag("--json", options->json,
                     "what was drawn, and how fast, as JSON on standard output");

@@ -36,7 +36,7 @@ std::optional<int> whole_number(const std::string& text, int low, int high) {
 
 }  // namespace
 
-PictureSize parse_size(const std::string& text) {
+PictureSize parse_any_size(const std::string& text) {
   const std::size_t times = text.find('x');
   std::optional<int> width, height;
   if (times != std::string::npos) {
@@ -46,10 +46,15 @@ PictureSize parse_size(const std::string& text) {
   if (!width || !height)
     throw UsageError("'" + text + "' is no size; write it as 1280x720, each side from 1 to " +
                      std::to_string(max_image_side));
-  if (std::size_t(*width) * std::size_t(*height) > max_image_pixels)
+  return {*width, *height};
+}
+
+PictureSize parse_size(const std::string& text) {
+  const PictureSize size = parse_any_size(text);
+  if (std::size_t(size.width) * std::size_t(size.height) > max_image_pixels)
     throw UsageError("a picture of " + text + " has more than " + std::to_string(max_image_pixels) +
                      " pixels");
-  return {*width, *height};
+  return size;
 }
 
 glm::dvec3 parse_vector(const std::string& text) {

@@ -122,7 +122,7 @@ void add_film_options(CLI::App& command, ViewOptions& options) {
 }  // namespace
 
 void check(const ViewOptions& options) {
-  if (!options.size.empty()) parse_size(options.size);
+  if (!options.size.empty()) parse_any_size(options.size);
   if (options.frames_per_second && !options.is_film())
     throw UsageError("--fps is for the frames of --path and --turntable");
 }
@@ -168,7 +168,7 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
 
 Views resolve_views(const ViewOptions& options, const Scene& scene, const std::string& scene_path) {
   std::optional<PictureSize> size;
-  if (!options.size.empty()) size = parse_size(options.size);
+  if (!options.size.empty()) size = parse_any_size(options.size);
 
   FrameRate rate;
   rate.frames_per_second = options.frames_per_second.value_or(default_frames_per_second);

@@ -109,10 +109,7 @@ void Renderer::set_background(glm::vec4 background) { state_->background = backg
 
 void Renderer::draw(const Camera& camera) {
   assert(camera.width > 0 && camera.height > 0);
-  if (std::max(camera.width, camera.height) > state_->max_side)
-    throw DeviceLimitError("a picture of " + std::to_string(camera.width) + "x" +
-                           std::to_string(camera.height) + " is larger than this device draws: " +
-                           std::to_string(state_->max_side) + " pixels a side");
+  require_drawable(camera.width, camera.height, state_->max_side);
   if (camera.width != state_->width || camera.height != state_->height) {
     state_->width = state_->height = 0;  // should it throw, the next frame starts anew
     state_->pipeline->resize(camera.width, camera.height);
@@ -141,35 +138,11 @@ glm::ivec2 Renderer::sample_size() const { return state_->pipeline->sample_size(
 std::vector<std::uint32_t> Renderer::read_faces() const {
   const GLuint framebuffer = state_->pipeline->visibility_framebuffer();
   if (!framebuffer) return {};
-  const glm::ivec2 size = sample_size();
-  const auto width = std::size_t(size.x), height = std::size_t(size.y);
-  // Reading must wait for the pass that wrote this target, but Mesa 22.3's llvmpipe waits only
-  // where the pass in flight writes to it: the shading pass reads it, and an older frame comes
-  // back.
-  glFinish();
-  // Four channels, though two are stored: ES 3.0 promises to read integers in no other way.
-  std::vector<glm::uvec4> fragments(width * height);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  gl::use_plain_pixel_transfer();
-  glReadPixels(0, 0, size.x, size.y, GL_RGBA_INTEGER, GL_UNSIGNED_INT, fragments.data());
-  std::vector<std::uint32_t> faces(fragments.size());
-  for (std::size_t y = 0; y < height; ++y)
-    for (std::size_t x = 0; x < width; ++x) {
-      const std::uint32_t slot = fragments[(height - 1 - y) * width + x].x;
-      faces[y * width + x] = slot == no_face ? no_face : state_->plan.faces[slot];
-    }
-  return faces;
+  return read_visible_faces(framebuffer, sample_size(), state_->plan.faces);
 }
 
 void Renderer::blit_to(unsigned framebuffer) const {
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, state_->pipeline->color_framebuffer());
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-  glDisable(GL_SCISSOR_TEST);
-  glBlitFramebuffer(0, 0, state_->width, state_->height, 0, 0, state_->width, state_->height,
-                    GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  blit_color(state_->pipeline->color_framebuffer(), framebuffer, state_->width, state_->height);
 }
 
 void Renderer::leave_context() {

@@ -1,10 +1,12 @@
 #include "runtime/targets.hpp"
 
 #include <algorithm>
-#include <vector>
+#include <glm/vec4.hpp>
+#include <string>
 
 #include "runtime/gl/state.hpp"
 #include "soup/error.hpp"
+#include "soup/triangle_soup.hpp"
 
 namespace tureen {
 
@@ -67,6 +69,44 @@ Image8 read_pixels(GLuint framebuffer, int width, int height) {
   for (int y = 0; y < height / 2; ++y)
     std::swap_ranges(&image.at(0, y), &image.at(0, y) + width, &image.at(0, height - 1 - y));
   return image;
+}
+
+std::vector<std::uint32_t> read_visible_faces(GLuint framebuffer, glm::ivec2 size,
+                                              std::span<const std::uint32_t> faces) {
+  const auto width = std::size_t(size.x), height = std::size_t(size.y);
+  // Reading must wait for the pass that wrote this target, but Mesa 22.3's llvmpipe waits only
+  // where the pass in flight writes to it: the shading pass reads it, and an older frame comes
+  // back.
+  glFinish();
+  // Four channels, though two are stored: ES 3.0 promises to read integers in no other way.
+  std::vector<glm::uvec4> fragments(width * height);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  gl::use_plain_pixel_transfer();
+  glReadPixels(0, 0, size.x, size.y, GL_RGBA_INTEGER, GL_UNSIGNED_INT, fragments.data());
+  std::vector<std::uint32_t> result(fragments.size());
+  for (std::size_t y = 0; y < height; ++y)
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::uint32_t slot = fragments[(height - 1 - y) * width + x].x;
+      result[y * width + x] = slot == no_face ? no_face : faces[slot];
+    }
+  return result;
+}
+
+void blit_color(GLuint from, GLuint to, int width, int height) {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, from);
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
+  glDisable(GL_SCISSOR_TEST);
+  glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, to);
+}
+
+void require_drawable(int width, int height, int max_side) {
+  if (std::max(width, height) > max_side)
+    throw DeviceLimitError("a picture of " + std::to_string(width) + "x" + std::to_string(height) +
+                           " is larger than this device draws: " + std::to_string(max_side) +
+                           " pixels a side");
 }
 
 }  // namespace tureen

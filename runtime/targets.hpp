@@ -1,7 +1,11 @@
 // Textures and framebuffers of the window's size.
 #pragma once
 
+#include <cstdint>
+#include <glm/vec2.hpp>
 #include <initializer_list>
+#include <span>
+#include <vector>
 
 #include "runtime/gl/objects.hpp"
 #include "runtime/texel_store.hpp"
@@ -34,6 +38,18 @@ gl::Framebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint de
 
 /// The RGBA8 pixels of a framebuffer's first color attachment, row 0 on top. Waits for the device.
 Image8 read_pixels(GLuint framebuffer, int width, int height);
+
+/// The faces that shaders/visibility.frag has named in a framebuffer, row 0 on top: `faces` are
+/// those of its slots. Waits for the device.
+std::vector<std::uint32_t> read_visible_faces(GLuint framebuffer, glm::ivec2 size,
+                                              std::span<const std::uint32_t> faces);
+
+/// Copies the colours of one framebuffer into another of the same size (0 is the window), which is
+/// bound afterwards.
+void blit_color(GLuint from, GLuint to, int width, int height);
+
+/// Throws DeviceLimitError where either side is above `max_side`.
+void require_drawable(int width, int height, int max_side);
 
 /// Throws DeviceLimitError when the framebuffer that is bound cannot be drawn to: plans use formats
 /// that OpenGL requires or the device has, so it is memory that a picture of this size lacks.

@@ -71,7 +71,7 @@ class TureenPipeline final : public Pipeline {
 
   void draw(const FrameCamera& frame, const glm::vec4& background) override {
     gl::use_plain_rasterisation(width_, height_);
-    if (plan_.reversed_depth) set_clip_control(true);
+    if (plan_.reversed_depth) gl::use_zero_to_one_depth(api_, true);
     if (plan_.site == ShadingSite::deferred) {
       draw_store(frame);
       shading_->draw({.camera = frame,
@@ -86,7 +86,7 @@ class TureenPipeline final : public Pipeline {
     } else {
       draw_forward(frame, background);
     }
-    if (plan_.reversed_depth) set_clip_control(false);
+    if (plan_.reversed_depth) gl::use_zero_to_one_depth(api_, false);
     gl::check("draw");
   }
 
@@ -142,19 +142,6 @@ class TureenPipeline final : public Pipeline {
     if (plan_.shading_stage != ShadingStage::fragment)
       sources.compute = with_appearance("shading.comp", constants);
     return sources;
-  }
-
-  void set_clip_control(bool zero_to_one) const {
-    const GLenum depth = zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE;
-#ifndef __EMSCRIPTEN__
-    // By the context, not by which pointer is set: one may be another context's.
-    if (api_ == gl::Api::desktop)
-      glClipControl(GL_LOWER_LEFT, depth);
-    else
-      glClipControlEXT(GL_LOWER_LEFT, depth);
-#else
-    (void)depth;
-#endif
   }
 
   void clear_depth() const {

@@ -1,12 +1,12 @@
 // Colour 1/2 + sum_i Y_i(d) c_i, clamped to [0, 1], of a face (HARMONICS_PER_VERTEX 0: d at the centroid) or of
 // each corner, interpolated (1). VIEW_SIGN is +1 for surface-to-eye coefficients, -1 for
 // eye-to-surface ones.
+#include "eye.glsl"
 #include "harmonics.glsl"
 #include "texel_store.glsl"
 
 uniform sampler2DArray coefficients;  // HARMONICS_COUNT texels an element
 uniform sampler2DArray anchors;       // the point of an element that d is taken at
-uniform vec3 eye_high, eye_low;       // their sum is the eye, relative to the soup's origin
 
 vec3 element_color(uint element) {
   vec3 anchor = texelFetch(anchors, texel_position(element), 0).xyz;

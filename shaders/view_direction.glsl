@@ -4,6 +4,9 @@ uniform vec3 ray_at_corner;   // world direction, eye to surface, through window
 uniform vec3 ray_per_column;  // how it changes a pixel to the right
 uniform vec3 ray_per_row;     // and a pixel up
 
-vec3 direction_to_eye(vec2 window) {
-  return -normalize(ray_at_corner + window.x * ray_per_column + window.y * ray_per_row);
+// Through a window position, with a depth of 1 along the viewing axis.
+vec3 ray_through(vec2 window) {
+  return ray_at_corner + window.x * ray_per_column + window.y * ray_per_row;
 }
+
+vec3 direction_to_eye(vec2 window) { return -normalize(ray_through(window)); }

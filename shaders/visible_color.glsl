@@ -1,12 +1,12 @@
 // The colour of a fragment that the visibility pass has named: the one shading function of
 // shading.frag and shading.comp.
 #include "appearance.glsl"
+#include "stored_fragment.glsl"
 #include "view_direction.glsl"
 
 uniform usampler2D visible;  // written by visibility.frag
 
 // `window` is the middle of the pixel, y up.
 vec4 visible_color(uvec2 fragment, vec2 window) {
-  vec2 b = vec2(fragment.y & 0xffffu, fragment.y >> 16) / 65535.0;
-  return vec4(fragment_color(fragment.x, b, direction_to_eye(window)), 1.0);
+  return vec4(fragment_color(fragment.x, stored_barycentrics(fragment), direction_to_eye(window)), 1.0);
 }

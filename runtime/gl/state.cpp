@@ -30,4 +30,18 @@ void use_plain_pixel_transfer() {
 
 void use_texture_sampling(unsigned unit) { glBindSampler(unit, 0); }
 
+void use_zero_to_one_depth(Api api, bool zero_to_one) {
+#ifndef __EMSCRIPTEN__
+  const GLenum depth = zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE;
+  // By the context, not by which pointer is set: one may be another context's.
+  if (api == Api::desktop)
+    glClipControl(GL_LOWER_LEFT, depth);
+  else
+    glClipControlEXT(GL_LOWER_LEFT, depth);
+#else
+  (void)api;
+  (void)zero_to_one;
+#endif
+}
+
 }  // namespace tureen::gl

@@ -1,6 +1,8 @@
 // The GL state that we depend on and that somebody who shares the context may have changed.
 #pragma once
 
+#include "runtime/gl/context.hpp"
+
 namespace tureen::gl {
 
 /// Every fragment is written where it falls: the whole of a width x height target, no blending,
@@ -13,5 +15,9 @@ void use_plain_pixel_transfer();
 
 /// No sampler object overrides the filters of the texture on this unit.
 void use_texture_sampling(unsigned unit);
+
+/// Clip space's z from 0 to 1 becomes depth, as reversed depth wants it; or from -1 to 1, which is
+/// GL's own. Only where there is clip control.
+void use_zero_to_one_depth(Api api, bool zero_to_one);
 
 }  // namespace tureen::gl

@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include "cli/contact_sheet.hpp"
-#include "cli/heat_map.hpp"
 #include "cli/picture_file.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
@@ -43,6 +42,8 @@ TEST(Values, ReadWhatIsMeantAndRefuseTheRest) {
   for (const char* bad : {"", "x", "12", "12x", "x12", "0x1", "-1x5", "1x1x1", "1e3x5", "99999x1"})
     EXPECT_THROW(parse_size(bad), UsageError) << bad;
   EXPECT_THROW(parse_size("65536x65536"), UsageError);
+  EXPECT_EQ(parse_any_size("65536x65536").height, 65536);
+  EXPECT_THROW(parse_any_size("65537x1"), UsageError);
   EXPECT_EQ(parse_vector("1,-2.5,3e2"), glm::dvec3(1, -2.5, 300));
   for (const char* bad : {"", "1,2", "1,2,3,4", "1,2,x", "1,2,nan", "1,2,inf", "1 2 3", "1,2,3 "})
     EXPECT_THROW(parse_vector(bad), UsageError) << bad;
@@ -126,18 +127,6 @@ TEST(ContactSheet, HoldsEveryPictureInAGrid) {
   for (int i = 0; i < 5; ++i)
     EXPECT_EQ(sheet.at(8 + (i % 2) * 328, 8 + (i / 2) * 168), pictures[std::size_t(i)].at(0, 0));
   EXPECT_EQ(sheet.at(0, 0), glm::u8vec4(0));
-}
-
-TEST(HeatMap, GetsLighterWithTheDifference) {
-  EXPECT_EQ(heat(0), glm::u8vec4(0, 0, 0, 255));
-  EXPECT_EQ(heat(1), glm::u8vec4(255));
-  int last = 0;
-  for (int byte = 1; byte < 256; ++byte) {
-    const glm::u8vec4 color = heat(float(byte) / 255);
-    const int lightness = 2 * color.r + 5 * color.g + color.b;
-    EXPECT_GE(lightness, last) << byte;
-    last = lightness;
-  }
 }
 
 // --- Views ----------------------------------------------------------------------------------

@@ -284,6 +284,64 @@ TEST_F(Program, RenderSmoothsAndScalesWithoutChangingTheSize) {
   EXPECT_EQ(run({"render", "scene.off", "--supersample", "2", "--scale", "0.5"}).exit_code, 2);
 }
 
+TEST_F(Program, RenderShowsWhatASoupHas) {
+  write_scene();
+  const std::vector<std::string> view = {"render", "scene.off", "--size", "64x48",     "--eye",
+                                         "0,-5,0", "--target",  "0,0,0",  "--context", "osmesa"};
+  const auto shown = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = view;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  };
+  const ChildResult overdraw = shown({"--show", "overdraw", "--json"});
+  ASSERT_EQ(overdraw.exit_code, 0) << overdraw.err;
+  EXPECT_THAT(overdraw.err, HasSubstr("shows overdraw of the soup as it is stored"));
+  EXPECT_THAT(overdraw.err, HasSubstr("#ffffff 255 or more"));
+  EXPECT_THAT(keys(nlohmann::ordered_json::parse(overdraw.out)),
+              ElementsAre("width", "height", "context", "renderer", "triangles", "frame_ms", "plan",
+                          "output"));
+  // Two faces at one place in the middle, and the third behind them.
+  const Image8 counts = read_png("out.png");
+  ASSERT_EQ(shown({"--show", "normals"}).exit_code, 0);
+  const Image8 normals = read_png("out.png");
+  EXPECT_EQ(normals.at(32, 24), glm::u8vec4(128, 0, 128, 255));  // -y, towards the eye
+  EXPECT_NE(counts.at(32, 24), normals.at(32, 24));
+  EXPECT_EQ(counts.at(0, 0), normals.at(0, 0));
+
+  const auto refused = [&](const std::vector<std::string>& more, const char* why) {
+    const ChildResult result = shown(more);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, HasSubstr(why));
+  };
+  refused({"--show", "nomals"}, "did you mean normals?");
+  refused({"--show", "texels"}, "There are no texels");
+  refused({"--show", "features:2-6"}, "one, two or three features");
+  refused({"--show", "depth:2"}, "only features are followed by which");
+  refused({"--show", "depth", "--supersample", "2"}, "--supersample");
+  refused({"--show", "depth", "--scale", "0.5"}, "--scale");
+  refused({"--show", "depth", "--frames", "5"}, "--show");
+}
+
+TEST_F(Program, RenderDrawsBeyondTheDeviceInTiles) {
+  write_scene();
+  // Software devices draw 16,384 pixels a side.
+  const std::vector<std::string> view = {
+      "render", "scene.off", "--size", "20000x50",  "--eye",  "0,-5,0",       "--target",
+      "0,0,0",  "--fov",     "10",     "--context", "osmesa", "--background", "transparent"};
+  const ChildResult result = run(view);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Image8 picture = read_png("out.png");
+  ASSERT_EQ(picture.width, 20000);
+  ASSERT_EQ(picture.height, 50);
+  EXPECT_EQ(picture.at(10000, 25), glm::u8vec4(255, 0, 0, 255));
+  EXPECT_EQ(picture.at(0, 0), glm::u8vec4(0));
+  std::vector<std::string> timed = view;
+  timed.insert(timed.end(), {"--frames", "3"});
+  const ChildResult refused = run(timed);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--frames times pictures that are drawn at once"));
+}
+
 TEST_F(Program, RenderShowsItsBackgroundWhereNothingIs) {
   write_scene();
   const auto corner = [&](const std::string& background) {

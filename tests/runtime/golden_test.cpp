@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/scene_file.hpp"
+#include "runtime/inspector.hpp"
 #include "runtime/renderer.hpp"
 #include "support/contexts.hpp"
 #include "support/random_soups.hpp"
@@ -79,6 +80,27 @@ TEST(Golden, Example) {
   Renderer renderer(context, std::get<TriangleSoup>(scene.primitives), scene.origin, options);
   renderer.draw(resized(scene.cameras.at(40), 320, 240));
   expect_golden(renderer.read_color(), "example");
+}
+
+// Each view of the example from near by, where lattices and edges can be told apart. Mistakes that
+// the tests against the oracle share would show here: colours that say nothing, lines that break.
+TEST(Golden, Inspections) {
+  const Scene scene = read_scene(std::string(TUREEN_SOURCE_DIR) + "/examples/soup.glb");
+  Camera camera = resized(scene.cameras.at(40), 160, 120);
+  camera.fx *= 6;
+  camera.fy *= 6;
+  for (const NamedContext& named : every_context) {
+    const gl::Context context = gl::Context::create(named.request);
+    Inspector inspector(context, std::get<TriangleSoup>(scene.primitives), scene.origin,
+                        {.reversed_depth = false, .background = glm::vec4(0, 0, 0, 1)});
+    const bool is_reference = named.request.backend == gl::Backend::osmesa;
+    for (const InspectionName& name : inspection_names()) {
+      inspector.show(name.what, {4, 3});
+      inspector.draw(camera);
+      expect_golden(inspector.read_color(), std::string("inspection_") + name.name,
+                    is_reference ? "" : named.name);
+    }
+  }
 }
 
 TEST(Golden, WithoutSpecialisation) {

@@ -7,9 +7,11 @@
 
 #include "runtime/gl/api.hpp"
 #include "runtime/gl/program.hpp"
+#include "runtime/inspection.hpp"
 #include "runtime/shader_source.hpp"
 #include "runtime/targets.hpp"
 #include "runtime/texel_store.hpp"
+#include "soup/heat_map.hpp"
 #include "soup/lattice.hpp"
 #include "soup/spherical_harmonics.hpp"
 #include "support/contexts.hpp"
@@ -156,6 +158,35 @@ TEST_P(ShaderMath, TexelStoresFindEveryTexelAcrossRowsAndLayers) {
   glUniform1i(glGetUniformLocation(GLuint(program), "store"), 1);
   const auto results = probe.run(inputs);
   for (std::size_t i = 0; i < values.size(); ++i) EXPECT_EQ(results[i].x, values[i]) << i;
+}
+
+TEST_P(ShaderMath, RampsAreThoseOfHeatMaps) {
+  std::vector<glm::vec4> inputs;
+  for (int i = -10; i <= 110; ++i) inputs.emplace_back(float(i) / 100, 0, 0, 0);
+  const Probe probe(api(),
+                    "#include \"heat_ramp.glsl\"\n"
+                    "vec4 probe(vec4 v) { return vec4(heat_ramp(v.x), 0.0); }",
+                    {});
+  const std::vector<glm::vec4> results = probe.run(inputs);
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+      // A few float operations on values up to 4.
+      EXPECT_NEAR(results[i][c], heat_ramp(inputs[i].x)[c], 1e-6) << inputs[i].x;
+}
+
+TEST_P(ShaderMath, TriangleColorsAreThoseOfInspections) {
+  // Indices are floats here, exact up to 2^24.
+  std::vector<glm::vec4> inputs;
+  Random random(6);
+  for (int i = 0; i < 500; ++i) inputs.emplace_back(float(random.below(1u << 24)), 0, 0, 0);
+  const Probe probe(api(),
+                    "#include \"triangle_color.glsl\"\n"
+                    "vec4 probe(vec4 v) { return vec4(triangle_color(uint(v.x)), 0.0); }",
+                    {});
+  const std::vector<glm::vec4> results = probe.run(inputs);
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(results[i][c], triangle_color(std::uint32_t(inputs[i].x))[c], 1e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(Contexts, ShaderMath, testing::ValuesIn(every_context),

@@ -1,0 +1,177 @@
+#include "cli/pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "cli/contact_sheet.hpp"
+#include "cli/picture_file.hpp"
+#include "cli/progress.hpp"
+#include "formats/output.hpp"
+#include "formats/png_rows.hpp"
+#include "formats/video_file.hpp"
+#include "soup/error.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+double timed_draw(const Drawer& drawer, const Camera& camera) {
+  const auto start = std::chrono::steady_clock::now();
+  drawer.draw(camera);
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
+}
+
+/// Whether a picture is beyond what the device draws, or so large that its targets would fill
+/// memory. Never with a resolution scale, which tiles do not have.
+bool needs_tiles(const Drawer& drawer, const gl::Capabilities& device, const Camera& camera) {
+  if (drawer.resolution_scale < 1) return false;
+  constexpr std::int64_t most_samples = std::int64_t(1) << 26;  // a gibibyte of targets
+  const std::int64_t columns = std::int64_t(camera.width) * drawer.supersampling;
+  const std::int64_t rows = std::int64_t(camera.height) * drawer.supersampling;
+  return std::max(columns, rows) > device.max_picture_side || columns * rows > most_samples;
+}
+
+/// The same view no larger than a thumbnail.
+Camera small_view(const Camera& camera) {
+  constexpr int cell = 320;  // as contact_sheet has it
+  const double scale = std::min(1.0, double(cell) / std::max(camera.width, camera.height));
+  const auto side = [&](int s) { return std::max(1, int(std::lround(s * scale))); };
+  return resampled(camera, side(camera.width), side(camera.height));
+}
+
+/// A picture that the device draws at once; returns its thumbnail.
+Image8 draw_whole(const Drawer& drawer, const Camera& camera, const std::filesystem::path& path,
+                  FrameTimes& times) {
+  times.ms.push_back(timed_draw(drawer, camera));
+  const Image8 picture = drawer.read();
+  write_picture(picture, path);
+  return thumbnail(picture);
+}
+
+/// A picture beyond that: written row by row, in some 400 MiB whatever its size.
+Image8 draw_large(const Drawer& drawer, const Camera& camera, const std::filesystem::path& path,
+                  FrameTimes& times, const std::function<void(double)>& progress) {
+  times.ms.push_back(0);
+  PictureTiles tiles = drawer.tiles();
+  tiles.draw = [&](const Camera& part) {
+    times.ms.back() += timed_draw(drawer, part);
+    return drawer.read();
+  };
+  tiles.progress = progress;
+  Output output(path);
+  PngRows rows(output, camera.width, camera.height);
+  draw_in_bands(camera, tiles, [&](const Image8& band) { rows.append(band); });
+  rows.finish();
+  output.commit();
+  drawer.draw(small_view(camera));
+  return drawer.read();
+}
+
+}  // namespace
+
+double FrameTimes::median() const {
+  std::vector<double> sorted = ms;
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t half = sorted.size() / 2;
+  return sorted.size() % 2 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
+}
+
+double FrameTimes::p95() const {
+  std::vector<double> sorted = ms;
+  std::sort(sorted.begin(), sorted.end());
+  return sorted[(sorted.size() * 95 + 99) / 100 - 1];
+}
+
+Drawer drawer_of(Renderer& renderer, const gl::Capabilities& device) {
+  return {.draw =
+              [&renderer](const Camera& camera) {
+                renderer.draw(camera);
+                renderer.finish();
+              },
+          .read = [&renderer] { return renderer.read_color(); },
+          .tiles = [&renderer, &device] { return tiles_of(renderer, device); },
+          .supersampling = renderer.plan().supersampling,
+          .resolution_scale = renderer.plan().resolution_scale};
+}
+
+Drawer drawer_of(Inspector& inspector, const gl::Capabilities& device) {
+  return {.draw =
+              [&inspector](const Camera& camera) {
+                inspector.draw(camera);
+                inspector.finish();
+              },
+          .read = [&inspector] { return inspector.read_color(); },
+          .tiles = [&inspector, &device] { return tiles_of(inspector, device); }};
+}
+
+Pictures draw_pictures(const Drawer& drawer, const gl::Capabilities& device,
+                       const std::vector<Camera>& cameras, const PictureNames& names) {
+  const bool with_sheet = cameras.size() > 1 && names.sheet == Sheet::of_several;
+  const int count = int(cameras.size());
+  Pictures result;
+  std::vector<Image8> thumbnails;
+  Progress progress("drawing");
+  // Compiles shaders and, where it is drawn whole, makes the targets; not counted.
+  const Camera& first = cameras.front();
+  drawer.draw(needs_tiles(drawer, device, first) ? small_view(first) : first);
+  for (int i = 0; i < count; ++i) {
+    const auto update = [&](double done) { progress.update((i + done) / count); };
+    update(0);
+    const Camera& camera = cameras[std::size_t(i)];
+    const std::filesystem::path path = picture_name(names.pattern, i, count);
+    Image8 small = needs_tiles(drawer, device, camera)
+                       ? draw_large(drawer, camera, path, result.times, update)
+                       : draw_whole(drawer, camera, path, result.times);
+    if (with_sheet) thumbnails.push_back(std::move(small));
+    result.paths.push_back(path.string());
+  }
+  if (with_sheet) {
+    const std::filesystem::path sheet =
+        picture_name(names.pattern, 0, count).replace_filename("contact_sheet.png");
+    write_picture(contact_sheet(thumbnails), sheet);
+    result.paths.push_back(sheet.string());
+  }
+  return result;
+}
+
+Pictures draw_video(const Drawer& drawer, const std::vector<Camera>& cameras,
+                    double frames_per_second, const std::string& path) {
+  const Camera& first = cameras.front();
+  Pictures result{{path}, {}};
+  VideoFile video(path, {first.width, first.height, frames_per_second});
+  Progress progress("drawing");
+  drawer.draw(first);  // compiles shaders; not counted
+  for (const Camera& camera : cameras) {
+    progress.update(double(result.times.ms.size()) / double(cameras.size()));
+    result.times.ms.push_back(timed_draw(drawer, camera));
+    video.add(drawer.read());
+  }
+  video.commit();
+  return result;
+}
+
+FrameTimes benchmark(const Drawer& drawer, const gl::Capabilities& device,
+                     const std::vector<Camera>& cameras, int frames) {
+  for (const Camera& camera : cameras)
+    if (needs_tiles(drawer, device, camera))
+      throw UsageError(
+          fmt::format("--frames times pictures that are drawn at once: {} x {} is drawn in tiles",
+                      camera.width, camera.height));
+  const int warm_up = std::clamp(frames, 3, 10);
+  Progress progress("timing");
+  FrameTimes times;
+  for (int i = -warm_up; i < frames; ++i) {
+    const double ms = timed_draw(drawer, cameras[std::size_t(i + warm_up) % cameras.size()]);
+    if (i >= 0) times.ms.push_back(ms);
+    progress.update(double(i + warm_up + 1) / (frames + warm_up));
+  }
+  return times;
+}
+
+}  // namespace tureen::cli

@@ -1,0 +1,68 @@
+#include "cli/show_option.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/values.hpp"
+#include "formats/suggestion.hpp"
+#include "soup/error.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+Inspection named(const std::string& name) {
+  if (const auto known = inspection_named(name)) return *known;
+  std::vector<std::string> names;
+  std::string list;
+  for (const InspectionName& known : inspection_names()) {
+    list += (names.empty() ? "" : ", ") + std::string(known.name);
+    names.emplace_back(known.name);
+  }
+  throw UsageError("--show takes " + list + ", not '" + name + "'" + did_you_mean(name, names));
+}
+
+/// "3" or "4-6".
+FeatureChoice parse_features(const std::string& text) {
+  constexpr int most =
+      7;  // MobileNeRF's eight features; a lattice has one less, which is said later
+  const std::size_t dash = text.find('-');
+  const int first = parse_integer(text.substr(0, dash), 0, most);
+  const int last =
+      dash == std::string::npos ? first : parse_integer(text.substr(dash + 1), 0, most);
+  if (last < first || last > first + 2)
+    throw UsageError("--show features:" + text +
+                     ": one, two or three features that follow each other, as 3 or 4-6");
+  return {first, last - first + 1};
+}
+
+}  // namespace
+
+ShowOption parse_show(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  ShowOption show{.what = named(text.substr(0, colon))};
+  if (colon == std::string::npos) return show;
+  if (show.what != Inspection::features)
+    throw UsageError("--show " + text + ": only features are followed by which, as features:4-6");
+  show.features = parse_features(text.substr(colon + 1));
+  return show;
+}
+
+CLI::Option* add_show_option(CLI::App& command, ShowOption& show) {
+  return command
+      .add_option_function<std::string>(
+          "--show", [&show](const std::string& text) { show = parse_show(text); },
+          "what the soup has instead of its final colour: depth, normals, triangle-id, texels, "
+          "alpha, mlp-weight, features (features:3 as grey, features:4-6 as red, green, blue), "
+          "overdraw or wireframe; of the soup as it is stored, one sample a pixel "
+          "(docs/looking.md)")
+      ->option_text("NAME");
+}
+
+std::vector<std::string> legend_lines(const Legend& legend) {
+  std::vector<std::string> lines;
+  for (const auto& [color, text] : legend)
+    lines.push_back(fmt::format("#{:02x}{:02x}{:02x} {}", color.r, color.g, color.b, text));
+  return lines;
+}
+
+}  // namespace tureen::cli

@@ -1,0 +1,91 @@
+#include "runtime/picture_tiles.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "soup/error.hpp"
+
+namespace tureen {
+
+namespace {
+
+/// Devices shade 2x2 pixels together, and software rasterisers blocks of up to 64x64.
+constexpr int block = 64;
+
+/// Whole blocks where there is room for one.
+int in_blocks(int pixels) { return pixels < block ? pixels : pixels / block * block; }
+
+int tile_height(const Camera& camera, const PictureTiles& tiles) {
+  const std::size_t row_bytes = std::size_t(camera.width) * sizeof(glm::u8vec4);
+  const std::size_t rows = std::max<std::size_t>(tiles.band_bytes / row_bytes, 1);
+  return in_blocks(int(std::min<std::size_t>(rows, std::size_t(tiles.side))));
+}
+
+void copy_rows(const Image8& tile, int column, Image8& band) {
+  for (int y = 0; y < tile.height; ++y)
+    std::copy_n(&tile.at(0, y), tile.width, &band.at(column, y));
+}
+
+template <class Drawer>
+PictureTiles tiles_drawn_by(Drawer& drawer, int largest) {
+  PictureTiles tiles;
+  tiles.draw = [&drawer](const Camera& camera) {
+    drawer.draw(camera);
+    return drawer.read_color();
+  };
+  tiles.side = std::min(tiles.side, largest);
+  return tiles;
+}
+
+}  // namespace
+
+Camera cut_out_of(const Camera& camera, glm::ivec2 corner, glm::ivec2 size) {
+  Camera part = camera;
+  part.width = size.x;
+  part.height = size.y;
+  part.cx -= corner.x;
+  part.cy -= corner.y;
+  return part;
+}
+
+void draw_in_bands(const Camera& camera, const PictureTiles& tiles, const BandSink& sink) {
+  assert(camera.width > 0 && camera.height > 0 && tiles.side > 0);
+  const int width = in_blocks(tiles.side), height = tile_height(camera, tiles);
+  // Counted from the lower border, where devices count from: the uppermost band is what is left.
+  for (int row = 0; row < camera.height;) {
+    const int rows = (camera.height - row - 1) % height + 1;
+    Image8 band(camera.width, rows);
+    for (int column = 0; column < camera.width; column += width) {
+      const glm::ivec2 size(std::min(width, camera.width - column), rows);
+      const Image8 tile = tiles.draw(cut_out_of(camera, {column, row}, size));
+      assert(tile.width == size.x && tile.height == size.y);
+      copy_rows(tile, column, band);
+      if (tiles.progress)
+        tiles.progress((row + double(rows) * (column + size.x) / camera.width) / camera.height);
+    }
+    sink(band);
+    row += rows;
+  }
+}
+
+Image8 draw_in_tiles(const Camera& camera, const PictureTiles& tiles) {
+  Image8 picture(camera.width, camera.height);
+  auto next = picture.pixels.begin();
+  draw_in_bands(camera, tiles, [&](const Image8& rows) {
+    next = std::copy(rows.pixels.begin(), rows.pixels.end(), next);
+  });
+  return picture;
+}
+
+PictureTiles tiles_of(Renderer& renderer, const gl::Capabilities& capabilities) {
+  if (renderer.plan().resolution_scale < 1)
+    throw UsageError(
+        "a picture that is drawn in tiles has no resolution scale: coarser tiles would not meet");
+  return tiles_drawn_by(renderer, capabilities.max_picture_side / renderer.plan().supersampling);
+}
+
+PictureTiles tiles_of(Inspector& inspector, const gl::Capabilities& capabilities) {
+  return tiles_drawn_by(inspector, capabilities.max_picture_side);
+}
+
+}  // namespace tureen

@@ -1,0 +1,56 @@
+// The three corners of a face as the camera sees them, and what follows from them for a pixel:
+// normal, depth, and how far its edges are.
+#include "eye.glsl"
+#include "texel_store.glsl"
+
+uniform sampler2DArray corners;  // three texels a face, relative to the soup's origin
+uniform vec3 view_axis;          // world direction, of unit length
+// Window x and y (y up) of a point at c from the eye, times its depth: their dot products with c.
+uniform vec3 window_x, window_y;
+
+mat3 corners_from_eye(uint face) {
+  mat3 result;
+  for (int k = 0; k < 3; ++k) {
+    vec3 position = texelFetch(corners, texel_position(3u * face + uint(k)), 0).xyz;
+    result[k] = (position - eye_high) - eye_low;
+  }
+  return result;
+}
+
+float largest_component(vec3 v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
+
+// Of unit length, whatever the size of the face: the edges are scaled before they are multiplied.
+// Taken from the stored corners, whose differences are exact to a rounding.
+vec3 face_normal(uint face) {
+  vec3 a = texelFetch(corners, texel_position(3u * face), 0).xyz;
+  vec3 u = texelFetch(corners, texel_position(3u * face + 1u), 0).xyz - a;
+  vec3 v = texelFetch(corners, texel_position(3u * face + 2u), 0).xyz - a;
+  return normalize(cross(u / largest_component(u), v / largest_component(v)));
+}
+
+// Where the ray, whose depth along the viewing axis is 1, meets the face's plane. Seen edge-on the
+// plane says little: no fragment lies beyond the corners.
+float depth_on(uint face, vec3 normal, vec3 ray) {
+  mat3 from_eye = corners_from_eye(face);
+  vec3 depths = view_axis * from_eye;
+  float low = min(depths.x, min(depths.y, depths.z));
+  float high = max(depths.x, max(depths.y, depths.z));
+  return clamp(dot(normal, from_eye[0]) / dot(normal, ray), low, high);
+}
+
+// Pixels to the nearest edge of the face, in the picture. In homogeneous coordinates around the
+// pixel's centre the line through two corners is their cross product, also where one of them lies
+// behind the eye.
+float pixels_to_edge(uint face, vec2 pixel) {
+  mat3 from_eye = corners_from_eye(face);
+  vec3 w = view_axis * from_eye;
+  vec3 x = window_x * from_eye - pixel.x * w;
+  vec3 y = window_y * from_eye - pixel.y * w;
+  float nearest = 1e30;
+  for (int i = 0; i < 3; ++i) {
+    int j = i == 2 ? 0 : i + 1;
+    vec3 line = cross(vec3(x[i], y[i], w[i]), vec3(x[j], y[j], w[j]));
+    nearest = min(nearest, abs(line.z) / length(line.xy));
+  }
+  return nearest;
+}

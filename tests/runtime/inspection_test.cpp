@@ -1,0 +1,536 @@
+// What inspections show, held against values that the oracle's rays and the model give on the CPU,
+// on random soups of every appearance and on every context.
+#include "runtime/inspection.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+
+#include "runtime/inspector.hpp"
+#include "runtime/oracle/hits.hpp"
+#include "runtime/oracle/shade.hpp"
+#include "runtime/oracle/uv_sampling.hpp"
+#include "runtime/renderer.hpp"
+#include "soup/error.hpp"
+#include "soup/lattice.hpp"
+#include "support/contexts.hpp"
+#include "support/random_soups.hpp"
+
+namespace tureen::test {
+namespace {
+
+using oracle::Hit;
+using testing::HasSubstr;
+
+constexpr int width = 200, height = 150;
+
+// -- the model, by hand -------------------------------------------------------------------------
+
+struct Point {
+  std::uint32_t face;
+  double b0, b1;
+};
+
+/// As the visibility pass has it.
+Point clamped(const Hit& hit) {
+  const double b0 = std::max(hit.b0, 0.0), b1 = std::max(hit.b1, 0.0);
+  const double sum = std::max(b0 + b1, 1.0);
+  return {hit.face, b0 / sum, b1 / sum};
+}
+
+template <class T>
+T over_vertices(const TriangleSoup& soup, const std::vector<T>& values, const Point& p) {
+  const glm::uvec3& t = soup.triangles[p.face];
+  return float(p.b0) * values[t.x] + float(p.b1) * values[t.y] +
+         float(1 - p.b0 - p.b1) * values[t.z];
+}
+
+/// Eight channels of a lattice or of a pair of feature images.
+std::array<double, 8> channels(const TriangleSoup& soup, const Point& p) {
+  std::array<double, 8> result{};
+  if (const auto* texture = std::get_if<LatticeTexture>(&soup.appearance)) {
+    const LatticePatch& patch = texture->patches[p.face];
+    const auto at = lattice::footprint(int(patch.level), p.b0, p.b1);
+    for (std::size_t c = 0; c < 8; ++c)
+      for (std::size_t k = 0; k < 3; ++k)
+        result[c] +=
+            at.weights[k] * double(texture->value(patch.first_texel + at.texels[k], int(c)));
+  } else {
+    const auto& textures = std::get<UvTextures>(soup.appearance);
+    const UvMaterial& material = textures.materials[textures.material_of_face[p.face]];
+    const glm::dvec2 uv(over_vertices(soup, textures.uv, p));
+    for (std::size_t i = 0; i < material.images.size() && i < 2; ++i) {
+      const glm::dvec4 value = oracle::sample(textures.images[material.images[i]], material, uv);
+      for (int c = 0; c < 4; ++c) result[4 * i + std::size_t(c)] = value[c];
+    }
+  }
+  return result;
+}
+
+struct Alpha {
+  double value, threshold;
+};
+
+Alpha alpha_of(const TriangleSoup& soup, const Point& p) {
+  constexpr double threshold = double(alpha_threshold);
+  if (const auto* colors = std::get_if<FaceColors>(&soup.appearance))
+    return {double(colors->rgba[p.face].a), threshold};
+  if (const auto* colors = std::get_if<VertexColors>(&soup.appearance))
+    return {double(over_vertices(soup, colors->rgba, p).a), threshold};
+  if (std::holds_alternative<LatticeTexture>(soup.appearance))
+    return {channels(soup, p)[7], threshold};
+  const auto& textures = std::get<UvTextures>(soup.appearance);
+  const UvMaterial& material = textures.materials[textures.material_of_face[p.face]];
+  glm::dvec4 value(material.factor);
+  if (!textures.vertex_rgba.empty())
+    value *= glm::dvec4(over_vertices(soup, textures.vertex_rgba, p));
+  if (textures.mlp) value = glm::dvec4(1);
+  if (!material.images.empty())
+    value *= oracle::sample(textures.images[material.images[0]], material,
+                            glm::dvec2(over_vertices(soup, textures.uv, p)));
+  return {value[material.mask_channel], double(material.mask_threshold)};
+}
+
+/// The colour of a texel's cell: as shaders/texel_cell.glsl says.
+glm::dvec3 cell_color(glm::dvec3 color, int shade) {
+  const double luma = glm::dot(color, glm::dvec3(0.299, 0.587, 0.114));
+  return glm::mix(color, glm::dvec3(luma > 0.5 ? 0.0 : 1.0), 0.08 * shade);
+}
+
+/// The nearest texel of a lattice, by trying them all.
+glm::dvec3 nearest_texel(const LatticeTexture& texture, const Point& p) {
+  const LatticePatch& patch = texture.patches[p.face];
+  const int n = lattice::resolution(int(patch.level));
+  double best = 1e9;
+  glm::dvec3 result(0.0);
+  for (int y = 0; y <= n; ++y)
+    for (int x = 0; x + y <= n; ++x) {
+      // The largest weight is that of the texel whose three barycentric distances are least at
+      // most.
+      const double dx = n * p.b0 - x, dy = n * p.b1 - y;
+      const double distance = std::max({std::abs(dx), std::abs(dy), std::abs(dx + dy)});
+      if (distance >= best) continue;
+      best = distance;
+      const std::size_t texel = patch.first_texel + lattice::texel_index(x, y);
+      glm::dvec3 color;
+      for (int c = 0; c < 3; ++c) color[c] = double(texture.value(texel, c));
+      result = cell_color(color, (x - y + 384) % 3);
+    }
+  return result;
+}
+
+int wrapped(int i, int size, UvMaterial::Wrap wrap) {
+  if (wrap == UvMaterial::Wrap::clamp) return std::clamp(i, 0, size - 1);
+  const int period = wrap == UvMaterial::Wrap::mirror ? 2 * size : size;
+  const int j = ((i % period) + period) % period;
+  return j < size ? j : period - 1 - j;
+}
+
+/// Texels of an image stand as the fields of a chess board.
+int shade_of(const Image8& image, const UvMaterial& material, glm::dvec2 uv) {
+  const int x = wrapped(int(std::floor(uv.x * image.width)), image.width, material.wrap_u);
+  const int y = wrapped(int(std::floor(uv.y * image.height)), image.height, material.wrap_v);
+  return (x + y) % 2;
+}
+
+glm::dvec3 normal_of(const TriangleSoup& soup, std::uint32_t face, glm::dvec3 to_eye) {
+  const glm::uvec3& t = soup.triangles[face];
+  const glm::dvec3 a(soup.positions[t.x]), b(soup.positions[t.y]), c(soup.positions[t.z]);
+  const glm::dvec3 n = glm::normalize(glm::cross(b - a, c - a));
+  return glm::dot(n, to_eye) < 0 ? -n : n;
+}
+
+// -- the comparison -----------------------------------------------------------------------------
+
+struct Scenery {
+  std::uint64_t seed;
+  TriangleSoup soup;
+  Camera camera;
+
+  Scenery(std::uint64_t s, Kind kind, double size = 0.3) : seed(s) {
+    soup = random_soup(s, {.kind = kind, .faces = 120, .size = size});
+    Random random(s);
+    camera = random_camera(random, width, height);
+  }
+};
+
+/// All hits of every pixel, near ones first, rasterised as GL does.
+std::vector<std::vector<Hit>> all_hits(const Scenery& scenery) {
+  std::vector<std::vector<Hit>> result(std::size_t(width) * height);
+  const oracle::Rays rays(scenery.soup, {}, scenery.camera,
+                          {.coverage = oracle::Coverage::snapped});
+  rays.visit_pixels([&](int column, int row, std::span<const Hit> hits) {
+    result[std::size_t(row * width + column)].assign(hits.begin(), hits.end());
+  });
+  return result;
+}
+
+using Expected = std::function<std::optional<glm::dvec3>(int column, int row, const Hit&)>;
+
+/// Compares where device and oracle name the same face. A byte may be off by `steps`; pixels that
+/// are off by more are counted: a value that float cannot tell from a threshold or from the border
+/// of a cell falls to the other side.
+void expect_shown(const Scenery& scenery, const Inspector& inspector, const Expected& expected,
+                  double steps, double most_off = 0.002) {
+  const Image8 picture = inspector.read_color();
+  const std::vector<std::uint32_t> faces = inspector.read_faces();
+  const auto hits = all_hits(scenery);
+  std::size_t compared = 0, off = 0;
+  for (int row = 0; row < height; ++row)
+    for (int column = 0; column < width; ++column) {
+      const std::size_t i = std::size_t(row * width + column);
+      if (faces[i] == no_face) continue;
+      const auto hit = std::find_if(hits[i].begin(), hits[i].end(),
+                                    [&](const Hit& h) { return h.face == faces[i]; });
+      if (hit == hits[i].end()) continue;  // a vertex that snapped otherwise
+      const auto value = expected(column, row, *hit);
+      if (!value) continue;
+      ++compared;
+      for (int c = 0; c < 3; ++c)
+        if (std::abs(255 * std::clamp((*value)[c], 0.0, 1.0) - picture.pixels[i][c]) > steps) {
+          ++off;
+          break;
+        }
+    }
+  EXPECT_GT(compared, 1000u) << "seed " << scenery.seed;
+  EXPECT_LE(double(off), most_off * double(compared))
+      << "seed " << scenery.seed << ", of " << compared;
+}
+
+class Inspections : public testing::TestWithParam<NamedContext> {
+ protected:
+  gl::Context context = gl::Context::create(GetParam().request);
+
+  Inspector inspector(const Scenery& scenery, Inspection what, FeatureChoice choice = {}) const {
+    Inspector result(context, scenery.soup, {}, {.background = glm::vec4(0.0f)});
+    result.show(what, choice);
+    result.draw(scenery.camera);
+    return result;
+  }
+};
+
+/// Half a step of rounding, and the 16 bits of barycentrics: 1/512 of a texel at level 7, which is
+/// another half where neighbours differ by everything.
+constexpr double rounding = 1.02;
+
+TEST_P(Inspections, ShowTheFacesOfTheOrdinaryFrame) {
+  std::uint64_t seed = 30;
+  for (const Kind kind : all_kinds) {
+    const Scenery scenery(++seed, kind);
+    Renderer renderer(context, scenery.soup, {}, {.plan = {.site = ShadingSite::deferred}});
+    renderer.draw(scenery.camera);
+    const auto expected = renderer.read_faces();
+    for (const InspectionName& name : inspection_names()) {
+      const bool all_fragments =
+          name.what == Inspection::alpha || name.what == Inspection::overdraw;
+      if (why_not(name.what, scenery.soup) || all_fragments) continue;
+      const Inspector shown = inspector(scenery, name.what, {0, 1});
+      EXPECT_EQ(shown.read_faces(), expected) << name.name << ", seed " << seed;
+      const Image8 picture = shown.read_color();
+      std::size_t off = 0;
+      for (std::size_t i = 0; i < expected.size(); ++i)
+        off += (picture.pixels[i].a == 255) != (expected[i] != no_face);
+      // Lines outline also what the alpha test throws away.
+      const bool same = off == 0 || name.what == Inspection::wireframe;
+      EXPECT_TRUE(same) << name.name << ", seed " << seed << ": " << off << " pixels";
+    }
+  }
+}
+
+TEST_P(Inspections, FinalColorsAreThoseOfTheRenderer) {
+  std::uint64_t seed = 60;
+  for (const Kind kind : all_kinds) {
+    const Scenery scenery(++seed, kind);
+    Renderer renderer(context, scenery.soup, {}, {.background = glm::vec4(0.0f)});
+    renderer.draw(scenery.camera);
+    const Image8 expected = renderer.read_color();
+    const Image8 shown = inspector(scenery, Inspection::color).read_color();
+    // What plans leave out may move a colour by half a step, which rounding makes a whole one.
+    for (std::size_t i = 0; i < shown.pixels.size(); ++i)
+      for (int c = 0; c < 4; ++c)
+        ASSERT_LE(std::abs(int(shown.pixels[i][c]) - int(expected.pixels[i][c])), 1)
+            << to_string(kind) << ", seed " << seed;
+  }
+}
+
+TEST_P(Inspections, DepthIsTheOraclesOnItsScale) {
+  const Scenery scenery(3, Kind::face_colors);
+  const DepthScale scale = depth_scale(middle_bounds(scenery.soup), scenery.camera.eye());
+  // Float depths of faces that are seen edge-on: 1e-5 of the depth is a hundredth of a step.
+  expect_shown(
+      scenery, inspector(scenery, Inspection::depth),
+      [&](int, int, const Hit& hit) {
+        return glm::dvec3(heat_ramp(float(1 - scale.position(hit.depth))));
+      },
+      1.02);
+}
+
+TEST_P(Inspections, NormalsAreTurnedTowardsTheEye) {
+  const Scenery scenery(4, Kind::vertex_colors);
+  const oracle::Rays rays(scenery.soup, {}, scenery.camera);
+  expect_shown(
+      scenery, inspector(scenery, Inspection::normals),
+      [&](int column, int row, const Hit& hit) {
+        return 0.5 * normal_of(scenery.soup, hit.face, rays.to_eye(column, row)) + 0.5;
+      },
+      0.52);
+}
+
+TEST_P(Inspections, TriangleColorsAreThoseOfTheSoupsOwnIndices) {
+  const Scenery scenery(5, Kind::lattice);
+  expect_shown(
+      scenery, inspector(scenery, Inspection::triangle_id),
+      [](int, int, const Hit& hit) { return glm::dvec3(triangle_color(hit.face)); }, 0.52, 0.0);
+}
+
+TEST_P(Inspections, LatticesShowTheNearestTexel) {
+  for (const Kind kind : {Kind::lattice, Kind::lattice_mlp}) {
+    const Scenery scenery(6, kind, 0.6);
+    const auto& texture = std::get<LatticeTexture>(scenery.soup.appearance);
+    // On the border of two cells either is right: at level 7 on a small face most pixels are near
+    // one, and the 16 bits of barycentrics decide.
+    expect_shown(
+        scenery, inspector(scenery, Inspection::texels),
+        [&](int, int, const Hit& hit) { return nearest_texel(texture, clamped(hit)); }, 0.52, 0.02);
+  }
+}
+
+TEST_P(Inspections, ImagesShowTheNearestTexel) {
+  for (const Kind kind : {Kind::uv_textures, Kind::uv_textures_mlp}) {
+    const Scenery scenery(7, kind, 0.6);
+    const auto& textures = std::get<UvTextures>(scenery.soup.appearance);
+    expect_shown(
+        scenery, inspector(scenery, Inspection::texels),
+        [&](int, int, const Hit& hit) -> std::optional<glm::dvec3> {
+          const Point p = clamped(hit);
+          UvMaterial material = textures.materials[textures.material_of_face[p.face]];
+          if (material.images.empty()) return glm::dvec3(material.factor);
+          const Image8& image = textures.images[material.images[0]];
+          const glm::dvec2 uv(over_vertices(scenery.soup, textures.uv, p));
+          material.filter = UvMaterial::Filter::nearest;
+          const glm::dvec3 color(oracle::sample(image, material, uv));
+          return cell_color(color, shade_of(image, material, uv));
+        },
+        0.52, 0.02);
+  }
+}
+
+TEST_P(Inspections, AlphaShowsAlsoWhatIsCutOut) {
+  std::uint64_t seed = 8;
+  for (const Kind kind : {Kind::face_colors, Kind::vertex_colors, Kind::lattice, Kind::lattice_mlp,
+                          Kind::uv_textures, Kind::uv_textures_mlp}) {
+    const Scenery scenery(++seed, kind);
+    const Inspector shown = inspector(scenery, Inspection::alpha);
+    const auto hits = all_hits(scenery);
+    const auto faces = shown.read_faces();
+    std::size_t others = 0, cut_out = 0;
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      others += faces[i] != (hits[i].empty() ? no_face : hits[i].front().face);
+    EXPECT_LE(others, faces.size() / 2000) << "the nearest face, whether it exists there or not";
+    expect_shown(
+        scenery, shown,
+        [&](int, int, const Hit& hit) {
+          const Alpha alpha = alpha_of(scenery.soup, clamped(hit));
+          if (alpha.value >= alpha.threshold) return glm::dvec3(alpha.value);
+          ++cut_out;
+          return glm::dvec3(cut_out_color(float(alpha.value / alpha.threshold)));
+        },
+        rounding, 0.005);
+    EXPECT_GT(cut_out, 0u) << to_string(kind) << ", seed " << seed;
+  }
+}
+
+TEST_P(Inspections, FeaturesAreStoredValues) {
+  for (const auto& [kind, choice] : {std::pair(Kind::lattice, FeatureChoice{4, 3}),
+                                     {Kind::lattice_mlp, FeatureChoice{0, 3}},
+                                     {Kind::lattice_mlp, FeatureChoice{5, 1}},
+                                     {Kind::lattice_mlp, FeatureChoice{2, 2}},
+                                     {Kind::uv_textures_mlp, FeatureChoice{5, 3}}}) {
+    const Scenery scenery(12, kind);
+    expect_shown(
+        scenery, inspector(scenery, Inspection::features, choice),
+        [&, first = std::size_t(choice.first), count = choice.count](int, int, const Hit& hit) {
+          const auto values = channels(scenery.soup, clamped(hit));
+          if (count == 1) return glm::dvec3(values[first]);
+          return glm::dvec3(values[first], values[first + 1], count > 2 ? values[first + 2] : 0.0);
+        },
+        rounding);
+  }
+}
+
+TEST_P(Inspections, TheWeightOfTheNetworkIsItsBlendChannel) {
+  const Scenery scenery(13, Kind::lattice_mlp);
+  expect_shown(
+      scenery, inspector(scenery, Inspection::mlp_weight),
+      [&](int, int, const Hit& hit) { return glm::dvec3(channels(scenery.soup, clamped(hit))[3]); },
+      rounding);
+}
+
+TEST_P(Inspections, OverdrawCountsEveryFragment) {
+  const Scenery scenery(14, Kind::lattice, 0.7);
+  const Inspector shown = inspector(scenery, Inspection::overdraw);
+  const auto counts = shown.read_fragment_counts();
+  const Image8 picture = shown.read_color();
+  const auto hits = all_hits(scenery);
+  ASSERT_EQ(counts.size(), hits.size());
+  std::size_t off = 0, most = 0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    off += counts[i] != hits[i].size();
+    most = std::max(most, hits[i].size());
+    const glm::dvec4 color =
+        counts[i] == 0 ? glm::dvec4(0.0) : glm::dvec4(overdraw_color(counts[i]), 1.0);
+    for (int c = 0; c < 4; ++c)
+      ASSERT_LE(std::abs(255 * color[c] - picture.pixels[i][c]), 0.52) << int(counts[i]);
+  }
+  EXPECT_GT(most, 10u);
+  // Vertices that snap otherwise: the budget of the specs for coverage, over some ten layers.
+  EXPECT_LE(double(off), 1e-3 * double(counts.size())) << "seed " << scenery.seed;
+}
+
+TEST_P(Inspections, MoreFragmentsThanCanBeCountedAreTheMost) {
+  TriangleSoup soup;
+  soup.positions = {{-9, -9, 0}, {9, -9, 0}, {0, 18, 0}};
+  soup.triangles.assign(300, glm::uvec3(0, 1, 2));
+  soup.appearance = FaceColors{std::vector<glm::vec4>(300, glm::vec4(1))};
+  Inspector shown(context, soup, {});
+  shown.show(Inspection::overdraw);
+  shown.draw(look_at({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 0.8, 16, 16));
+  for (const std::uint8_t count : shown.read_fragment_counts())
+    ASSERT_EQ(int(count), most_counted_fragments);
+}
+
+TEST_P(Inspections, WireframesOutlineWholeTriangles) {
+  const Scenery scenery(15, Kind::face_colors, 0.5);
+  const Inspector shown = inspector(scenery, Inspection::wireframe);
+  const Image8 picture = shown.read_color();
+  const Image8 colors = inspector(scenery, Inspection::color).read_color();
+  const glm::u8vec4 line(240, 240, 240, 255);
+  const auto faces = shown.read_faces();
+  std::size_t lines = 0, off = 0, compared = 0;
+  for (int row = 0; row < height; ++row)
+    for (int column = 0; column < width; ++column) {
+      const std::size_t i = std::size_t(row * width + column);
+      if (faces[i] == no_face) continue;
+      ++compared;
+      // The corners of the face that shows, in pixels; none of this view lies behind the eye.
+      glm::dvec2 at[3];
+      for (int k = 0; k < 3; ++k) {
+        const glm::vec3 position = scenery.soup.positions[scenery.soup.triangles[faces[i]][k]];
+        const glm::dvec3 view(scenery.camera.view_from_world * glm::dvec4(position, 1));
+        ASSERT_LT(view.z, 0);
+        at[k] = {scenery.camera.cx - scenery.camera.fx * view.x / view.z,
+                 scenery.camera.cy + scenery.camera.fy * view.y / view.z};
+      }
+      double distance = 1e9;
+      for (int k = 0; k < 3; ++k) {
+        const glm::dvec2 edge = at[(k + 1) % 3] - at[k];
+        const glm::dvec2 to = glm::dvec2(column + 0.5, row + 0.5) - at[k];
+        distance = std::min(distance, std::abs(edge.x * to.y - edge.y * to.x) / glm::length(edge));
+      }
+      const bool is_line = picture.pixels[i] == line;
+      lines += is_line;
+      if (std::abs(distance - 1) < 1e-3) continue;  // float decides
+      if (is_line) {
+        // Its own, or that of a face which the alpha test has thrown away before it.
+        continue;
+      }
+      off += distance < 1;
+      for (int c = 0; c < 3; ++c)
+        off += std::abs(0.4 * colors.pixels[i][c] - picture.pixels[i][c]) > 1.0;
+    }
+  EXPECT_GT(lines, compared / 50);
+  EXPECT_LT(lines, compared * 3 / 4);
+  EXPECT_LE(off, compared / 1000) << "seed " << scenery.seed;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Inspections, testing::ValuesIn(every_context),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+// -- without a device ---------------------------------------------------------------------------
+
+TEST(InspectionNames, FindThemselves) {
+  for (const InspectionName& name : inspection_names()) {
+    EXPECT_EQ(inspection_named(name.name), name.what);
+    EXPECT_STREQ(name_of(name.what), name.name);
+  }
+  EXPECT_EQ(inspection_named("deep"), std::nullopt);
+}
+
+TEST(InspectionReasons, SayWhatTheSoupLacks) {
+  const auto reason = [](Inspection what, Kind kind) {
+    return why_not(what, random_soup(1, {.kind = kind})).value_or("");
+  };
+  EXPECT_THAT(reason(Inspection::texels, Kind::vertex_colors), HasSubstr("no texels"));
+  EXPECT_THAT(reason(Inspection::alpha, Kind::face_harmonics),
+              HasSubstr("every triangle is opaque"));
+  EXPECT_THAT(reason(Inspection::mlp_weight, Kind::lattice), HasSubstr("no color MLP"));
+  EXPECT_THAT(reason(Inspection::mlp_weight, Kind::uv_textures_mlp), HasSubstr("whole colour"));
+  EXPECT_THAT(reason(Inspection::features, Kind::uv_textures), HasSubstr("no features"));
+  for (const InspectionName& name : inspection_names())
+    EXPECT_EQ(reason(name.what, Kind::lattice_mlp), "") << name.name;
+  EXPECT_EQ(why_not(FeatureChoice{4, 3}, 7), std::nullopt);
+  EXPECT_THAT(why_not(FeatureChoice{5, 3}, 7).value_or(""), HasSubstr("from 0 to 6"));
+  EXPECT_TRUE(why_not(FeatureChoice{0, 4}, 7));
+}
+
+TEST(InspectionReasons, AreThrownByTheInspector) {
+  const gl::Context context = gl::Context::create(osmesa);
+  Inspector inspector(context, random_soup(1, {.kind = Kind::lattice}), {});
+  EXPECT_THROW(inspector.show(Inspection::mlp_weight), UsageError);
+  EXPECT_THROW(inspector.show(Inspection::features, {6, 2}), UsageError);
+  EXPECT_NO_THROW(inspector.show(Inspection::features, {6, 1}));
+}
+
+TEST(TriangleColors, AreFarApartAndBright) {
+  std::vector<std::uint32_t> seen;
+  for (std::uint32_t face = 0; face < 10000; ++face) {
+    const glm::vec3 color = triangle_color(face);
+    EXPECT_GE(std::min({color.r, color.g, color.b}), 0.25f);
+    EXPECT_LE(std::max({color.r, color.g, color.b}), 1.0f);
+    const glm::uvec3 bytes((color - 0.25f) / 0.75f * 255.0f + 0.5f);
+    seen.push_back(bytes.r << 16 | bytes.g << 8 | bytes.b);
+  }
+  std::sort(seen.begin(), seen.end());
+  const auto distinct = std::unique(seen.begin(), seen.end()) - seen.begin();
+  // By chance 3 of 10,000 share one of 2^24 colours.
+  EXPECT_GE(distinct, 9980);
+}
+
+TEST(DepthScales, FollowTheMiddleOfTheScene) {
+  TriangleSoup soup = random_soup(2, {.kind = Kind::face_colors, .faces = 400});
+  const Bounds before = middle_bounds(soup);
+  EXPECT_LE(before.radius(), bounds(soup).radius());
+  soup.positions[soup.triangles[0].x] = glm::vec3(1e6f);  // one stray corner
+  const Bounds after = middle_bounds(soup);
+  EXPECT_LT(after.radius(), 1.1 * before.radius());
+  const DepthScale outside = depth_scale(after, after.centre() + glm::dvec3(10, 0, 0));
+  EXPECT_NEAR(outside.near, 10 - after.radius(), 1e-9);
+  EXPECT_NEAR(outside.far, 10 + after.radius(), 1e-9);
+  const DepthScale inside = depth_scale(after, after.centre());
+  EXPECT_NEAR(inside.far / inside.near, 50, 1e-9);
+  EXPECT_EQ(inside.position(inside.near), 0);
+  EXPECT_EQ(inside.position(2 * inside.far), 1);
+  // A point has a scale, too.
+  const DepthScale point = depth_scale({}, glm::dvec3(0));
+  EXPECT_LT(point.near, point.far);
+}
+
+TEST(Legends, NameColorsWhereNumbersHideInThem) {
+  const DepthScale scale{1, 16};
+  const Legend depth = legend(Inspection::depth, scale, {});
+  ASSERT_EQ(depth.size(), 5u);
+  EXPECT_EQ(depth[0].text, "1");
+  EXPECT_EQ(depth[2].text, "4");
+  EXPECT_EQ(depth[4].text, "16");
+  EXPECT_EQ(depth[0].color, glm::u8vec4(255));
+  EXPECT_EQ(legend(Inspection::overdraw, scale, {}).back().text, "255 or more");
+  EXPECT_EQ(legend(Inspection::features, scale, {4, 3})[2].text, "feature 6");
+  EXPECT_TRUE(legend(Inspection::color, scale, {}).empty());
+}
+
+}  // namespace
+}  // namespace tureen::test
