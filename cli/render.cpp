@@ -52,8 +52,7 @@ Pictures draw_views(const Drawer& drawer, const gl::Capabilities& device, const 
 }
 
 Drawn draw_colors(const gl::Context& context, const Scene& scene, const TriangleSoup& soup,
-                  const Options& options, glm::vec4 background,
-                  const std::vector<Camera>& cameras) {
+                  const Options& options, glm::vec4 background, const Views& views) {
   const gl::Capabilities& device = context.capabilities();
   CheckedRenderer checked = make_renderer(context, soup, scene.origin, options.drawing, background);
   const Drawer drawer = drawer_of(checked.renderer, device);
@@ -66,8 +65,7 @@ Drawn draw_colors(const gl::Context& context, const Scene& scene, const Triangle
 }
 
 Drawn draw_inspection(const gl::Context& context, const Scene& scene, const TriangleSoup& soup,
-                      const Options& options, glm::vec4 background,
-                      const std::vector<Camera>& cameras) {
+                      const Options& options, glm::vec4 background, const Views& views) {
   const gl::Capabilities& device = context.capabilities();
   Inspector inspector(context, soup, scene.origin, {.background = background});
   inspector.show(options.show.what, options.show.features);

@@ -75,26 +75,32 @@ Application::Application(ApplicationOptions options)
     : options_(std::move(options)),
       window_(window_options(options_, settings_of(options_))),
       frame_clock_(window_.context(), [this] { return clock(); }),
-      worker_(window_) {
+      worker_(window_, 0),
+      writer_(window_, 1) {
   if (options_.replay) replay_.emplace(*options_.replay);
   state_.settings = settings_of(options_);
   if (!options_.pictures.empty()) state_.settings.pictures = options_.pictures.string();
   if (!options_.record.empty()) recorder_.emplace(window_.size());
   // A replay waits for nobody's screen.
-  window_.set_vsync(state_.settings.vsync && !replay_);
+  vsync_ = state_.settings.vsync && !replay_;
+  window_.set_vsync(vsync_);
   if (!options_.scene.empty()) state_.ask(OpenPath{options_.scene});
-  if (!options_.dataset.empty()) open_dataset(options_.dataset);
+  if (!options_.dataset.empty()) state_.ask(OpenPhotographs{options_.dataset});
 }
 
 Application::~Application() = default;
 
 double Application::clock() const {
   if (replay_) return replay_->now();
+  return seconds_since_start();
+}
+
+double Application::seconds_since_start() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
 void Application::run() {
-  while (!quit_) frame();
+  while (!quit_ && !(options_.interrupted && options_.interrupted())) frame();
   if (recorder_) write_file(options_.record, session_to_json(recorder_->session()));
   if (options_.settings) {
     if (!window_.fullscreen()) state_.settings.window = window_.size();
@@ -110,13 +116,14 @@ std::vector<std::string> Application::errors() const {
 }
 
 bool Application::at_rest() const {
-  return worker_.idle() && pending_.empty() && state_.requests.empty() && frames_wanted_ <= 0 &&
-         !state_.controls.moving();
+  return worker_.idle() && writer_.idle() && !state_.film.plays && pending_.empty() &&
+         state_.requests.empty() && frames_wanted_ <= 0 && !state_.controls.moving();
 }
 
 double Application::wait_seconds() const {
   const bool busy = frames_wanted_ > 0 || state_.controls.moving() || navigation_.flying() ||
-                    state_.draw_continuously || !pending_.empty() || !state_.requests.empty();
+                    state_.draw_continuously || state_.film.plays || !pending_.empty() ||
+                    !state_.requests.empty();
   return busy ? 0 : idle_seconds;
 }
 
@@ -140,16 +147,21 @@ std::vector<Event> Application::gather() {
 
 void Application::frame() {
   const std::vector<Event> events = gather();
+  const double began = seconds_since_start();
   const double now = clock();
   const double step = replay_ ? Replay::frame_seconds : std::min(now - last_, longest_step);
   last_ = state_.now = now;
   if (!events.empty()) frames_wanted_ = frames_after_event;
 
-  const bool was_busy = state_.busy.has_value();
+  const bool was_busy = state_.busy || state_.writing;
   worker_.collect();
+  writer_.collect();
   state_.busy = worker_.status();
-  if (state_.busy || was_busy) frames_wanted_ = std::max(frames_wanted_, 1);
+  state_.writing = writer_.status();
+  if (state_.busy || state_.writing || was_busy) frames_wanted_ = std::max(frames_wanted_, 1);
   watch_file();
+  if (const bool wanted = state_.settings.vsync && !replay_; wanted != vsync_)
+    window_.set_vsync(vsync_ = wanted);
   state_.messages.age(now);
   if (state_.messages.fading()) frames_wanted_ = std::max(frames_wanted_, 1);
 
@@ -158,7 +170,7 @@ void Application::frame() {
     gui_ = std::make_unique<Gui>(window_, GuiOptions{.scale = scale, .machine_font = !replay_});
     gui_scale_ = scale;
   }
-  const bool moves = state_.controls.moving() || navigation_.flying();
+  const bool moves = state_.controls.moving() || navigation_.flying() || state_.film.plays;
   if (frames_wanted_ <= 0 && !moves && !state_.draw_continuously && state_.requests.empty()) return;
   --frames_wanted_;
 
@@ -169,7 +181,7 @@ void Application::frame() {
   dispatch(events);
   move(step);
   carry_out();
-  draw(events);
+  draw(events, seconds_since_start() - began);
 }
 
 void Application::lay_out(glm::ivec2 points, glm::ivec2 pixels) {
@@ -210,19 +222,31 @@ void Application::move(double seconds) {
   if (state_.controls.moving() || navigation_.flying())
     frames_wanted_ = std::max(frames_wanted_, 1);
   state_.controls.advance(seconds, flight);
+  Film& film = state_.film;
+  if (navigation_.flying() || navigation_.dragging()) film.plays = false;
+  if (!film.plays && !film.scrubbed) return;
+  film.advance(seconds);
+  state_.controls.adopt(film.camera(state_.pixels));
+  state_.controls.arrive();
 }
 
-void Application::draw(const std::vector<Event>& events) {
+void Application::draw(const std::vector<Event>& events, double busy_seconds) {
+  inspect_when_needed();
   draw_picture();
   compare_when_needed();
+  const double began = seconds_since_start();
   draw_panels(state_, frame_clock_);
   draw_overlays(state_);
+  busy_seconds += seconds_since_start() - began;
+  if (state_.busy) report_.longest_busy_ms = std::max(report_.longest_busy_ms, 1e3 * busy_seconds);
   gui_->draw();
   window_.set_pointer(gui_->pointer());
   for (const Event& event : events)
     if (const auto* picture = std::get_if<WindowPictured>(&event))
       save_window_picture(picture->name);
   window_.present();
+  if (state_.stage && report_.first_picture_seconds < 0)
+    report_.first_picture_seconds = seconds_since_start();
 }
 
 void Application::draw_picture() {
@@ -237,10 +261,27 @@ void Application::draw_picture() {
                     camera.width == drawn_camera_.width && camera.height == drawn_camera_.height &&
                     camera.fx == drawn_camera_.fx && camera.fy == drawn_camera_.fy &&
                     camera.cx == drawn_camera_.cx && camera.cy == drawn_camera_.cy;
+  if (draw_inspection(camera, same)) return;
   if (!same || state_.draw_continuously) frame_clock_.draw(state_.stage->renderer(), camera);
   drawn_camera_ = camera;
   picture_is_current_ = true;
   state_.stage->renderer().blit_to(0);
+}
+
+/// Whether something else than the colours is shown.
+bool Application::draw_inspection(const Camera& camera, bool same_camera) {
+  const bool same = same_camera && drawn_look_ == state_.look;
+  if (!(drawn_look_ == state_.look)) picture_is_current_ = false;
+  drawn_look_ = state_.look;
+  if (state_.look.what == Inspection::color || !state_.inspector) return false;
+  if (!same) {
+    state_.inspector->show(state_.look.what, state_.look.features);
+    state_.inspector->draw(camera);
+  }
+  drawn_camera_ = camera;
+  picture_is_current_ = true;
+  state_.inspector->blit_to(0);
+  return true;
 }
 
 void Application::save_window_picture(const std::string& name) {

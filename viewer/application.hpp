@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,7 +30,16 @@ struct ApplicationOptions {
   std::optional<std::filesystem::path> settings;  // where they are kept; nothing: nowhere
   std::optional<Session> replay;                  // done instead of what a person does
   std::filesystem::path record;                   // where the session is written; empty: nowhere
+  std::function<bool()> interrupted = {};         // asked twice a second: end as if closed
   std::filesystem::path pictures;                 // folder for pictures; empty: as the settings say
+};
+
+/// What a run tells of itself.
+struct RunReport {
+  double first_picture_seconds = -1;  // from the start, before the window was opened; -1: none
+  /// The longest that a frame kept the main thread outside of drawing, over frames in which
+  /// something was being loaded.
+  double longest_busy_ms = 0;
 };
 
 class Application {
@@ -42,6 +52,7 @@ class Application {
   /// cannot be written.
   void run();
 
+  const RunReport& report() const { return report_; }
   /// What a replayed session ended with: the error messages that are still shown.
   std::vector<std::string> errors() const;
 
@@ -54,15 +65,18 @@ class Application {
   void dispatch(const std::vector<Event>& events);
   void handle(const Event& event);
   void move(double seconds);
-  void draw(const std::vector<Event>& events);
+  void draw(const std::vector<Event>& events, double busy_seconds);
   void draw_picture();
+  bool draw_inspection(const Camera& camera, bool same_camera);
   bool at_rest() const;
   double wait_seconds() const;
   double clock() const;
+  double seconds_since_start() const;
 
-  // -- requests (application_requests.cpp)
+  // -- requests (application_requests.cpp, application_pictures.cpp, application_looks.cpp)
   void carry_out();
   void carry_out(const OpenPath& request);
+  void carry_out(const OpenPhotographs& request);
   void carry_out(const CloseDataset& request);
   void carry_out(const ReloadScene& request);
   void carry_out(const ChooseDrawing& request);
@@ -70,15 +84,26 @@ class Application {
   void carry_out(const TakePicture& request);
   void carry_out(const CopyCommand& request);
   void carry_out(const ToggleFullscreen& request);
+  void carry_out(const AddKeyframe& request);
+  void carry_out(const ShowKeyframe& request);
+  void carry_out(const MakeTurntable& request);
+  void carry_out(const SavePath& request);
+  void carry_out(const LoadPath& request);
+  void carry_out(const WriteFilm& request);
+  void carry_out(const StopWriting& request);
   void carry_out(const Quit& request);
   void open_scene(const std::filesystem::path& path, bool keep_view);
-  void open_dataset(const std::filesystem::path& path);
   void show(std::unique_ptr<Stage> stage, bool keep_view);
   void compare_when_needed();
+  void inspect_when_needed();
   void watch_file();
+  void write(const std::string& what, const std::filesystem::path& path,
+             std::function<void(const StageRequest&)> work);
   std::filesystem::path picture_path(const std::string& extension) const;
   void save_window_picture(const std::string& name);
 
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  RunReport report_;
   ApplicationOptions options_;
   std::optional<Replay> replay_;
   Window window_;
@@ -92,11 +117,11 @@ class Application {
   FileWatch watch_;
   double watched_ = 0, last_ = 0;
   int frames_wanted_ = 2;
-  bool picture_is_current_ = false;
+  bool picture_is_current_ = false, inspector_asked_ = false;
   Camera drawn_camera_;
-  bool quit_ = false;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  Worker worker_;  // last: its jobs may use all of the above
+  Look drawn_look_;
+  bool quit_ = false, vsync_ = false;
+  Worker worker_, writer_;  // last: their jobs may use all of the above
 };
 
 }  // namespace tureen::viewer

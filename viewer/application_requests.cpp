@@ -1,12 +1,9 @@
-// What may be asked of the window, carried out.
+// What may be asked of the window, carried out: scenes, datasets and how they are drawn.
 #include <algorithm>
-#include <ctime>
+#include <iterator>
 
-#include "formats/camera_file.hpp"
-#include "formats/output.hpp"
-#include "formats/png.hpp"
 #include "viewer/application.hpp"
-#include "viewer/render_command.hpp"
+#include "viewer/names.hpp"
 
 namespace tureen::viewer {
 
@@ -16,11 +13,6 @@ namespace {
 
 /// How often the file is looked at.
 constexpr double watch_seconds = 1.0;
-
-/// "soup.glb"; the folder's name where the path ends with a slash.
-std::string short_name(const fs::path& path) {
-  return (path.has_filename() ? path : path.parent_path()).filename().string();
-}
 
 /// Whether read_dataset is the door to knock at. Scenes that are folders have no photographs.
 bool looks_like_photographs(const fs::path& path) {
@@ -48,7 +40,7 @@ void Application::carry_out() {
 
 void Application::carry_out(const OpenPath& request) {
   if (looks_like_photographs(request.path))
-    open_dataset(request.path);
+    state_.ask(OpenPhotographs{request.path});
   else
     open_scene(request.path, false);
 }
@@ -77,6 +69,8 @@ void Application::show(std::unique_ptr<Stage> stage, bool keep_view) {
   const bool other_path = !state_.stage || state_.stage->path != stage->path;
   state_.stage = std::move(stage);
   picture_is_current_ = false;
+  state_.inspector.reset();
+  inspector_asked_ = false;
   state_.comparison.forget();
   frame_clock_.clear();
   if (same_scene) return;  // only drawn by another choice
@@ -102,7 +96,8 @@ void Application::show(std::unique_ptr<Stage> stage, bool keep_view) {
     state_.messages.note(note, state_.now);
 }
 
-void Application::open_dataset(const fs::path& path) {
+void Application::carry_out(const OpenPhotographs& request) {
+  const fs::path& path = request.path;
   worker_.start(
       {.kind = JobKind::dataset,
        .what = "reading the photographs of " + short_name(path),
@@ -177,98 +172,6 @@ void Application::carry_out(const ShowRecorded& request) {
   state_.recorded = request.index;
   state_.controls.adopt(*cameras[std::size_t(request.index)]);
   state_.comparison.forget();
-}
-
-void Application::compare_when_needed() {
-  Comparison& comparison = state_.comparison;
-  const Photograph* photograph = state_.photograph();
-  if (!photograph || comparison.show == Comparison::Show::off || !state_.stage) return;
-  if (comparison.photograph != state_.recorded) {
-    comparison.texture = PictureTexture(photograph->image);
-    comparison.photograph = state_.recorded;
-    comparison.forget();
-  }
-  if (comparison.result || comparison.asked) return;
-  comparison.asked = true;
-  Renderer& renderer = state_.stage->renderer();
-  renderer.draw(photograph->camera);
-  auto drawn = std::make_shared<Image8>(renderer.read_color());
-  picture_is_current_ = false;  // the window's comes next
-  auto held = std::make_shared<Image8>(photograph->image);
-  const glm::vec3 background = state_.stage->scene->info.background;
-  worker_.start(
-      {.kind = JobKind::comparison,
-       .what = "comparing",
-       .work =
-           [this, drawn, held, background](const Worker::Progress&) {
-             const ImageF ours = composited(to_float(*drawn), background);
-             const ImageF theirs = composited(to_float(*held), background);
-             const Metrics metrics = compare(ours, theirs, {.with_flip = false});
-             auto map = std::make_shared<Image8>(ours.width, ours.height);
-             const std::vector<float> differences = difference_map(ours, theirs);
-             for (std::size_t i = 0; i < differences.size(); ++i)
-               map->pixels[i] = glm::u8vec4(glm::u8vec3(std::uint8_t(255 * differences[i])), 255);
-             return Worker::Completion([this, metrics, map] {
-               state_.comparison.result = Comparison::Result{metrics, PictureTexture(*map)};
-             });
-           },
-       .failed =
-           [this](const std::string& reason) {
-             state_.messages.error("The photograph cannot be compared", reason, state_.now);
-           }});
-}
-
-fs::path Application::picture_path(const std::string& extension) const {
-  const fs::path folder =
-      state_.settings.pictures.empty() ? pictures_folder() : fs::path(state_.settings.pictures);
-  make_folder(folder);
-  const std::string stem =
-      state_.stage ? fs::path(short_name(state_.stage->path)).stem().string() : "tureen";
-  for (int number = 1;; ++number) {
-    const fs::path path = folder / (stem + "-" + std::to_string(number) + extension);
-    if (std::error_code ignored; !fs::exists(path, ignored)) return path;
-  }
-}
-
-void Application::carry_out(const TakePicture& request) {
-  if (!state_.stage) return;
-  const glm::ivec2 size = request.size.x > 0 ? request.size : state_.pixels;
-  Renderer& renderer = state_.stage->renderer();
-  const glm::vec4 background(state_.stage->scene->info.background,
-                             request.transparent ? 0.0f : 1.0f);
-  renderer.set_background(background);
-  renderer.draw(state_.controls.camera(size.x, size.y));
-  const Image8 picture = renderer.read_color();
-  renderer.set_background(glm::vec4(state_.stage->scene->info.background, 1.0f));
-  picture_is_current_ = false;
-  const fs::path path = picture_path(".png");
-  // Compressing takes seconds for large pictures.
-  auto shared = std::make_shared<Image8>(picture);
-  worker_.start({.kind = JobKind::writing,
-                 .what = "writing " + short_name(path),
-                 .work =
-                     [this, path, shared](const Worker::Progress&) {
-                       write_file(path, encode_png(*shared));
-                       return Worker::Completion([this, path] {
-                         state_.messages.note("Saved " + path.string(), state_.now);
-                       });
-                     },
-                 .failed =
-                     [this](const std::string& reason) {
-                       state_.messages.error("The picture was not saved", reason, state_.now);
-                     }});
-}
-
-void Application::carry_out(const CopyCommand&) {
-  if (!state_.stage) return;
-  const Camera camera = state_.controls.camera(state_.pixels.x, state_.pixels.y);
-  fs::path file;
-  if (needs_camera_file(camera)) {
-    file = picture_path(".camera.json");
-    write_file(file, cameras_to_json(std::span(&camera, 1)));
-  }
-  window_.set_clipboard(render_command(*state_.stage, state_.stage->choice, camera, file));
-  state_.messages.note("The command that draws this picture is in the clipboard", state_.now);
 }
 
 void Application::carry_out(const ToggleFullscreen&) {

@@ -1,5 +1,6 @@
 // `tureen-view`: the window. `tureen view` starts it.
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <string>
 
@@ -20,10 +21,14 @@ ExitCode code_of(const std::exception& error) {
   return ExitCode::other;
 }
 
+/// Ctrl-C in the terminal closes the window, so that settings are kept.
+volatile std::sig_atomic_t was_interrupted = 0;
+extern "C" void note_interrupt(int) { was_interrupted = 1; }
+
 struct Arguments {
   std::string scene, dataset, api = "gl", size, replay, record, pictures;
   std::string pipeline = "auto";
-  bool no_specialise = false, no_settings = false;
+  bool no_specialise = false, no_settings = false, report = false;
 };
 
 void add_arguments(CLI::App& program, Arguments& arguments) {
@@ -42,6 +47,9 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
       ->option_text("FOLDER");
   program.add_flag("--no-settings", arguments.no_settings,
                    "neither read nor keep what the last run left");
+  program.add_flag("--report", arguments.report,
+                   "say at the end when the first picture stood, and how long loading kept the "
+                   "window busy");
   program.add_option("--record", arguments.record, "write what happens to a session file")
       ->option_text("FILE");
   program
@@ -73,8 +81,15 @@ int run(const Arguments& arguments) {
   if (!arguments.replay.empty()) options.replay = read_session(arguments.replay);
   // A session must not depend on what somebody did before.
   if (!arguments.no_settings && arguments.replay.empty()) options.settings = settings_file();
+  options.interrupted = [] { return was_interrupted != 0; };
   Application application(std::move(options));
+  std::signal(SIGINT, note_interrupt);
+  std::signal(SIGTERM, note_interrupt);
   application.run();
+  if (arguments.report)
+    std::fprintf(stderr,
+                 "first picture after %.2f s; busy for at most %.1f ms a frame while loading\n",
+                 application.report().first_picture_seconds, application.report().longest_busy_ms);
   if (arguments.replay.empty()) return int(ExitCode::done);
   const std::vector<std::string> errors = application.errors();
   for (const std::string& error : errors) std::fprintf(stderr, "tureen-view: %s\n", error.c_str());

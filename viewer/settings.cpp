@@ -71,7 +71,6 @@ Settings read_settings(const fs::path& file) {
     settings.window = glm::clamp(glm::ivec2(window[0], window[1]), least_window, most_window);
   take(json, "vsync", settings.vsync, name);
   take(json, "smooth_motion", settings.smooth_motion, name);
-  take(json, "show_frame_times", settings.show_frame_times, name);
   take(json, "recent", settings.recent, name);
   settings.recent.resize(std::min(settings.recent.size(), most_recent));
   take(json, "pictures", settings.pictures, name);
@@ -82,7 +81,6 @@ void write_settings(const Settings& settings, const fs::path& file) {
   const Json json = {{"window", {settings.window.x, settings.window.y}},
                      {"vsync", settings.vsync},
                      {"smooth_motion", settings.smooth_motion},
-                     {"show_frame_times", settings.show_frame_times},
                      {"recent", settings.recent},
                      {"pictures", settings.pictures}};
   make_folder(file.parent_path());

@@ -14,7 +14,6 @@ struct Settings {
   glm::ivec2 window{1280, 800};  // in points
   bool vsync = true;
   bool smooth_motion = true;
-  bool show_frame_times = false;
   std::vector<std::string> recent;  // scenes, the newest first; at most most_recent
   std::string pictures;             // the folder of screenshots; empty: pictures_folder()
 };

@@ -35,6 +35,15 @@ void next_up(State& state) {
   state.messages.note("Up is now " + axis_name(axes[next]), state.now);
 }
 
+void next_look(State& state) {
+  if (!state.stage) return;
+  const auto names = inspection_names();
+  std::size_t next = std::size_t(state.look.what);
+  do next = (next + 1) % names.size();
+  while (why_not(names[next].what, state.stage->soup()));
+  state.look.what = names[next].what;
+}
+
 void next_comparison(State& state) {
   if (!state.photographs) {
     state.messages.note("There are no photographs to compare with: open a dataset", state.now);
@@ -73,6 +82,11 @@ const std::array table = {
     Shortcut{Key::right_bracket, false, views, "the next recorded camera",
              [](State& s) { step_recorded(s, 1); }},
     Shortcut{Key::c, false, views, "photograph: off, split, alone, difference", next_comparison},
+    Shortcut{Key::v, false, views, "the next thing to look at", next_look},
+    Shortcut{Key::k, false, pictures, "add this view to the camera path",
+             [](State& s) { s.ask(AddKeyframe{}); }},
+    Shortcut{Key::space, false, pictures, "play the camera path, or stop it",
+             [](State& s) { s.film.toggle(); }},
     Shortcut{Key::s, true, pictures, "save the picture",
              [](State& s) { s.ask(TakePicture{s.picture.window_size ? glm::ivec2(0) : s.picture.size,
                                               s.picture.transparent}); }},

@@ -29,20 +29,6 @@ UpGuess guess(const Scene& scene, const Subject& subject) {
                    .extent = subject.high - subject.low});
 }
 
-CheckedRenderer prepare(const Scene& scene, const StageRequest& request) {
-  const ScenePreset preset = request.choice.obey_preset && scene.preset
-                                 ? ScenePreset{scene.preset, preset_views(scene)}
-                                 : ScenePreset{};
-  RenderOptions options = render_options(request.choice, scene);
-  options.progress = [&](double done) {
-    request.progress(reading_share + (1 - reading_share) * done);
-  };
-  CheckedRenderer drawn = checked_renderer(
-      request.context, std::get<TriangleSoup>(scene.primitives), scene.origin, options, preset);
-  drawn.renderer.leave_context();
-  return drawn;
-}
-
 }  // namespace
 
 RenderOptions render_options(const DrawingChoice& choice, const Scene& scene) {
@@ -58,6 +44,16 @@ RenderOptions render_options(const DrawingChoice& choice, const Scene& scene) {
   return options;
 }
 
+CheckedRenderer prepare_renderer(const StageSource& source, const StageRequest& request) {
+  const Scene& scene = *source.scene;
+  const ScenePreset preset = request.choice.obey_preset && scene.preset
+                                 ? ScenePreset{scene.preset, preset_views(scene)}
+                                 : ScenePreset{};
+  RenderOptions options = render_options(request.choice, scene);
+  options.progress = request.progress;
+  return checked_renderer(request.context, source.soup(), scene.origin, options, preset);
+}
+
 std::unique_ptr<Stage> read_stage(const std::filesystem::path& path, const StageRequest& request) {
   const Stopwatch reading;
   auto scene = std::make_shared<Scene>(
@@ -70,12 +66,16 @@ std::unique_ptr<Stage> read_stage(const std::filesystem::path& path, const Stage
   source.up = guess(*scene, source.subject);
   source.subject.up = source.up.axis;
   source.read_seconds = reading.seconds();
-  return prepare_stage(source, request);
+  const auto preparing = [&](double done) {
+    request.progress(reading_share + (1 - reading_share) * done);
+  };
+  return prepare_stage(source, {request.context, request.choice, preparing});
 }
 
 std::unique_ptr<Stage> prepare_stage(const StageSource& source, const StageRequest& request) {
   const Stopwatch preparing;
-  CheckedRenderer drawn = prepare(*source.scene, request);
+  CheckedRenderer drawn = prepare_renderer(source, request);
+  drawn.renderer.leave_context();
   return std::make_unique<Stage>(
       Stage{{source}, request.choice, std::move(drawn), preparing.seconds()});
 }

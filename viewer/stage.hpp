@@ -52,6 +52,10 @@ struct StageRequest {
   std::function<void(double)> progress;  // 0..1; may throw to abandon
 };
 
+/// What draws a scene by a choice, in the context that is current. Throws DeviceLimitError,
+/// UsageError.
+CheckedRenderer prepare_renderer(const StageSource& scene, const StageRequest& request);
+
 /// Reads a scene and prepares it. What was prepared has left the context: the thread that draws
 /// takes over. Throws InputError, DeviceLimitError, UsageError.
 std::unique_ptr<Stage> read_stage(const std::filesystem::path& path, const StageRequest& request);

@@ -11,6 +11,12 @@ std::vector<const Camera*> State::recorded_cameras() const {
   return cameras;
 }
 
+CameraKeyframe State::keyframe_of_now(double seconds) const {
+  return {.camera = controls.camera(pixels.x, pixels.y),
+          .seconds = seconds,
+          .target_distance = controls.distance()};
+}
+
 const Photograph* State::photograph() const {
   if (!photographs || recorded < 0 || recorded >= static_cast<int>(photographs->list.size()))
     return nullptr;

@@ -12,8 +12,12 @@
 
 #include "formats/dataset.hpp"
 #include "runtime/camera_controls.hpp"
+#include "runtime/inspector.hpp"
 #include "viewer/comparison.hpp"
+#include "viewer/file_list.hpp"
+#include "viewer/film.hpp"
 #include "viewer/frame_clock.hpp"
+#include "viewer/look.hpp"
 #include "viewer/messages.hpp"
 #include "viewer/settings.hpp"
 #include "viewer/stage.hpp"
@@ -23,6 +27,9 @@ namespace tureen::viewer {
 
 /// A scene, or a folder of photographs: told by what it holds.
 struct OpenPath {
+  std::filesystem::path path;
+};
+struct OpenPhotographs {
   std::filesystem::path path;
 };
 struct CloseDataset {};
@@ -42,10 +49,26 @@ struct TakePicture {
 /// The command that draws this picture without a window goes to the clipboard.
 struct CopyCommand {};
 struct ToggleFullscreen {};
+struct AddKeyframe {};
+struct ShowKeyframe {
+  std::size_t index = 0;
+};
+struct MakeTurntable {};
+struct SavePath {
+  std::filesystem::path file;
+};
+struct LoadPath {
+  std::filesystem::path file;
+};
+struct WriteFilm {};
+/// Of pictures and films.
+struct StopWriting {};
 struct Quit {};
 
-using Request = std::variant<OpenPath, CloseDataset, ReloadScene, ChooseDrawing, ShowRecorded,
-                             TakePicture, CopyCommand, ToggleFullscreen, Quit>;
+using Request =
+    std::variant<OpenPath, OpenPhotographs, CloseDataset, ReloadScene, ChooseDrawing, ShowRecorded,
+                 TakePicture, CopyCommand, ToggleFullscreen, AddKeyframe, ShowKeyframe,
+                 MakeTurntable, SavePath, LoadPath, WriteFilm, StopWriting, Quit>;
 
 /// The photographs at hand; those to train on first.
 struct Photographs {
@@ -65,23 +88,29 @@ struct PictureWish {
 struct State {
   Settings settings;
   std::unique_ptr<Stage> stage;  // nothing before the first scene
+  Look look;
+  std::unique_ptr<Inspector> inspector;  // of the stage, once something was looked at
   std::optional<Photographs> photographs;
   CameraControls controls;
   int recorded = -1;  // the recorded camera that was last gone to
   Comparison comparison;
+  Film film;
   Messages messages;
   PictureWish picture;
   bool show_interface = true;
   bool show_keys = false;
+  FileList files;
   bool show_files = false;  // the window to pick a file in
   bool draw_continuously = false;
-  std::optional<Worker::Status> busy;
+  std::optional<Worker::Status> busy, writing;
   /// Of the picture, which leaves room for the panels at its right.
   glm::ivec2 points{1, 1}, pixels{1, 1};
   double now = 0;  // seconds of the window's clock
 
   /// Those of the photographs, or else of the scene.
   std::vector<const Camera*> recorded_cameras() const;
+  /// The view as a keyframe of the film.
+  CameraKeyframe keyframe_of_now(double seconds) const;
   /// The photograph whose camera the view is, unmoved.
   const Photograph* photograph() const;
 

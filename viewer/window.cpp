@@ -168,7 +168,7 @@ constexpr int pointer_count = 6;
 struct Window::Handles {
   Library library;
   Handle window{nullptr, &glfwDestroyWindow};
-  Handle worker{nullptr, &glfwDestroyWindow};
+  std::vector<Handle> workers;
   std::array<GLFWcursor*, pointer_count> pointers{};  // destroyed with the library
 };
 
@@ -181,8 +181,11 @@ Window::Window(const WindowOptions& options) : handles_(std::make_unique<Handles
   GLFWwindow* window = handles_->window.get();
 
   glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
-  handles_->worker.reset(glfwCreateWindow(16, 16, "Tureen (loading)", nullptr, window));
-  if (!handles_->worker) fail("no second OpenGL context can be had");
+  for (int i = 0; i < worker_contexts; ++i) {
+    handles_->workers.emplace_back(glfwCreateWindow(16, 16, "Tureen (background)", nullptr, window),
+                                   &glfwDestroyWindow);
+    if (!handles_->workers.back()) fail("no second OpenGL context can be had");
+  }
 
   glfwMakeContextCurrent(window);
   context_ = std::make_unique<gl::Context>(gl::Context::external(&find_function, options.api));
@@ -197,7 +200,9 @@ Window::Window(const WindowOptions& options) : handles_(std::make_unique<Handles
 
 Window::~Window() = default;
 
-void Window::make_worker_context_current() const { glfwMakeContextCurrent(handles_->worker.get()); }
+void Window::make_worker_context_current(int which) const {
+  glfwMakeContextCurrent(handles_->workers.at(static_cast<std::size_t>(which)).get());
+}
 void Window::release_worker_context() const { glfwMakeContextCurrent(nullptr); }
 
 std::vector<Event> Window::events(double seconds) {

@@ -1,5 +1,5 @@
-// The window and its two OpenGL contexts: the visible one draws, a hidden one that shares its
-// buffers and textures serves the loading thread. GLFW, behind one file.
+// The window and its OpenGL contexts: the visible one draws, hidden ones that share its buffers and
+// textures serve threads in the background. GLFW, behind one file.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -31,9 +31,10 @@ class Window {
 
   const gl::Context& context() const { return *context_; }
 
-  /// Makes the hidden context current on the calling thread, or none. No drawing there: vertex
-  /// arrays and framebuffers are not shared.
-  void make_worker_context_current() const;
+  /// Hidden contexts, one a thread.
+  static constexpr int worker_contexts = 2;
+  /// Makes one current on the calling thread. Vertex arrays and framebuffers are not shared.
+  void make_worker_context_current(int which) const;
   void release_worker_context() const;
 
   /// What happened since the last time; waits for something for up to `seconds`, which wake() cuts

@@ -14,7 +14,8 @@ struct Abandoned {};
 
 }  // namespace
 
-Worker::Worker(const Window& window) : window_(window), thread_([this] { run(); }) {}
+Worker::Worker(const Window& window, int context)
+    : window_(window), context_(context), thread_([this] { run(); }) {}
 
 Worker::~Worker() {
   {
@@ -64,7 +65,7 @@ bool Worker::idle() const {
 }
 
 void Worker::run() {
-  window_.make_worker_context_current();
+  window_.make_worker_context_current(context_);
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return ending_ || !waiting_.empty(); });

@@ -1,6 +1,6 @@
-// One thread in the background that loads and prepares, with an OpenGL context of its own, so that
-// the window never waits. Jobs run one after another; what comes of them is handed over on the main
-// thread, when it asks.
+// A thread in the background that loads, prepares or writes, with an OpenGL context of its own, so
+// that the window never waits. Jobs run one after another; what comes of them is handed over on the
+// main thread, when it asks.
 #pragma once
 
 #include <condition_variable>
@@ -17,7 +17,7 @@ namespace tureen::viewer {
 
 /// Of each kind the newest counts: a job replaces the waiting one of its kind and abandons that
 /// which runs.
-enum class JobKind { scene, dataset, drawing, comparison, writing };
+enum class JobKind { scene, dataset, drawing, inspection, comparison, writing };
 
 class Worker {
  public:
@@ -32,8 +32,8 @@ class Worker {
     std::function<void(const std::string& reason)> failed;  // what work threw; on the main thread
   };
 
-  /// `window` must outlive it.
-  explicit Worker(const Window& window);
+  /// `window` must outlive it; `context` is which of its hidden ones is this thread's.
+  Worker(const Window& window, int context);
   /// Abandons what runs and waits for it.
   ~Worker();
   Worker(const Worker&) = delete;
@@ -60,6 +60,7 @@ class Worker {
   void report(double fraction);
 
   const Window& window_;
+  int context_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Job> waiting_;  // one of a kind at most

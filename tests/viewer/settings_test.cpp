@@ -27,7 +27,6 @@ TEST(Settings, ComeBackAsTheyWereLeft) {
   Settings settings{.window = {999, 777},
                     .vsync = false,
                     .smooth_motion = false,
-                    .show_frame_times = true,
                     .recent = {},
                     .pictures = "/some where"};
   remember(settings, "/b.glb");
@@ -38,7 +37,6 @@ TEST(Settings, ComeBackAsTheyWereLeft) {
   EXPECT_EQ(read.window, settings.window);
   EXPECT_EQ(read.vsync, false);
   EXPECT_EQ(read.smooth_motion, false);
-  EXPECT_EQ(read.show_frame_times, true);
   EXPECT_EQ(read.pictures, "/some where");
   EXPECT_THAT(read.recent, testing::ElementsAre("/b.glb", "/a folder")) << "newest first, once";
 }

@@ -7,10 +7,15 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <glm/matrix.hpp>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
 
 #include "cli/child.hpp"
 #include "formats/input.hpp"
 #include "formats/png.hpp"
+#include "formats/scene_file.hpp"
 #include "support/golden.hpp"
 #include "viewer/display.hpp"
 #include "viewer/session.hpp"
@@ -64,6 +69,8 @@ class Person {
   Person& replace(const std::string& file, const std::string& with) {
     return add(FileReplaced{.from = with, .to = file});
   }
+  /// A picture of the window as it is.
+  Person& take(const std::string& name) { return add(WindowPictured{name + ".png"}); }
   /// Waits until all is at rest, then a picture of the window.
   Person& look(const std::string& name) { return wait().add(WindowPictured{name + ".png"}); }
 
@@ -183,6 +190,87 @@ TEST_F(Window, SavesPicturesUnderNewNames) {
   const Image8 expected = rendered({"--camera", "soup.glb:0", "--size", "640x400"});
   expect_equal(picture("soup-1"), expected);
   expect_equal(picture("soup-2"), expected);
+}
+
+/// Rows of the column of panels in a window 720 points wide, as the goldens show them.
+constexpr glm::dvec2 pictures_header{560, 443}, as_large_as_the_window{419, 467};
+
+TEST_F(Window, SavesPicturesLargerThanItself) {
+  const ChildResult result = replay(Person({720, 640})
+                                        .wait()
+                                        .press(Key::right_bracket)
+                                        .click(pictures_header)
+                                        .click(as_large_as_the_window)
+                                        .look("panel")
+                                        .press_with_control(Key::s)
+                                        .wait());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  expect_golden(picture("panel"), "window_pictures");
+  expect_equal(picture("soup-1"), rendered({"--camera", "soup.glb:0", "--size", "3840x2160"}));
+}
+
+TEST_F(Window, PlaysACameraPath) {
+  Person person;
+  person.wait().press(Key::digit_7).wait().press(Key::k);
+  person.press(Key::digit_4).wait().press(Key::k).press(Key::space);
+  person.hold(Key::super, 0.7).take("middle").look("end");
+  const ChildResult result = replay(person);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  expect_golden(picture("middle"), "window_path_middle");
+  expect_golden(picture("end"), "window_path_end");
+}
+
+TEST_F(Window, LooksBehindTheColours) {
+  Person person;
+  person.wait().press(Key::digit_7);
+  const std::vector<std::string> looks = {"depth",  "normals",  "triangle_id", "texels",   "alpha",
+                                          "weight", "features", "overdraw",    "wireframe"};
+  for (const std::string& look : looks) person.press(Key::v).look(look);
+  const ChildResult result = replay(person);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  // What each shows is held elsewhere (tests/runtime): here, that the window shows it.
+  for (std::size_t i = 1; i < looks.size(); ++i)
+    EXPECT_NE(picture(looks[i]).pixels, picture(looks[i - 1]).pixels) << looks[i];
+  expect_golden(picture("depth"), "window_depth");
+}
+
+// A dataset of one photograph to train on and one held out, both drawn from the scene itself: the
+// difference must be nothing.
+TEST_F(Window, ComparesWithThePhotographs) {
+  const Scene scene = read_scene(folder_ / "soup.glb");
+  fs::create_directories(folder_ / "photographs");
+  for (const auto& [split, index] : {std::pair("train", 0), std::pair("test", 40)}) {
+    const Camera camera = resized(scene.cameras.at(std::size_t(index)), 240, 200);
+    const Image8 drawn =
+        rendered({"--camera", "soup.glb:" + std::to_string(index), "--size", "240x200"});
+    fs::copy(folder_ / "rendered.png", folder_ / "photographs" / (std::string(split) + ".png"));
+    const glm::dmat4 pose = glm::inverse(camera.view_from_world);
+    nlohmann::json matrix = nlohmann::json::array();
+    for (int row = 0; row < 4; ++row)
+      matrix.push_back({pose[0][row], pose[1][row], pose[2][row], pose[3][row]});
+    std::ofstream(folder_ / "photographs" / ("transforms_" + std::string(split) + ".json"))
+        << nlohmann::json{
+               {"fl_x", camera.fx},
+               {"fl_y", camera.fy},
+               {"cx", camera.cx},
+               {"cy", camera.cy},
+               {"w", 240},
+               {"h", 200},
+               {"frames",
+                {{{"file_path", std::string(split) + ".png"}, {"transform_matrix", matrix}}}}};
+  }
+  const ChildResult result = replay(Person()
+                                        .wait()
+                                        .press(Key::left_bracket)
+                                        .press(Key::c)
+                                        .look("split")
+                                        .press(Key::c)
+                                        .press(Key::c)
+                                        .look("difference"),
+                                    {"soup.glb", "photographs"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  expect_golden(picture("split"), "window_split");
+  expect_golden(picture("difference"), "window_difference");
 }
 
 TEST_F(Window, WorksOnEs) {

@@ -37,6 +37,7 @@ void comparison_panel(State& state) {
   } else if (comparison.show != Comparison::Show::off) {
     aside("comparing ..");
   }
+  if (comparison.show == Comparison::Show::difference) legend_rows(difference_legend());
   if (ImGui::Button("Close the dataset")) state.ask(CloseDataset{});
 }
 

@@ -11,6 +11,10 @@ void status_overlay(const State& state) {
   ImGui::Begin("status", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+  if (state.writing) {
+    text("{}", state.writing->what);
+    ImGui::ProgressBar(float(state.writing->fraction), {16 * ImGui::GetFontSize(), 0});
+  }
   if (state.busy) {
     text("{}", state.busy->what);
     ImGui::ProgressBar(float(state.busy->fraction), {16 * ImGui::GetFontSize(), 0});

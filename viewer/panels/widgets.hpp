@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 #include <imgui/imgui.h>
 
+#include <glm/vec4.hpp>
 #include <string>
 #include <utility>
+
+#include "soup/heat_map.hpp"
 
 namespace tureen::viewer {
 
@@ -37,6 +40,18 @@ inline void tip(const std::string& words) {
   ImGui::TextUnformatted(words.data(), words.data() + words.size());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
+}
+
+/// What colours mean, a row each.
+inline void legend_rows(const Legend& legend) {
+  for (const LegendEntry& entry : legend) {
+    const glm::vec4 color = glm::vec4(entry.color) / 255.0f;
+    ImGui::ColorButton(entry.text.c_str(), {color.r, color.g, color.b, 1},
+                       ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop,
+                       {ImGui::GetFontSize(), ImGui::GetFontSize()});
+    ImGui::SameLine();
+    text("{}", entry.text);
+  }
 }
 
 /// Greys what is drawn until its end.

@@ -1,0 +1,35 @@
+// The list that files are picked from.
+#include "viewer/file_list.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace tureen::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(FileList, HoldsFoldersFirstAndWhatCanBeShown) {
+  const fs::path folder = fs::path(testing::TempDir()) / "file_list";
+  fs::remove_all(folder);
+  fs::create_directories(folder / "z folder");
+  fs::create_directories(folder / ".hidden");
+  for (const char* name : {"b.glb", "a.off", "notes.txt", "transforms.json", "c.ply"})
+    std::ofstream(folder / name) << "x";
+  std::vector<std::string> names;
+  for (const FileEntry& entry : list_files(folder).entries)
+    names.push_back(entry.path.filename().string());
+  EXPECT_THAT(names,
+              testing::ElementsAre("z folder", "a.off", "b.glb", "c.ply", "transforms.json"));
+}
+
+TEST(FileList, SaysWhatItCannotList) {
+  const FileList list = list_files("/there/is/no/such/folder");
+  EXPECT_TRUE(list.entries.empty());
+  EXPECT_FALSE(list.trouble.empty());
+}
+
+}  // namespace
+}  // namespace tureen::viewer

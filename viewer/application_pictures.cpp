@@ -1,0 +1,126 @@
+// Requests for pictures, films, camera paths and the command line, carried out.
+#include <span>
+
+#include "formats/camera_file.hpp"
+#include "formats/output.hpp"
+#include "viewer/application.hpp"
+#include "viewer/names.hpp"
+#include "viewer/render_command.hpp"
+#include "viewer/writing.hpp"
+
+namespace tureen::viewer {
+
+namespace fs = std::filesystem;
+
+fs::path Application::picture_path(const std::string& extension) const {
+  const fs::path folder =
+      state_.settings.pictures.empty() ? pictures_folder() : fs::path(state_.settings.pictures);
+  make_folder(folder);
+  const std::string stem =
+      state_.stage ? fs::path(short_name(state_.stage->path)).stem().string() : "tureen";
+  for (int number = 1;; ++number) {
+    const fs::path path = folder / (stem + "-" + std::to_string(number) + extension);
+    if (std::error_code ignored; !fs::exists(path, ignored)) return path;
+  }
+}
+
+void Application::carry_out(const TakePicture& request) {
+  if (!state_.stage) return;
+  const glm::ivec2 size = request.size.x > 0 ? request.size : state_.pixels;
+  const PictureJob job{.scene = state_.stage->source(),
+                       .camera = state_.controls.camera(size.x, size.y),
+                       .transparent = request.transparent,
+                       .path = picture_path(".png")};
+  write("writing " + short_name(job.path), job.path,
+        [job](const StageRequest& with) { write_picture(job, with); });
+}
+
+void Application::carry_out(const WriteFilm&) {
+  if (!state_.stage || state_.film.path.empty()) return;
+  const Film& film = state_.film;
+  static constexpr const char* endings[] = {"-frames", ".mp4", ".webm"};
+  const FilmJob job{.scene = state_.stage->source(),
+                    .path = film.path,
+                    .rate = {film.frames_per_second, film.size.x, film.size.y},
+                    .output = picture_path(endings[int(film.output)])};
+  write("writing " + short_name(job.output), job.output,
+        [job](const StageRequest& with) { write_film(job, with); });
+}
+
+void Application::write(const std::string& what, const fs::path& path,
+                        std::function<void(const StageRequest&)> work) {
+  writer_.start({.kind = JobKind::writing,
+                 .what = what,
+                 .work =
+                     [this, path, work = std::move(work),
+                      choice = state_.stage->choice](const Worker::Progress& progress) {
+                       work({window_.context(), choice, progress});
+                       return Worker::Completion([this, path] {
+                         state_.messages.note("Saved " + path.string(), state_.now);
+                       });
+                     },
+                 .failed =
+                     [this, path](const std::string& reason) {
+                       state_.messages.error(short_name(path) + " was not written", reason,
+                                             state_.now);
+                     }});
+}
+
+void Application::carry_out(const StopWriting&) {
+  writer_.abandon(JobKind::writing);
+  state_.messages.note("Stopped writing", state_.now);
+}
+
+void Application::carry_out(const AddKeyframe&) {
+  Film& film = state_.film;
+  // A second and a half between views until somebody says otherwise.
+  constexpr double apart = 1.5;
+  const auto& keyframes = film.path.data().keyframes;
+  const double at = keyframes.empty() ? 0 : keyframes.back().seconds + apart;
+  const bool loop = film.path.is_loop();
+  film.selected = int(film.path.add(state_.keyframe_of_now(at)));
+  if (loop) film.path.set_loop_seconds(film.path.data().loop_seconds + apart);
+  film.seconds = at - film.path.begin();
+}
+
+void Application::carry_out(const ShowKeyframe& request) {
+  const auto& keyframes = state_.film.path.data().keyframes;
+  if (request.index < keyframes.size()) state_.controls.adopt(keyframes[request.index].camera);
+}
+
+void Application::carry_out(const MakeTurntable&) {
+  if (!state_.stage) return;
+  state_.film.path =
+      CameraPath(turntable({.first = state_.controls.camera(state_.pixels.x, state_.pixels.y),
+                            .distance = state_.controls.distance(),
+                            .up = state_.controls.up(),
+                            .seconds = state_.film.turn_seconds}));
+  state_.film.seconds = 0;
+  state_.film.selected = -1;
+}
+
+void Application::carry_out(const SavePath& request) {
+  write_file(request.file, path_to_json(state_.film.path.data()));
+  state_.messages.note("Saved " + request.file.string(), state_.now);
+}
+
+void Application::carry_out(const LoadPath& request) {
+  state_.film.path = CameraPath(read_path(request.file));
+  state_.film.seconds = 0;
+  state_.film.selected = -1;
+  state_.film.file = request.file.string();
+}
+
+void Application::carry_out(const CopyCommand&) {
+  if (!state_.stage) return;
+  const Camera camera = state_.controls.camera(state_.pixels.x, state_.pixels.y);
+  fs::path file;
+  if (needs_camera_file(camera)) {
+    file = picture_path(".camera.json");
+    write_file(file, cameras_to_json(std::span(&camera, 1)));
+  }
+  window_.set_clipboard(render_command(*state_.stage, state_.stage->choice, camera, file));
+  state_.messages.note("The command that draws this picture is in the clipboard", state_.now);
+}
+
+}  // namespace tureen::viewer

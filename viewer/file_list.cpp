@@ -1,0 +1,45 @@
+#include "viewer/file_list.hpp"
+
+#include <algorithm>
+
+#include "formats/scene_file.hpp"
+
+namespace tureen::viewer {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool has_scene_name(const fs::path& path) {
+  for (const FormatInfo& format : known_formats())
+    for (const std::string& extension : format.extensions)
+      if (format.can_read && path.extension() == extension) return true;
+  return path.filename() == "transforms.json";
+}
+
+}  // namespace
+
+FileList list_files(const fs::path& folder) {
+  FileList list;
+  list.folder = folder;
+  std::error_code failed;
+  for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end;
+       entry.increment(failed)) {
+    if (entry->path().filename().string().starts_with('.')) continue;
+    std::error_code ignored;
+    const bool is_folder = entry->is_directory(ignored);
+    if (!is_folder && !has_scene_name(entry->path())) continue;
+    if (list.entries.size() == most_entries) {
+      list.cut = true;
+      break;
+    }
+    list.entries.push_back({entry->path(), is_folder});
+  }
+  if (failed) list.trouble = failed.message();
+  std::sort(list.entries.begin(), list.entries.end(), [](const FileEntry& a, const FileEntry& b) {
+    return a.is_folder != b.is_folder ? a.is_folder : a.path.filename() < b.path.filename();
+  });
+  return list;
+}
+
+}  // namespace tureen::viewer

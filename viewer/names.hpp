@@ -1,0 +1,14 @@
+// How paths are called in the window.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace tureen::viewer {
+
+/// "soup.glb"; the folder's name where the path ends with a slash.
+inline std::string short_name(const std::filesystem::path& path) {
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
+}  // namespace tureen::viewer

@@ -1,0 +1,46 @@
+// What of the soup is shown: its colours, or what is behind them.
+#include <algorithm>
+
+#include "viewer/panels.hpp"
+#include "viewer/panels/widgets.hpp"
+
+namespace tureen::viewer {
+
+namespace {
+
+void feature_choice(FeatureChoice& choice, int count) {
+  ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
+  ImGui::SliderInt("first", &choice.first, 0, count - 1, "%d", ImGuiSliderFlags_AlwaysClamp);
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
+  ImGui::SliderInt("at once", &choice.count, 1, 3, "%d", ImGuiSliderFlags_AlwaysClamp);
+  tip("One as grey, two or three as red, green and blue");
+  choice.count = std::min(choice.count, count - choice.first);
+}
+
+}  // namespace
+
+void look_panel(State& state) {
+  const TriangleSoup& soup = state.stage->soup();
+  Look& look = state.look;
+  const InspectionName& current = inspection_names()[std::size_t(look.what)];
+  ImGui::SetNextItemWidth(14 * ImGui::GetFontSize());
+  if (ImGui::BeginCombo("shown", current.title, ImGuiComboFlags_HeightLarge)) {
+    for (const InspectionName& each : inspection_names()) {
+      const std::optional<std::string> reason = why_not(each.what, soup);
+      {
+        const Disabled disabled(reason.has_value());
+        if (ImGui::Selectable(each.title, each.what == look.what)) look.what = each.what;
+      }
+      if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+        ImGui::SetTooltip("%s", reason ? reason->c_str() : each.meaning);
+    }
+    ImGui::EndCombo();
+  }
+  tip("V goes on to the next");
+  aside(current.meaning);
+  if (look.what == Inspection::features) feature_choice(look.features, feature_count(soup));
+  if (look.what != Inspection::color && state.inspector) legend_rows(state.inspector->legend());
+}
+
+}  // namespace tureen::viewer

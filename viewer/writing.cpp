@@ -1,0 +1,75 @@
+#include "viewer/writing.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <optional>
+
+#include "formats/output.hpp"
+#include "formats/png.hpp"
+#include "formats/png_rows.hpp"
+#include "formats/video_file.hpp"
+#include "runtime/picture_tiles.hpp"
+
+namespace tureen::viewer {
+
+namespace {
+
+/// Preparing shows as the first twentieth of the work.
+constexpr double preparing_share = 0.05;
+
+Renderer renderer_for(const StageSource& scene, const StageRequest& request) {
+  const auto progress = [&](double done) { request.progress(preparing_share * done); };
+  return prepare_renderer(scene, {request.context, request.choice, progress}).renderer;
+}
+
+/// Draws every frame in turn and hands it on.
+void draw_frames(const FilmJob& job, const StageRequest& request,
+                 const std::function<void(const Image8&, std::size_t)>& take) {
+  Renderer renderer = renderer_for(job.scene, request);
+  const std::vector<Camera> cameras = frames(job.path, job.rate);
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    renderer.draw(cameras[i]);
+    take(renderer.read_color(), i);
+    request.progress(preparing_share +
+                     (1 - preparing_share) * double(i + 1) / double(cameras.size()));
+  }
+}
+
+}  // namespace
+
+void write_picture(const PictureJob& job, const StageRequest& request) {
+  Renderer renderer = renderer_for(job.scene, request);
+  renderer.set_background(
+      glm::vec4(job.scene.scene->info.background, job.transparent ? 0.0f : 1.0f));
+  Output output(job.path);
+  PngRows rows(output, job.camera.width, job.camera.height);
+  if (request.choice.resolution_scale < 1) {
+    // Tiles that are drawn coarser would not meet; what the device draws at once is enough there.
+    renderer.draw(job.camera);
+    rows.append(renderer.read_color());
+  } else {
+    PictureTiles tiles = tiles_of(renderer, request.context.capabilities());
+    tiles.progress = [&](double done) {
+      request.progress(preparing_share + (1 - preparing_share) * done);
+    };
+    draw_in_bands(job.camera, tiles, [&](const Image8& band) { rows.append(band); });
+  }
+  rows.finish();
+  output.commit();
+}
+
+void write_film(const FilmJob& job, const StageRequest& request) {
+  if (is_video_name(job.output)) {
+    VideoFile video(job.output, {job.rate.width, job.rate.height, job.rate.frames_per_second});
+    draw_frames(job, request, [&](const Image8& frame, std::size_t) { video.add(frame); });
+    video.commit();
+    return;
+  }
+  make_folder(job.output);
+  draw_frames(job, request, [&](const Image8& frame, std::size_t i) {
+    write_file(job.output / fmt::format("frame_{:04}.png", i), encode_png(frame));
+  });
+}
+
+}  // namespace tureen::viewer

@@ -1,0 +1,35 @@
+// Pictures and films for keeps, drawn by a renderer of their own in the background: the window goes
+// on, whatever their size.
+#pragma once
+
+#include <filesystem>
+
+#include "runtime/camera_path.hpp"
+#include "viewer/stage.hpp"
+
+namespace tureen::viewer {
+
+struct PictureJob {
+  StageSource scene;
+  Camera camera;  // with the picture's size, which may be beyond the device's
+  bool transparent = false;
+  std::filesystem::path path;
+};
+
+/// A PNG, drawn in tiles and written row by row. The thread's context shares with nobody's frames:
+/// what is made here is gone at the end. Throws OutputError, DeviceLimitError and what
+/// StageRequest::progress throws; then nothing is written.
+void write_picture(const PictureJob& job, const StageRequest& request);
+
+struct FilmJob {
+  StageSource scene;
+  CameraPath path;
+  FrameRate rate;
+  /// A video where its name is one's (formats/video_file.hpp), otherwise a folder for frames.
+  std::filesystem::path output;
+};
+
+/// Likewise; frames that were written before an end by force stay, of a video nothing.
+void write_film(const FilmJob& job, const StageRequest& request);
+
+}  // namespace tureen::viewer
