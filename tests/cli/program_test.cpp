@@ -296,16 +296,17 @@ TEST_F(Program, RenderShowsWhatASoupHas) {
   const ChildResult overdraw = shown({"--show", "overdraw", "--json"});
   ASSERT_EQ(overdraw.exit_code, 0) << overdraw.err;
   EXPECT_THAT(overdraw.err, HasSubstr("shows overdraw of the soup as it is stored"));
-  EXPECT_THAT(overdraw.err, HasSubstr("#ffffff 255 or more"));
+  EXPECT_THAT(overdraw.err, HasSubstr("#611366 2\n"));
   EXPECT_THAT(keys(nlohmann::ordered_json::parse(overdraw.out)),
               ElementsAre("width", "height", "context", "renderer", "triangles", "frame_ms", "plan",
                           "output"));
-  // Two faces at one place in the middle, and the third behind them.
+  // Two faces at one place above the middle; below it the third lies behind them.
   const Image8 counts = read_png("out.png");
+  EXPECT_EQ(counts.at(32, 20), glm::u8vec4(0x61, 0x13, 0x66, 255));
+  EXPECT_NE(counts.at(32, 30), counts.at(32, 20));
   ASSERT_EQ(shown({"--show", "normals"}).exit_code, 0);
   const Image8 normals = read_png("out.png");
   EXPECT_EQ(normals.at(32, 24), glm::u8vec4(128, 0, 128, 255));  // -y, towards the eye
-  EXPECT_NE(counts.at(32, 24), normals.at(32, 24));
   EXPECT_EQ(counts.at(0, 0), normals.at(0, 0));
 
   const auto refused = [&](const std::vector<std::string>& more, const char* why) {
