@@ -28,6 +28,10 @@ using testing::HasSubstr;
 
 constexpr int width = 200, height = 150;
 
+constexpr std::size_t pixel_index(int column, int row) {
+  return std::size_t(row) * width + std::size_t(column);
+}
+
 // -- the model, by hand -------------------------------------------------------------------------
 
 struct Point {
@@ -164,7 +168,7 @@ std::vector<std::vector<Hit>> all_hits(const Scenery& scenery) {
   const oracle::Rays rays(scenery.soup, {}, scenery.camera,
                           {.coverage = oracle::Coverage::snapped});
   rays.visit_pixels([&](int column, int row, std::span<const Hit> hits) {
-    result[std::size_t(row * width + column)].assign(hits.begin(), hits.end());
+    result[pixel_index(column, row)].assign(hits.begin(), hits.end());
   });
   return result;
 }
@@ -182,7 +186,7 @@ void expect_shown(const Scenery& scenery, const Inspector& inspector, const Expe
   std::size_t compared = 0, off = 0;
   for (int row = 0; row < height; ++row)
     for (int column = 0; column < width; ++column) {
-      const std::size_t i = std::size_t(row * width + column);
+      const std::size_t i = pixel_index(column, row);
       if (faces[i] == no_face) continue;
       const auto hit = std::find_if(hits[i].begin(), hits[i].end(),
                                     [&](const Hit& h) { return h.face == faces[i]; });
@@ -413,7 +417,7 @@ TEST_P(Inspections, WireframesOutlineWholeTriangles) {
   std::size_t lines = 0, off = 0, compared = 0;
   for (int row = 0; row < height; ++row)
     for (int column = 0; column < width; ++column) {
-      const std::size_t i = std::size_t(row * width + column);
+      const std::size_t i = pixel_index(column, row);
       if (faces[i] == no_face) continue;
       ++compared;
       // The corners of the face that shows, in pixels; none of this view lies behind the eye.
