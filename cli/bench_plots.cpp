@@ -3,12 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
+#include <limits>
+
+#include "runtime/camera_sets.hpp"
 
 namespace tureen::cli {
 
 namespace {
 
 using Rows = std::vector<std::vector<double>>;
+
+constexpr int most_ticks = 9;
 
 template <class Key>
 std::vector<std::string> distinct(const BenchResult& result, Key key) {
@@ -55,12 +62,18 @@ std::string device_of(const BenchResult& result) {
 
 BenchPlot time_against_pixels(const BenchResult& result, const std::string& cameras) {
   Lines lines;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  glm::dvec2 low(infinity), high(0);  // megapixels, milliseconds
   for (const std::string& configuration : configurations(result)) {
     Rows rows;
     for (const BenchMeasurement& m : result.measurements)
       if (m.configuration == configuration && m.camera_set == cameras)
         rows.push_back({megapixels(m), m.frame_ms.median, m.frame_ms.min_of_medians,
                         std::max(m.frame_ms.p95, m.frame_ms.median)});
+    for (const std::vector<double>& row : rows) {
+      low = glm::min(low, {row[0], row[2]});
+      high = glm::max(high, {row[0], row[3]});
+    }
     std::sort(rows.begin(), rows.end());
     if (!rows.empty()) lines.add(rows, "using 1:2:3:4 with yerrorlines", configuration);
   }
@@ -73,8 +86,9 @@ BenchPlot time_against_pixels(const BenchResult& result, const std::string& came
                   cameras, device_of(result)),
       {title,
        lines.script(
-           "set title " + plot_text(title) +
-           "\nset logscale xy\nset key top left\n"
+           "set title " + plot_text(title) + "\nset logscale xy\nset key top left\n" +
+           plot_ticks('x', PlotAxis::logarithmic(low.x, high.x, most_ticks)) +
+           plot_ticks('y', PlotAxis::logarithmic(low.y, high.y, most_ticks)) +
            "set xlabel 'megapixels a frame'\nset ylabel 'ms a frame'\n"
            "set autoscale fix\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n")}};
 }
@@ -85,6 +99,16 @@ std::string largest_size(const BenchResult& result, const std::string& cameras) 
   for (const BenchMeasurement& m : result.measurements)
     if (m.camera_set == cameras && (!largest || megapixels(m) > megapixels(*largest))) largest = &m;
   return largest ? largest->size : std::string();
+}
+
+/// How gnuplot marks the views: by name where they have one, else by number.
+std::string view_marks(const std::string& cameras, std::size_t views) {
+  if (cameras != "adversarial" || views != adversarial_names.size())
+    return fmt::format("set xtics {}\nset xlabel 'view'\n", 1 + views / 16);
+  std::string names;
+  for (std::size_t view = 0; view < views; ++view)
+    names += fmt::format("{}{} {}", view ? ", " : "", plot_text(adversarial_names[view]), view);
+  return "set xtics (" + names + ")\n";
 }
 
 std::vector<BenchPlot> times_by_view(const BenchResult& result, const std::string& cameras) {
@@ -102,14 +126,14 @@ std::vector<BenchPlot> times_by_view(const BenchResult& result, const std::strin
   if (lines.empty()) return {};
   const std::string title =
       fmt::format("{}: frame time by view, {} at {}", result.scene.name, cameras, size);
-  return {{plot_identifier("views " + cameras),
-           fmt::format("The median of each view, cameras {} at {}. {}.", cameras, size,
-                       device_of(result)),
-           {title, lines.script("set title " + plot_text(title) +
-                                "\nset yrange [0:*]\nset key top left\n" +
-                                fmt::format("set xtics {}\n", 1 + views / 16) +
-                                "set xlabel 'view'\nset ylabel 'ms a frame'\n"
-                                "set offsets 0.5, 0.5, graph 0.1, 0\n")}}};
+  return {
+      {plot_identifier("views " + cameras),
+       fmt::format("The median of each view, cameras {} at {}. {}.", cameras, size,
+                   device_of(result)),
+       {title, lines.script("set title " + plot_text(title) +
+                            "\nset yrange [0:*]\nset key top left\n" + view_marks(cameras, views) +
+                            "set ylabel 'ms a frame'\n"
+                            "set offsets 0.5, 0.5, graph 0.1, 0\n")}}};
 }
 
 std::vector<BenchPlot> ratio_bars(const BenchResult& result) {

@@ -203,6 +203,13 @@ std::string plot_text(const std::string& text) {
   return result + "\"";
 }
 
+std::string plot_ticks(char name, const PlotAxis& axis) {
+  std::string marks;
+  for (const Tick& tick : axis.ticks())
+    marks += fmt::format("{}{} {}", marks.empty() ? "" : ", ", plot_text(tick.label), tick.value);
+  return fmt::format("set {}tics ({})\n", name, marks);
+}
+
 std::string plot_identifier(const std::string& text) {
   std::string result;
   for (const char c : text) {

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/plot_axis.hpp"
+
 namespace tureen::cli {
 
 /// A sentence for people, where draw_plot gave nothing.
@@ -36,6 +38,10 @@ bool write_plot(const Plot& plot, const std::filesystem::path& path);
 
 /// `text` as a word of gnuplot's language: quoted so that nothing in it is a command.
 std::string plot_text(const std::string& text);
+
+/// The line that marks axis 'x' or 'y' at the ticks of `axis` alone. On logarithmic axes gnuplot
+/// itself marks decades, of which there may be one or none between the least and the most.
+std::string plot_ticks(char name, const PlotAxis& axis);
 
 /// Lower-case letters and digits of `text` with '-' between them: for files.
 std::string plot_identifier(const std::string& text);

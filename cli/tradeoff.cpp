@@ -216,7 +216,12 @@ Study study_of(const Options& options, const Defaults& defaults, const Scene& sc
   if (options.processor_time && !device.software)
     throw UsageError("--processor-time says nothing of " + device.renderer +
                      ", which is no software renderer");
-  StudyOptions study;
+  StudyOptions study{.subpixel_bits = tradeoff::device_subpixel_bits()};
+  if (study.subpixel_bits != 8)
+    report.notes.push_back(fmt::format(
+        "this device rounds vertices to 1/{} pixel, and so does the oracle where it samples as the "
+        "device does; E_render is not that of devices with the usual 1/256",
+        1 << study.subpixel_bits));
   if (options.processor_time) study.clock = processor_seconds;
   study.background = scene.info.background;
   study.samples = options.samples;

@@ -57,6 +57,7 @@ std::vector<ImageF> oracle_pictures(const StudyScene& scene, const StudyOptions&
   on_all_cores(pictures.size(), progress, [&](std::size_t i, const auto& check) {
     pictures[i] = tradeoff::reference_picture(scene.soup, scene.origin, scene.cameras[i],
                                               {.samples = samples,
+                                               .subpixel_bits = options.subpixel_bits,
                                                .background = options.background,
                                                .mlp_precision = precision,
                                                .progress = check});

@@ -57,8 +57,12 @@ class Drawing {
     for (const std::size_t i : front) label(i);
   }
 
-  /// `style` says the colour.
-  void points(const std::string& style, const std::string& title,
+  /// The colour of points, and gnuplot's numbers of a filled and a hollow shape.
+  struct Mark {
+    std::string color;
+    int filled = 7, hollow = 6;  // circles
+  };
+  void points(const Mark& mark, const std::string& title,
               const std::vector<std::size_t>& outcomes) {
     std::vector<std::vector<double>> specialised, generic;
     for (const std::size_t i : outcomes) {
@@ -68,18 +72,20 @@ class Drawing {
                       std::max(ms.p95, ms.min_of_medians)});
     }
     if (!specialised.empty())
-      clauses_.push_back(add_data(specialised) + " using 1:2:3:4 with xerrorbars " + style +
-                         " linewidth 1 pointtype 7 pointsize 0.8 title " + plot_text(title));
+      clauses_.push_back(
+          add_data(specialised) + " using 1:2:3:4 with xerrorbars " + mark.color +
+          fmt::format(" linewidth 1 pointtype {} pointsize 0.8 title ", mark.filled) +
+          plot_text(title));
     if (!generic.empty())
-      clauses_.push_back(add_data(generic) + " using 1:2 with points " + style +
-                         " linewidth 1 pointtype 6 pointsize 0.7 " +
+      clauses_.push_back(add_data(generic) + " using 1:2 with points " + mark.color +
+                         fmt::format(" linewidth 1 pointtype {} pointsize 0.7 ", mark.hollow) +
                          (specialised.empty() ? "title " + plot_text(title) : "notitle"));
   }
 
   std::string script(const std::string& ordinate) const {
     const double space = std::max(0.06 * (db_.high - db_.low), 0.5);
     std::string script = data_ + labels_;
-    script += "set logscale x\nset key outside right top reverse Left\n";
+    script += "set logscale x\n" + time_marks() + "set key outside right top reverse Left\n";
     script += "set xlabel " + plot_text("ms a frame, logarithmic; bars to the 95th percentile") +
               "\nset ylabel " + plot_text(ordinate) + "\n";
     script += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", ms_.low / margin,
@@ -96,6 +102,12 @@ class Drawing {
 
  private:
   static constexpr double margin = 1.15;  // of the range of times, beside the points
+  static constexpr int most_ticks = 9;    // numbers that stand beside each other without touching
+
+  std::string time_marks() const {
+    if (!(ms_.high > 0)) return "";
+    return plot_ticks('x', PlotAxis::logarithmic(ms_.low / margin, ms_.high * margin, most_ticks));
+  }
 
   std::string add_data(const std::vector<std::vector<double>>& rows) {
     const std::string name = fmt::format("data{}", ++blocks_);
@@ -119,7 +131,9 @@ class Drawing {
 };
 
 /// Line types 1..6 are the colours of knobs; more knobs than that share.
-std::string style_of(std::size_t knob) { return fmt::format("linetype {}", knob % 6 + 1); }
+Drawing::Mark mark_of(std::size_t knob) {
+  return {.color = fmt::format("linetype {}", knob % 6 + 1)};
+}
 
 void add_points(Drawing& drawing, const Panel& panel) {
   std::vector<std::vector<std::size_t>> of_knob(panel.knobs.size());
@@ -135,9 +149,11 @@ void add_points(Drawing& drawing, const Panel& panel) {
       defaults.push_back(i);
   }
   for (std::size_t knob = 0; knob < of_knob.size(); ++knob)
-    drawing.points(style_of(knob), panel.knobs[knob].title, of_knob[knob]);
-  drawing.points("linecolor rgb '#1f2328'", "defaults", defaults);
-  drawing.points("linecolor rgb '#636c76'", "published pipeline", published);
+    drawing.points(mark_of(knob), panel.knobs[knob].title, of_knob[knob]);
+  // By their shapes, diamonds and triangles: beside the knobs' grey no other could be told apart.
+  const std::string black = "linecolor rgb '#1f2328'";
+  drawing.points({.color = black, .filled = 13, .hollow = 12}, "defaults", defaults);
+  drawing.points({.color = black, .filled = 9, .hollow = 8}, "published pipeline", published);
 }
 
 ErrorOf render_error_of(const Panel& panel) {

@@ -28,6 +28,7 @@ struct StudyOptions {
   glm::vec3 background{0.0f};
   /// Of the reference of drawing knobs: device or exact.
   tradeoff::Samples samples = tradeoff::Samples::device;
+  int subpixel_bits = 8;  // of the device
   int rounds = 5;
   /// Most renderers at a time; each holds the scene on the device.
   std::size_t group = 12;

@@ -32,8 +32,8 @@ struct CameraArgument {
   fs::path file;
   std::string which;
 
-  CameraArgument(const std::string& text, const std::string& which_without)
-      : file(text), which(which_without) {
+  CameraArgument(const std::string& text, std::string which_without)
+      : file(text), which(std::move(which_without)) {
     std::error_code error;
     const std::size_t colon = text.rfind(':');
     if (fs::exists(file, error) || colon == std::string::npos) return;

@@ -2,6 +2,7 @@
 // runtime/navigation.hpp, the same for the same scene on every machine.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "runtime/navigation.hpp"
@@ -23,6 +24,9 @@ double estimated_overdraw(const TriangleSoup& soup, glm::dvec3 origin, const Cam
 /// How the faces are turned to the eye: the mean of |cos| between normal and line of sight over the
 /// faces, weighted by area. 0: all edge-on.
 double facing(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera);
+
+/// What the four adversarial_views() are called, in their order.
+inline constexpr std::array adversarial_names = {"inside", "far", "grazing", "most overdraw"};
 
 /// Four views that a renderer may fear:
 ///   "inside"         the eye in the middle of the geometry (the centre of mass of the triangles),

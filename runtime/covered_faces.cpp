@@ -123,7 +123,7 @@ CoveredFaces::CoveredFaces(const TriangleSoup& soup, std::span<const std::uint32
   for (std::size_t i = 0; i < faces.size(); ++i)
     for (int corner = 0; corner < 3; ++corner) {
       const glm::vec3& p = soup.positions[soup.triangles[faces[i]][corner]];
-      for (int c = 0; c < 3; ++c) coordinates_[std::size_t(3 * corner + c)][i] = p[c];
+      for (int c = 0; c < 3; ++c) coordinates_[3 * std::size_t(corner) + std::size_t(c)][i] = p[c];
     }
 }
 
@@ -163,7 +163,7 @@ void CoveredFaces::append(std::int32_t first_vertex, std::int32_t vertex_count,
     const std::size_t size = std::min(block_size, first + count - begin);
     Block block;
     for (int corner = 0; corner < 3; ++corner) {
-      const auto* axis = &coordinates_[std::size_t(3 * corner)];
+      const auto* axis = &coordinates_[3 * std::size_t(corner)];
       block.project(view_, corner, &axis[0][begin], &axis[1][begin], &axis[2][begin], size);
     }
     std::uint32_t shows[block_size];

@@ -81,7 +81,10 @@ PictureTiles tiles_of(Renderer& renderer, const gl::Capabilities& capabilities) 
   if (renderer.plan().resolution_scale < 1)
     throw UsageError(
         "a picture that is drawn in tiles has no resolution scale: coarser tiles would not meet");
-  return tiles_drawn_by(renderer, capabilities.max_picture_side / renderer.plan().supersampling);
+  // 2^26 samples at once: the gibibyte of targets that pictures drawn whole may have.
+  constexpr int most_samples = 8192;
+  return tiles_drawn_by(renderer, std::min(capabilities.max_picture_side, most_samples) /
+                                      renderer.plan().supersampling);
 }
 
 PictureTiles tiles_of(Inspector& inspector, const gl::Capabilities& capabilities) {

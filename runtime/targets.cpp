@@ -63,7 +63,7 @@ void require_complete_framebuffer() {
 Image8 read_pixels(GLuint framebuffer, int width, int height) {
   Image8 image(width, height);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glReadBuffer(framebuffer ? GL_COLOR_ATTACHMENT0 : GL_BACK);  // 0 is a window's
   gl::use_plain_pixel_transfer();
   glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
   for (int y = 0; y < height / 2; ++y)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bitset>
+#include <cmath>
 #include <glm/common.hpp>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "runtime/gl/api.hpp"
 #include "runtime/gl/state.hpp"
 #include "runtime/targets.hpp"
+#include "soup/error.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/shortcuts.hpp"
 
@@ -17,8 +19,16 @@ namespace tureen::viewer {
 
 namespace {
 
-/// Dear ImGui reacts to an event in the frame after it: one to take it in, one to show.
+/// Dear ImGui reacts to an event in the frame after it, and windows that size themselves take
+/// another.
 constexpr int frames_after_event = 3;
+
+/// The time constant of gliding, as CameraControls has it at first.
+const double gliding_seconds = CameraControls().smoothing();
+
+/// A new scale of the screen is worth new fonts, and panels that forget what was open; what
+/// rounding makes of a window that is being resized is not.
+constexpr double least_rescaling = 0.05;
 
 /// How long the window sleeps when nothing happens: what it looks at by itself are files.
 constexpr double idle_seconds = 0.5;
@@ -65,7 +75,8 @@ std::vector<Event> take_frame(std::vector<Event>& pending) {
 
 /// What the layout is scaled by: where points are larger than pixels, they are that already.
 double layout_scale(const Window& window) {
-  const double pixels_per_point = double(window.pixels().x) / std::max(window.size().x, 1);
+  if (window.pixels().x < 1 || window.size().x < 1) return window.content_scale();  // minimised
+  const double pixels_per_point = double(window.pixels().x) / window.size().x;
   return window.content_scale() / std::max(pixels_per_point, 1.0);
 }
 
@@ -79,7 +90,6 @@ Application::Application(ApplicationOptions options)
       writer_(window_, 1) {
   if (options_.replay) replay_.emplace(*options_.replay);
   state_.settings = settings_of(options_);
-  if (!options_.pictures.empty()) state_.settings.pictures = options_.pictures.string();
   if (!options_.record.empty()) recorder_.emplace(window_.size());
   // A replay waits for nobody's screen.
   vsync_ = state_.settings.vsync && !replay_;
@@ -154,8 +164,12 @@ void Application::frame() {
   if (!events.empty()) frames_wanted_ = frames_after_event;
 
   const bool was_busy = state_.busy || state_.writing;
-  worker_.collect();
-  writer_.collect();
+  try {
+    worker_.collect();
+    writer_.collect();
+  } catch (const std::exception& error) {
+    state_.messages.error("That did not work", error.what(), now);
+  }
   state_.busy = worker_.status();
   state_.writing = writer_.status();
   if (state_.busy || state_.writing || was_busy) frames_wanted_ = std::max(frames_wanted_, 1);
@@ -165,7 +179,8 @@ void Application::frame() {
   state_.messages.age(now);
   if (state_.messages.fading()) frames_wanted_ = std::max(frames_wanted_, 1);
 
-  if (const double scale = layout_scale(window_); !gui_ || scale != gui_scale_) {
+  if (const double scale = layout_scale(window_);
+      !gui_ || std::abs(scale / gui_scale_ - 1) > least_rescaling) {
     gui_.reset();
     gui_ = std::make_unique<Gui>(window_, GuiOptions{.scale = scale, .machine_font = !replay_});
     gui_scale_ = scale;
@@ -196,7 +211,7 @@ void Application::lay_out(glm::ivec2 points, glm::ivec2 pixels) {
 void Application::dispatch(const std::vector<Event>& events) {
   const NavigationInput::Taken taken{.pointer = gui_->takes_pointer(), .keys = gui_->takes_keys()};
   for (const Event& event : events) {
-    if (state_.stage) navigation_.handle(event, taken, state_.controls);
+    navigation_.handle(event, taken, state_.controls);
     if (const auto* key = std::get_if<KeyChanged>(&event); key && key->down && !taken.keys)
       run_shortcut(key->key, navigation_.held(Key::control) || navigation_.held(Key::super),
                    state_);
@@ -216,16 +231,17 @@ void Application::handle(const Event& event) {
 }
 
 void Application::move(double seconds) {
-  // Replayed pictures must not depend on how long a machine takes.
-  state_.controls.set_smoothing(state_.settings.smooth_motion ? 0.06 : 0.0);
+  state_.controls.set_smoothing(state_.settings.smooth_motion ? gliding_seconds : 0.0);
   const Flight flight = navigation_.flight();
   if (state_.controls.moving() || navigation_.flying())
     frames_wanted_ = std::max(frames_wanted_, 1);
   state_.controls.advance(seconds, flight);
   Film& film = state_.film;
   if (navigation_.flying() || navigation_.dragging()) film.plays = false;
+  if (film.path.empty()) film.plays = film.scrubbed = false;
   if (!film.plays && !film.scrubbed) return;
   film.advance(seconds);
+  film.scrubbed = false;  // the panel says so again where it is
   state_.controls.adopt(film.camera(state_.pixels));
   state_.controls.arrive();
 }
@@ -255,33 +271,42 @@ void Application::draw_picture() {
   const float empty[4] = {0.06f, 0.06f, 0.07f, 1.0f};
   glClearBufferfv(GL_COLOR, 0, empty);
   if (!state_.stage) return;
+  try {
+    draw_scene();
+  } catch (const DeviceLimitError& error) {
+    // A window too large for so many samples a pixel, most likely.
+    state_.messages.error("The picture cannot be drawn", error.reason(), state_.now);
+    picture_is_current_ = false;
+    if (state_.stage->choice.supersampling == 1 || !worker_.idle()) return;
+    DrawingChoice choice = state_.stage->choice;
+    choice.supersampling = 1;
+    state_.ask(ChooseDrawing{choice});
+  }
+}
+
+void Application::draw_scene() {
   const Camera camera = state_.controls.camera(state_.pixels.x, state_.pixels.y);
-  const bool same = picture_is_current_ &&
+  const bool inspects = state_.look.what != Inspection::color && state_.inspector;
+  // What is shown until the inspector is ready are the colours.
+  const Look look = inspects ? state_.look : Look{};
+  const bool same = picture_is_current_ && drawn_look_ == look &&
                     camera.view_from_world == drawn_camera_.view_from_world &&
                     camera.width == drawn_camera_.width && camera.height == drawn_camera_.height &&
                     camera.fx == drawn_camera_.fx && camera.fy == drawn_camera_.fy &&
                     camera.cx == drawn_camera_.cx && camera.cy == drawn_camera_.cy;
-  if (draw_inspection(camera, same)) return;
-  if (!same || state_.draw_continuously) frame_clock_.draw(state_.stage->renderer(), camera);
-  drawn_camera_ = camera;
-  picture_is_current_ = true;
-  state_.stage->renderer().blit_to(0);
-}
-
-/// Whether something else than the colours is shown.
-bool Application::draw_inspection(const Camera& camera, bool same_camera) {
-  const bool same = same_camera && drawn_look_ == state_.look;
-  if (!(drawn_look_ == state_.look)) picture_is_current_ = false;
-  drawn_look_ = state_.look;
-  if (state_.look.what == Inspection::color || !state_.inspector) return false;
-  if (!same) {
-    state_.inspector->show(state_.look.what, state_.look.features);
+  if (inspects && !same) {
+    state_.inspector->show(look.what, look.features);
     state_.inspector->draw(camera);
+  } else if (!inspects && (!same || state_.draw_continuously)) {
+    frame_clock_.draw(state_.stage->renderer(), camera);
   }
+  drawn_look_ = look;
   drawn_camera_ = camera;
   picture_is_current_ = true;
-  state_.inspector->blit_to(0);
-  return true;
+  if (inspects)
+    state_.inspector->blit_to(0);
+  else
+    state_.stage->renderer().blit_to(0);
 }
 
 void Application::save_window_picture(const std::string& name) {
@@ -289,9 +314,7 @@ void Application::save_window_picture(const std::string& name) {
   glFinish();
   const glm::ivec2 size = window_.pixels();
   const Image8 picture = read_pixels(0, size.x, size.y);
-  const std::filesystem::path folder = state_.settings.pictures.empty()
-                                           ? pictures_folder()
-                                           : std::filesystem::path(state_.settings.pictures);
+  const std::filesystem::path folder = folder_of_pictures();
   make_folder(folder);
   write_file(folder / name, encode_png(picture));
 }

@@ -67,7 +67,7 @@ class Application {
   void move(double seconds);
   void draw(const std::vector<Event>& events, double busy_seconds);
   void draw_picture();
-  bool draw_inspection(const Camera& camera, bool same_camera);
+  void draw_scene();
   bool at_rest() const;
   double wait_seconds() const;
   double clock() const;
@@ -99,7 +99,8 @@ class Application {
   void watch_file();
   void write(const std::string& what, const std::filesystem::path& path,
              std::function<void(const StageRequest&)> work);
-  std::filesystem::path picture_path(const std::string& extension) const;
+  std::filesystem::path folder_of_pictures() const;
+  std::filesystem::path picture_path(const std::string& extension);
   void save_window_picture(const std::string& name);
 
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -113,6 +114,7 @@ class Application {
   FrameClock frame_clock_;
   NavigationInput navigation_;
   std::optional<Recorder> recorder_;
+  std::vector<std::filesystem::path> promised_;  // names of pictures that are being written
   std::vector<Event> pending_;
   FileWatch watch_;
   double watched_ = 0, last_ = 0;

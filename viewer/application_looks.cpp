@@ -1,5 +1,6 @@
 // What is looked at beside the colours, prepared when it is first asked for: inspections, and the
 // comparison with a photograph.
+#include "soup/error.hpp"
 #include "soup/heat_map.hpp"
 #include "viewer/application.hpp"
 #include "viewer/names.hpp"
@@ -12,9 +13,7 @@ void Application::inspect_when_needed() {
     return;
   inspector_asked_ = true;
   const StageSource scene = state_.stage->source();
-  InspectorOptions options{.preset = state_.stage->choice.plan.preset,
-                           .background = glm::vec4(scene.scene->info.background, 1.0f)};
-  if (state_.stage->drawn.obeys_preset) options.preset = scene.scene->preset;
+  InspectorOptions options{.background = glm::vec4(scene.scene->info.background, 1.0f)};
   worker_.start({.kind = JobKind::inspection,
                  .what = "preparing to look into " + short_name(scene.path),
                  .work =
@@ -33,6 +32,7 @@ void Application::inspect_when_needed() {
                  .failed =
                      [this](const std::string& reason) {
                        state_.look.what = Inspection::color;
+                       inspector_asked_ = false;
                        state_.messages.error("It cannot be looked into", reason, state_.now);
                      }});
 }
@@ -49,7 +49,14 @@ void Application::compare_when_needed() {
   if (comparison.result || comparison.asked) return;
   comparison.asked = true;
   Renderer& renderer = state_.stage->renderer();
-  renderer.draw(photograph->camera);
+  try {
+    renderer.draw(photograph->camera);
+  } catch (const DeviceLimitError& error) {
+    comparison.show = Comparison::Show::off;
+    state_.messages.error("The photograph cannot be compared", error.reason(), state_.now);
+    return;
+  }
+  const int ticket = comparison.ticket;
   auto drawn = std::make_shared<Image8>(renderer.read_color());
   picture_is_current_ = false;  // the window's comes next
   auto held = std::make_shared<Image8>(photograph->image);
@@ -58,12 +65,13 @@ void Application::compare_when_needed() {
       {.kind = JobKind::comparison,
        .what = "comparing",
        .work =
-           [this, drawn, held, background](const Worker::Progress&) {
+           [this, drawn, held, background, ticket](const Worker::Progress&) {
              const ImageF ours = composited(to_float(*drawn), background);
              const ImageF theirs = composited(to_float(*held), background);
              const Metrics metrics = compare(ours, theirs, {.with_flip = false});
              auto map = std::make_shared<Image8>(difference(ours, theirs));
-             return Worker::Completion([this, metrics, map] {
+             return Worker::Completion([this, metrics, map, ticket] {
+               if (state_.comparison.ticket != ticket) return;  // the view has moved on
                state_.comparison.result = Comparison::Result{metrics, PictureTexture(*map)};
              });
            },

@@ -1,4 +1,5 @@
 // Requests for pictures, films, camera paths and the command line, carried out.
+#include <algorithm>
 #include <span>
 
 #include "formats/camera_file.hpp"
@@ -12,15 +13,25 @@ namespace tureen::viewer {
 
 namespace fs = std::filesystem;
 
-fs::path Application::picture_path(const std::string& extension) const {
-  const fs::path folder =
-      state_.settings.pictures.empty() ? pictures_folder() : fs::path(state_.settings.pictures);
+fs::path Application::folder_of_pictures() const {
+  if (!options_.pictures.empty()) return options_.pictures;
+  return state_.settings.pictures.empty() ? pictures_folder() : fs::path(state_.settings.pictures);
+}
+
+/// A name that nothing has, and that nothing which waits to be written will have.
+fs::path Application::picture_path(const std::string& extension) {
+  const fs::path folder = folder_of_pictures();
   make_folder(folder);
   const std::string stem =
       state_.stage ? fs::path(short_name(state_.stage->path)).stem().string() : "tureen";
   for (int number = 1;; ++number) {
     const fs::path path = folder / (stem + "-" + std::to_string(number) + extension);
-    if (std::error_code ignored; !fs::exists(path, ignored)) return path;
+    std::error_code ignored;
+    if (fs::exists(path, ignored) ||
+        std::find(promised_.begin(), promised_.end(), path) != promised_.end())
+      continue;
+    promised_.push_back(path);
+    return path;
   }
 }
 

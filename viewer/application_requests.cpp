@@ -39,15 +39,20 @@ void Application::carry_out() {
 }
 
 void Application::carry_out(const OpenPath& request) {
-  if (looks_like_photographs(request.path))
+  const std::string name = request.path.filename().string();
+  if (name == "transforms_train.json" || name == "transforms_test.json")
+    state_.ask(OpenPhotographs{fs::absolute(request.path).parent_path()});
+  else if (looks_like_photographs(request.path))
     state_.ask(OpenPhotographs{request.path});
+  else if (request.path.extension() == ".json")
+    state_.ask(LoadPath{request.path});
   else
     open_scene(request.path, false);
 }
 
 void Application::open_scene(const fs::path& path, bool keep_view) {
   worker_.abandon(JobKind::drawing);
-  const DrawingChoice choice = state_.stage ? state_.stage->choice : options_.drawing;
+  const DrawingChoice choice = state_.stage ? state_.wanted : options_.drawing;
   worker_.start(
       {.kind = JobKind::scene,
        .what = "reading " + short_name(path),
@@ -68,12 +73,19 @@ void Application::show(std::unique_ptr<Stage> stage, bool keep_view) {
   const bool same_scene = state_.stage && state_.stage->scene == stage->scene;
   const bool other_path = !state_.stage || state_.stage->path != stage->path;
   state_.stage = std::move(stage);
+  state_.wanted = state_.stage->choice;
   picture_is_current_ = false;
+  worker_.abandon(JobKind::inspection);
+  worker_.abandon(JobKind::comparison);
   state_.inspector.reset();
   inspector_asked_ = false;
   state_.comparison.forget();
   frame_clock_.clear();
   if (same_scene) return;  // only drawn by another choice
+  state_.look.features = {};
+  if (why_not(state_.look.what, state_.stage->soup())) state_.look.what = Inspection::color;
+  if (!state_.photographs && state_.recorded >= int(state_.stage->scene->cameras.size()))
+    state_.recorded = -1;
   const Subject& subject = state_.stage->subject;
   if (keep_view && !other_path) {
     state_.controls.set_box(subject.low, subject.high);
@@ -89,7 +101,7 @@ void Application::show(std::unique_ptr<Stage> stage, bool keep_view) {
       state_.controls.arrive();
     }
   }
-  watch_ = FileWatch(state_.stage->path);
+  watch_ = state_.stage->watch;
   remember(state_.settings, state_.stage->path);
   window_.set_title(short_name(state_.stage->path) + " - Tureen");
   for (const std::string& note : state_.stage->scene->info.notes)
@@ -128,6 +140,7 @@ void Application::carry_out(const OpenPhotographs& request) {
 }
 
 void Application::carry_out(const CloseDataset&) {
+  worker_.abandon(JobKind::comparison);
   state_.photographs.reset();
   state_.comparison = {};
   state_.recorded = -1;
@@ -138,7 +151,8 @@ void Application::carry_out(const ReloadScene&) {
 }
 
 void Application::watch_file() {
-  if (!state_.stage || state_.now - watched_ < watch_seconds) return;
+  // Not while another scene is on its way: reading this one again would take its place.
+  if (!state_.stage || state_.busy || state_.now - watched_ < watch_seconds) return;
   watched_ = state_.now;
   if (!watch_.changed()) return;
   state_.messages.note(short_name(state_.stage->path) + " has changed and is read again",
@@ -148,6 +162,7 @@ void Application::watch_file() {
 
 void Application::carry_out(const ChooseDrawing& request) {
   if (!state_.stage) return;
+  state_.wanted = request.choice;
   // The scene stays alive for the job whatever becomes of the stage meanwhile.
   auto from = std::make_shared<StageSource>(state_.stage->source());
   worker_.start({.kind = JobKind::drawing,
@@ -157,11 +172,14 @@ void Application::carry_out(const ChooseDrawing& request) {
                        std::shared_ptr<Stage> stage =
                            prepare_stage(*from, {window_.context(), choice, progress});
                        return Worker::Completion([this, stage]() mutable {
+                         // Another scene may have come meanwhile.
+                         if (!state_.stage || state_.stage->scene != stage->scene) return;
                          show(std::make_unique<Stage>(std::move(*stage)), true);
                        });
                      },
                  .failed =
                      [this](const std::string& reason) {
+                       if (state_.stage) state_.wanted = state_.stage->choice;
                        state_.messages.error("It cannot be drawn so", reason, state_.now);
                      }});
 }

@@ -35,10 +35,12 @@ struct Comparison {
   };
   std::optional<Result> result;
   bool asked = false;  // a result is being made
+  int ticket = 0;      // grows when what was asked for is no longer wanted
 
   void forget() {
     result.reset();
     asked = false;
+    ++ticket;
   }
 };
 

@@ -163,8 +163,6 @@ void Gui::draw() {
   drawing_->draw(*ImGui::GetDrawData());
 }
 
-void Gui::discard() { ImGui::EndFrame(); }
-
 Window::Pointer Gui::pointer() const {
   switch (ImGui::GetMouseCursor()) {
     case ImGuiMouseCursor_TextInput:

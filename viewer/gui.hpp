@@ -44,8 +44,6 @@ class Gui {
   void begin(const Frame& frame);
   /// Ends what begin() began and draws it over what the window's framebuffer holds.
   void draw();
-  /// Ends it and draws nothing.
-  void discard();
 
   /// The shape that the pointer should have.
   Window::Pointer pointer() const;

@@ -19,7 +19,12 @@ void Messages::add(Message message) {
     return other.kind == message.kind && other.title == message.title && other.text == message.text;
   });
   list_.push_back(std::move(message));
-  if (list_.size() > most) list_.erase(list_.begin());
+  if (list_.size() <= most) return;
+  // Errors stay as long as there is a note to drop.
+  const auto note = std::find_if(list_.begin(), list_.end(), [](const Message& each) {
+    return each.kind == Message::Kind::note;
+  });
+  list_.erase(note != list_.end() ? note : list_.begin());
 }
 
 void Messages::dismiss(std::size_t index) {

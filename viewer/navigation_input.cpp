@@ -11,13 +11,12 @@ struct Push {
   glm::dvec3 direction;  // in the camera's axes
 };
 
-constexpr double one = 1.0;
-const std::array<Push, 6> pushes = {{{Key::w, {0, 0, -one}},
-                                     {Key::s, {0, 0, one}},
-                                     {Key::a, {-one, 0, 0}},
-                                     {Key::d, {one, 0, 0}},
-                                     {Key::q, {0, -one, 0}},
-                                     {Key::e, {0, one, 0}}}};
+const std::array<Push, 6> pushes = {{{Key::w, {0, 0, -1.0}},
+                                     {Key::s, {0, 0, 1.0}},
+                                     {Key::a, {-1.0, 0, 0}},
+                                     {Key::d, {1.0, 0, 0}},
+                                     {Key::q, {0, -1.0, 0}},
+                                     {Key::e, {0, 1.0, 0}}}};
 
 bool pushes_anywhere(Key key) {
   for (const Push& push : pushes)

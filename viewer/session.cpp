@@ -155,10 +155,7 @@ Replay::Step Replay::next(bool at_rest) {
            std::holds_alternative<AwaitRest>(session_.events[position_].event);
   };
   if (awaits()) {
-    if (!at_rest) {
-      step.seconds = frame_seconds;  // what glides must arrive
-      return step;
-    }
+    if (!at_rest) return step;
     ++position_;
   }
   clock_ += frame_seconds;

@@ -64,7 +64,6 @@ class Replay {
 
   struct Step {
     std::vector<Event> events;
-    double seconds = frame_seconds;  // since the last; 0 while the clock stands
   };
   /// Of the next frame. `at_rest`: nothing is being loaded and nothing moves. A picture ends the
   /// frame's events, so that it shows all of those before it.

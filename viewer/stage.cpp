@@ -22,13 +22,6 @@ class Stopwatch {
 /// Reading is most of the work; preparing shows as the last tenth.
 constexpr double reading_share = 0.9;
 
-UpGuess guess(const Scene& scene, const Subject& subject) {
-  return guess_up({.stored = subject.up,
-                   .stored_is_assumed = scene.info.source.empty(),
-                   .cameras = scene.cameras,
-                   .extent = subject.high - subject.low});
-}
-
 }  // namespace
 
 RenderOptions render_options(const DrawingChoice& choice, const Scene& scene) {
@@ -56,14 +49,16 @@ CheckedRenderer prepare_renderer(const StageSource& source, const StageRequest& 
 
 std::unique_ptr<Stage> read_stage(const std::filesystem::path& path, const StageRequest& request) {
   const Stopwatch reading;
+  const FileWatch watch(path);
   auto scene = std::make_shared<Scene>(
       read_scene(path, {.progress = [&](double done) { request.progress(reading_share * done); }}));
   opaque_soup(*scene);
   StageSource source;
   source.path = path;
+  source.watch = watch;
   source.scene = scene;
   source.subject = subject_of(*scene);
-  source.up = guess(*scene, source.subject);
+  source.up = guess_up(evidence_of(*scene, source.subject));
   source.subject.up = source.up.axis;
   source.read_seconds = reading.seconds();
   const auto preparing = [&](double done) {

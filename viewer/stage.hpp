@@ -10,6 +10,7 @@
 #include "runtime/preset_check.hpp"
 #include "runtime/up_axis.hpp"
 #include "soup/scene.hpp"
+#include "viewer/file_watch.hpp"
 
 namespace tureen::viewer {
 
@@ -30,6 +31,7 @@ struct StageSource {
   std::shared_ptr<const Scene> scene;  // its primitives are a TriangleSoup
   Subject subject;                     // with the guessed up axis
   UpGuess up;
+  FileWatch watch;  // since before it was read
   double read_seconds = 0;
 
   const TriangleSoup& soup() const { return std::get<TriangleSoup>(scene->primitives); }

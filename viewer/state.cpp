@@ -12,16 +12,20 @@ std::vector<const Camera*> State::recorded_cameras() const {
 }
 
 CameraKeyframe State::keyframe_of_now(double seconds) const {
-  return {.camera = controls.camera(pixels.x, pixels.y),
-          .seconds = seconds,
-          .target_distance = controls.distance()};
+  return controls.keyframe(pixels.x, pixels.y, seconds);
 }
 
 const Photograph* State::photograph() const {
   if (!photographs || recorded < 0 || recorded >= static_cast<int>(photographs->list.size()))
     return nullptr;
-  return controls.shows_adopted() ? &photographs->list[static_cast<std::size_t>(recorded)]
-                                  : nullptr;
+  const Photograph& photograph = photographs->list[static_cast<std::size_t>(recorded)];
+  // What is adopted and unmoved may be another camera: a keyframe's, the first view.
+  const Camera shown = controls.camera(photograph.camera.width, photograph.camera.height);
+  const bool same = controls.shows_adopted() &&
+                    shown.view_from_world == photograph.camera.view_from_world &&
+                    shown.fx == photograph.camera.fx && shown.cx == photograph.camera.cx &&
+                    shown.cy == photograph.camera.cy;
+  return same ? &photograph : nullptr;
 }
 
 }  // namespace tureen::viewer

@@ -25,7 +25,7 @@
 
 namespace tureen::viewer {
 
-/// A scene, or a folder of photographs: told by what it holds.
+/// A scene, photographs or a camera path: told by what it holds.
 struct OpenPath {
   std::filesystem::path path;
 };
@@ -88,6 +88,7 @@ struct PictureWish {
 struct State {
   Settings settings;
   std::unique_ptr<Stage> stage;  // nothing before the first scene
+  DrawingChoice wanted;          // what the stage is, or is being prepared to be, drawn by
   Look look;
   std::unique_ptr<Inspector> inspector;  // of the stage, once something was looked at
   std::optional<Photographs> photographs;

@@ -174,7 +174,6 @@ struct Window::Handles {
 
 Window::Window(const WindowOptions& options) : handles_(std::make_unique<Handles>()) {
   want_context(options.api);
-  glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
   handles_->window.reset(
       glfwCreateWindow(options.size.x, options.size.y, "Tureen", nullptr, nullptr));
   if (!handles_->window) fail("no window with OpenGL can be opened");

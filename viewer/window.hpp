@@ -16,7 +16,6 @@ namespace tureen::viewer {
 struct WindowOptions {
   gl::Api api = gl::Api::desktop;
   glm::ivec2 size{1280, 800};  // in points
-  bool visible = true;
 };
 
 class Window {

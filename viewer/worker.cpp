@@ -30,9 +30,7 @@ Worker::~Worker() {
 void Worker::start(Job job) {
   {
     const std::lock_guard lock(mutex_);
-    if (running_ && running_->kind == job.kind) abandoned_ = true;
-    std::erase_if(done_, [&](const Done& done) { return done.kind == job.kind; });
-    std::erase_if(waiting_, [&](const Job& other) { return other.kind == job.kind; });
+    if (job.kind != JobKind::writing) drop(job.kind);
     waiting_.push_back(std::move(job));
   }
   changed_.notify_all();
@@ -40,6 +38,10 @@ void Worker::start(Job job) {
 
 void Worker::abandon(JobKind kind) {
   const std::lock_guard lock(mutex_);
+  drop(kind);
+}
+
+void Worker::drop(JobKind kind) {
   if (running_ && running_->kind == kind) abandoned_ = true;
   std::erase_if(done_, [&](const Done& done) { return done.kind == kind; });
   std::erase_if(waiting_, [&](const Job& other) { return other.kind == kind; });

@@ -16,7 +16,7 @@
 namespace tureen::viewer {
 
 /// Of each kind the newest counts: a job replaces the waiting one of its kind and abandons that
-/// which runs.
+/// which runs. Only what is to be written waits its turn.
 enum class JobKind { scene, dataset, drawing, inspection, comparison, writing };
 
 class Worker {
@@ -55,6 +55,7 @@ class Worker {
   bool idle() const;
 
  private:
+  void drop(JobKind kind);  // with the lock held
   void run();
   void run(Job& job);
   void report(double fraction);
@@ -63,7 +64,7 @@ class Worker {
   int context_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<Job> waiting_;  // one of a kind at most
+  std::vector<Job> waiting_;
   std::optional<Status> running_;
   bool abandoned_ = false;  // what runs
   bool ending_ = false;

@@ -3,13 +3,15 @@
 #include <fmt/format.h>
 
 #include <functional>
-#include <optional>
+#include <string>
+#include <vector>
 
 #include "formats/output.hpp"
 #include "formats/png.hpp"
 #include "formats/png_rows.hpp"
 #include "formats/video_file.hpp"
 #include "runtime/picture_tiles.hpp"
+#include "soup/error.hpp"
 
 namespace tureen::viewer {
 
@@ -17,6 +19,9 @@ namespace {
 
 /// Preparing shows as the first twentieth of the work.
 constexpr double preparing_share = 0.05;
+
+/// An hour at 240 frames a second is less: more is a slip in a number.
+constexpr int most_frames = 1000000;
 
 Renderer renderer_for(const StageSource& scene, const StageRequest& request) {
   const auto progress = [&](double done) { request.progress(preparing_share * done); };
@@ -26,6 +31,8 @@ Renderer renderer_for(const StageSource& scene, const StageRequest& request) {
 /// Draws every frame in turn and hands it on.
 void draw_frames(const FilmJob& job, const StageRequest& request,
                  const std::function<void(const Image8&, std::size_t)>& take) {
+  if (frame_count(job.path, job.rate.frames_per_second) > most_frames)
+    throw UsageError("the film would have more than " + std::to_string(most_frames) + " frames");
   Renderer renderer = renderer_for(job.scene, request);
   const std::vector<Camera> cameras = frames(job.path, job.rate);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -44,7 +51,7 @@ void write_picture(const PictureJob& job, const StageRequest& request) {
       glm::vec4(job.scene.scene->info.background, job.transparent ? 0.0f : 1.0f));
   Output output(job.path);
   PngRows rows(output, job.camera.width, job.camera.height);
-  if (request.choice.resolution_scale < 1) {
+  if (renderer.plan().resolution_scale < 1) {
     // Tiles that are drawn coarser would not meet; what the device draws at once is enough there.
     renderer.draw(job.camera);
     rows.append(renderer.read_color());

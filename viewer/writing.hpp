@@ -16,8 +16,8 @@ struct PictureJob {
   std::filesystem::path path;
 };
 
-/// A PNG, drawn in tiles and written row by row. The thread's context shares with nobody's frames:
-/// what is made here is gone at the end. Throws OutputError, DeviceLimitError and what
+/// A PNG, drawn in tiles and written row by row. What is made for it on the device is gone at
+/// the end. Throws OutputError, DeviceLimitError and what
 /// StageRequest::progress throws; then nothing is written.
 void write_picture(const PictureJob& job, const StageRequest& request);
 

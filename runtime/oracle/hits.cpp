@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <tuple>
@@ -11,9 +12,6 @@
 namespace tureen::oracle {
 
 namespace {
-
-/// GL promises at least 4 bits of sub-pixel position; Mesa and all desktop GPUs have 8.
-constexpr std::int64_t subpixels = 256;
 
 /// Rows of one band of visit_pixels.
 constexpr int band_rows = 16;
@@ -49,7 +47,7 @@ glm::dvec3 edge_line(const glm::dvec3& a, const glm::dvec3& b) {
 }
 
 struct SnappedCorner {
-  std::int64_t x, y;  // 1/256 pixel, from the top left corner
+  std::int64_t x, y;  // steps of the grid, from the top left corner
 };
 
 /// An integer edge function that is positive inside.
@@ -67,10 +65,10 @@ struct SnappedEdge {
   bool covers(std::int64_t value) const { return value > 0 || (value == 0 && owns); }
 };
 
-SnappedCorner snapped(const glm::dvec3& point) {
+SnappedCorner snapped(const glm::dvec3& point, std::int64_t subpixels) {
   // Rounded in GL's window space, where y grows upwards: a half goes up there, so down here.
-  return {std::int64_t(std::floor(point.x / point.z * subpixels + 0.5)),
-          std::int64_t(std::ceil(point.y / point.z * subpixels - 0.5))};
+  return {std::int64_t(std::floor(point.x / point.z * double(subpixels) + 0.5)),
+          std::int64_t(std::ceil(point.y / point.z * double(subpixels) - 0.5))};
 }
 
 }  // namespace
@@ -163,11 +161,13 @@ void Rays::visit_exact(const Face& face, int first_row, int end_row,
 
 void Rays::visit_snapped(const Face& face, int first_row, int end_row,
                          const HitVisitor& visit) const {
+  assert(options_.subpixel_bits >= 1 && options_.subpixel_bits <= 16);
+  const std::int64_t subpixels = std::int64_t(1) << options_.subpixel_bits;
   for (int fan = 1; fan + 1 < face.polygon.count; ++fan) {
     const PolygonCorner* corners[3] = {&face.polygon.corners[0], &face.polygon.corners[fan],
                                        &face.polygon.corners[fan + 1]};
     SnappedCorner at[3];
-    for (int k = 0; k < 3; ++k) at[k] = snapped(corners[k]->point);
+    for (int k = 0; k < 3; ++k) at[k] = snapped(corners[k]->point, subpixels);
     const std::int64_t area = SnappedEdge(at[0], at[1], 1).at(at[2].x, at[2].y);
     if (area == 0) continue;
     const int sign = area > 0 ? 1 : -1;

@@ -26,7 +26,8 @@ enum class Coverage {
   /// The triangle as it is. A centre exactly on an edge belongs to the face on its right, or below
   /// a horizontal edge, so that faces that share an edge cover every centre on it once.
   exact,
-  /// As GL rasterises: vertices rounded to 1/256 pixel, integer edge functions; a centre on an edge
+  /// As GL rasterises: vertices rounded to a grid within pixels (RayOptions), integer edge
+  /// functions; a centre on an edge
   /// belongs to the face on its right, or to that which snapped_upper_edge_owns says.
   snapped,
 };
@@ -46,6 +47,9 @@ enum class Attributes {
 struct RayOptions {
   Coverage coverage = Coverage::exact;
   Attributes attributes = Attributes::unsnapped;  // only where coverage is snapped
+  /// 2^subpixel_bits steps of the snapping grid a pixel: the device's GL_SUBPIXEL_BITS, 1 .. 16. GL
+  /// promises at least 4; Mesa and all desktop GPUs have 8.
+  int subpixel_bits = 8;
 };
 
 struct Hit {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "runtime/gl/api.hpp"
+
 namespace tureen::tradeoff {
 
 namespace {
@@ -31,6 +33,12 @@ void set_coverage(OracleImage& image, int supersampling) {
 
 }  // namespace
 
+int device_subpixel_bits() {
+  GLint bits = 0;
+  glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
+  return bits >= 1 && bits <= 16 ? bits : 8;
+}
+
 ImageF reference_picture(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera,
                          const ReferenceOptions& options) {
   const bool antialiased = options.samples == Samples::antialiased;
@@ -43,7 +51,10 @@ ImageF reference_picture(const TriangleSoup& soup, glm::dvec3 origin, const Came
   oracle.supersampling = n;
   oracle.background = options.background;
   oracle.mlp_precision = options.mlp_precision;
-  if (options.samples == Samples::device) oracle.rays.coverage = oracle::Coverage::snapped;
+  if (options.samples == Samples::device) {
+    oracle.rays.coverage = oracle::Coverage::snapped;
+    oracle.rays.subpixel_bits = options.subpixel_bits;
+  }
   ImageF picture(camera.width, camera.height);
   for (int first = 0; first < camera.height; first += rows) {
     const Camera strip = strip_of(camera, first, std::min(rows, camera.height - first));

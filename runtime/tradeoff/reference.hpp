@@ -20,8 +20,13 @@ enum class Samples {
   antialiased,
 };
 
+/// GL_SUBPIXEL_BITS of the context that is current: how finely its device rounds vertices within a
+/// pixel. 8, which nearly all have, where it tells nothing that the oracle could do (1 .. 16).
+int device_subpixel_bits();
+
 struct ReferenceOptions {
   Samples samples = Samples::device;
+  int subpixel_bits = 8;  // of the device, for Samples::device: device_subpixel_bits()
   glm::vec3 background{0.0f};
   /// Emulates a network of fewer bits: then the picture is no reference, but what is measured.
   MlpPrecision mlp_precision = MlpPrecision::exact;

@@ -162,6 +162,17 @@ TEST(BenchPlots, AreAllThereUnderNamesOfTheirOwn) {
   EXPECT_EQ(distinct.size(), 5u);
 }
 
+TEST(BenchPlots, NameTheAdversarialViewsAndNumberOthers) {
+  BenchResult made = result();
+  made.measurements.resize(1);
+  made.measurements[0].views_ms = {4, 1, 2, 8};
+  EXPECT_THAT(bench_plots(made)[1].plot.script, HasSubstr("set xlabel 'view'"));
+  made.measurements[0].camera_set = "adversarial";
+  const std::string script = bench_plots(made)[1].plot.script;
+  EXPECT_THAT(script, HasSubstr(R"(("inside" 0, "far" 1, "grazing" 2, "most overdraw" 3))"));
+  EXPECT_THAT(script, Not(HasSubstr("set xlabel 'view'")));
+}
+
 TEST(BenchPlots, OneViewAndOneConfigurationNeedFewer) {
   BenchResult small = result();
   small.measurements.resize(1);

@@ -132,6 +132,11 @@ TEST(Gnuplot, WhereItIsMissingThereIsNoPlot) {
   EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
 }
 
+TEST(Gnuplot, MarksOnlyTheTicksOfAnAxis) {
+  EXPECT_EQ(plot_ticks('y', PlotAxis::logarithmic(0.9, 60, 6)),
+            "set ytics (\"1\" 1, \"2\" 2, \"5\" 5, \"10\" 10, \"20\" 20, \"50\" 50)\n");
+}
+
 TEST(Gnuplot, DataKeepTheirDigits) {
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(plot_data("a_1", {{1.0 / 3, 1e-300}, {}, {infinity, 2}}),

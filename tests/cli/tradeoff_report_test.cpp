@@ -181,6 +181,9 @@ TEST(TradeoffPlots, KeepTheTwoErrorsApart) {
   EXPECT_THAT(plots[2].plot.script, Not(HasSubstr("R1")));
   for (const TradeoffPlot& each : plots) {
     EXPECT_THAT(each.plot.script, HasSubstr("set logscale x"));
+    EXPECT_THAT(each.plot.script, HasSubstr("\"10\" 10"));
+    // More than decades, however narrow the axis.
+    EXPECT_THAT(each.plot.script, testing::ContainsRegex("\"[0-9.]+\" [0-9.]+, \""));
     const auto svg = draw_plot(each.plot, PlotFormat::svg);
     if (!svg) GTEST_SKIP() << gnuplot_missing;
     EXPECT_THAT(*svg, StartsWith("<svg"));

@@ -95,6 +95,26 @@ TEST(OracleRays, ACentreOnAnEdgeBelongsToTheRightAndToOneOfUpperAndLower) {
   }
 }
 
+TEST(OracleRays, SnapsToTheGridOfTheDevice) {
+  const Camera camera = straight_camera(8, 8);
+  // The left edge lies 3/64 pixel right of the centres of column 2: on a grid of 1/16 pixel it is
+  // rounded to 1/16, on one of 1/8 to the centres themselves, which are then its own.
+  const double left = 2.5 + 3.0 / 64;
+  const TriangleSoup soup =
+      soup_of({at_pixel(camera, left, 1), at_pixel(camera, left, 7), at_pixel(camera, 14, 7)});
+  const auto covers_column_2 = [&](int bits) {
+    bool covered = false;
+    const Rays rays(soup, glm::dvec3(0), camera,
+                    {.coverage = Coverage::snapped, .subpixel_bits = bits});
+    rays.visit_faces(0, 8, [&](int column, int, const Hit&) { covered = covered || column == 2; });
+    return covered;
+  };
+  EXPECT_TRUE(covers_column_2(3));
+  EXPECT_FALSE(covers_column_2(4));
+  EXPECT_FALSE(covers_column_2(8));
+  EXPECT_FALSE(covers_column_2(16));
+}
+
 TEST(OracleRays, BarycentricsAndDepthArePerspectiveCorrect) {
   const Camera camera = straight_camera();
   // Vertices at depths 1, 2 and 4; the hit is recomputed from the barycentrics it reports.

@@ -84,7 +84,8 @@ TEST(UpAxis, NothingAndNonsenseGiveY) {
 
 /// What is known after the scene went through a file.
 UpEvidence through_file(const Scene& scene, const std::string& name, Scene& back) {
-  const std::string path = ::testing::TempDir() + "tureen_up_axis_" + name;
+  // Of this build alone: other builds may test at the same time.
+  const std::string path = TUREEN_BINARY_DIR "/up_axis_" + name;
   write_scene(scene, path);
   back = read_scene(path);
   std::filesystem::remove(path);

@@ -234,6 +234,45 @@ TEST_F(Window, LooksBehindTheColours) {
   expect_golden(picture("depth"), "window_depth");
 }
 
+TEST_F(Window, BackFromALookTheColoursAreOfNow) {
+  const auto drag = [](Person& person) -> Person& {
+    return person.drag(Button::left, {150, 200}, {230, 180}).wait();
+  };
+  Person plain, looked;
+  drag(plain.wait().press(Key::digit_7).wait()).look("plain");
+  looked.wait().press(Key::digit_7).wait().press(Key::v).wait();
+  drag(looked);
+  for (int i = 0; i < 9; ++i) looked.press(Key::v);  // round to the colours
+  looked.look("back");
+  EXPECT_EQ(replay(plain).exit_code, 0);
+  const ChildResult result = replay(looked);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  expect_equal(picture("back"), picture("plain"));
+}
+
+TEST_F(Window, AnotherSceneIsShownAsFarAsItCanBe) {
+  std::ofstream(folder_ / "plain.off") << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 9 9 9\n";
+  Person person;
+  person.wait();
+  for (int i = 0; i < 4; ++i) person.press(Key::v).wait();  // texels, which that one has not
+  const ChildResult result = replay(person.drop("plain.off").wait().press(Key::v).look("other"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_F(Window, PicturesInARowAreAllSaved) {
+  Person person({320, 200});
+  person.wait().press(Key::h);
+  for (int i = 0; i < 3; ++i) person.press_with_control(Key::s);
+  EXPECT_EQ(replay(person.wait()).exit_code, 0);
+  for (const char* name : {"soup-1", "soup-2", "soup-3"}) EXPECT_EQ(picture(name).width, 320);
+}
+
+TEST_F(Window, FilesCanBePickedBeforeThereIsAScene) {
+  EXPECT_EQ(replay(Person().look("empty").press_with_control(Key::o).look("files"), {}).exit_code,
+            0);
+  EXPECT_NE(picture("empty").pixels, picture("files").pixels);
+}
+
 // A dataset of one photograph to train on and one held out, both drawn from the scene itself: the
 // difference must be nothing.
 TEST_F(Window, ComparesWithThePhotographs) {

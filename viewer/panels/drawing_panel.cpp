@@ -58,7 +58,7 @@ bool left_out(DrawingChoice& choice, const RenderPlan& plan) {
 
 void drawing_panel(State& state) {
   Stage& stage = *state.stage;
-  DrawingChoice choice = stage.choice;
+  DrawingChoice choice = state.wanted;
   bool changed = sampling(choice);
   bool published = choice.plan.pipeline == PipelineKind::published;
   if (ImGui::Checkbox("the published pipeline", &published)) {

@@ -4,6 +4,7 @@
 #include <imgui/imgui_stdlib.h>
 // clang-format on
 
+#include <algorithm>
 #include <glm/common.hpp>
 #include <optional>
 
@@ -58,10 +59,14 @@ void keyframe_row(State& state, std::size_t index) {
   ImGui::SameLine();
   auto seconds = static_cast<float>(keyframe.seconds);
   ImGui::SetNextItemWidth(5 * ImGui::GetFontSize());
+  // Between its neighbours: past them the row would become another's.
+  const auto& all = film.path.data().keyframes;
+  const double earliest = index > 0 ? all[index - 1].seconds : 0;
+  const double latest = index + 1 < all.size() ? all[index + 1].seconds : longest;
   std::optional<double> moved_to;
-  if (ImGui::DragFloat("s", &seconds, 0.02f, 0, float(longest), "%.2f",
+  if (ImGui::DragFloat("s", &seconds, 0.02f, float(earliest), float(latest), "%.2f",
                        ImGuiSliderFlags_AlwaysClamp))
-    moved_to = seconds;
+    moved_to = std::clamp(double(seconds), earliest, latest);
   ImGui::SameLine();
   const bool replaced = ImGui::SmallButton("this view");
   tip("The keyframe becomes the view of now");
@@ -70,7 +75,10 @@ void keyframe_row(State& state, std::size_t index) {
   ImGui::PopID();
   if (moved_to) film.path.move(index, *moved_to);
   if (replaced) film.path.replace(index, state.keyframe_of_now(keyframe.seconds));
-  if (removed) film.path.remove(index);
+  if (!removed) return;
+  film.path.remove(index);
+  film.selected = -1;
+  film.seconds = std::min(film.seconds, film.path.duration());
 }
 
 void file_row(State& state) {
@@ -120,7 +128,6 @@ void film_rows(State& state) {
 
 void path_panel(State& state) {
   Film& film = state.film;
-  film.scrubbed = false;
   if (ImGui::Button("Add this view")) state.ask(AddKeyframe{});
   tip("K");
   ImGui::SameLine();

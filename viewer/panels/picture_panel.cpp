@@ -4,9 +4,9 @@
 #include <imgui/imgui_stdlib.h>
 // clang-format on
 
-#include <algorithm>
 #include <glm/common.hpp>
 
+#include "formats/png.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
 
@@ -18,8 +18,8 @@ void picture_panel(State& state) {
   if (!wish.window_size) {
     ImGui::SetNextItemWidth(10 * ImGui::GetFontSize());
     ImGui::InputInt2("pixels", &wish.size.x);
-    // 2^28 pixels are what a PNG of ours holds (formats/png.hpp).
-    wish.size = glm::clamp(wish.size, 1, 65536);
+    // What readers of pictures take (formats/png.hpp).
+    wish.size = glm::clamp(wish.size, 1, max_image_side);
     tip("Any size, beyond the window's and the device's: it is drawn in tiles");
   }
   ImGui::Checkbox("transparent background", &wish.transparent);

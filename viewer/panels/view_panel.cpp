@@ -1,9 +1,11 @@
 // Where the eye is and how it moves.
+#include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
 
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
+#include "viewer/shortcuts.hpp"
 
 namespace tureen::viewer {
 
@@ -41,16 +43,22 @@ void view_menu(CameraControls& controls) {
   ImGui::SetNextItemWidth(10 * ImGui::GetFontSize());
   if (!ImGui::BeginCombo("##views", "look from ..")) return;
   for (const NamedView view : named_views)
-    if (ImGui::Selectable(name_of(view))) controls.look_from(view);
+    if (ImGui::Selectable(name_of(view))) {
+      controls.set_mode(NavigationMode::orbit);
+      controls.look_from(view);
+    }
   ImGui::EndCombo();
 }
 
 void recorded_slider(State& state) {
   const auto cameras = state.recorded_cameras();
   if (cameras.empty()) return;
-  int index = state.recorded;
-  const std::string name =
-      index < 0 ? "none" : fmt::format("{}: {}", index, cameras[std::size_t(index)]->name);
+  int index = std::min(state.recorded, int(cameras.size()) - 1);
+  // The slider takes a printf format, and names come from files.
+  std::string name = index < 0 ? "none" : fmt::format("{}: ", index);
+  if (index >= 0)
+    for (const char letter : cameras[std::size_t(index)]->name)
+      name += letter == '%' ? std::string("%%") : std::string(1, letter);
   ImGui::SetNextItemWidth(12 * ImGui::GetFontSize());
   if (ImGui::SliderInt("recorded", &index, 0, int(cameras.size()) - 1, name.c_str(),
                        ImGuiSliderFlags_AlwaysClamp))
@@ -66,10 +74,10 @@ void view_panel(State& state) {
   view_menu(controls);
   ImGui::SameLine();
   up_menu(state);
-  if (ImGui::Button("Frame")) controls.frame();
+  if (ImGui::Button("Frame")) run_shortcut(Key::f, false, state);
   tip("F: all of the scene in the picture");
   ImGui::SameLine();
-  if (ImGui::Button("Reset")) controls.reset();
+  if (ImGui::Button("Reset")) run_shortcut(Key::r, false, state);
   tip("R: the first view");
   ImGui::SameLine();
   auto fov = static_cast<float>(controls.fov() * degrees_per_radian);
