@@ -200,6 +200,8 @@ void Application::frame() {
 }
 
 void Application::lay_out(glm::ivec2 points, glm::ivec2 pixels) {
+  points = glm::max(points, 1);
+  pixels = glm::max(pixels, 1);
   state_.points = points;
   state_.points.x -= static_cast<int>(panels_width(state_, points.x));
   state_.pixels = glm::max(

@@ -99,6 +99,7 @@ class Application {
   void watch_file();
   void write(const std::string& what, const std::filesystem::path& path,
              std::function<void(const StageRequest&)> work);
+  bool has_scene();
   std::filesystem::path folder_of_pictures() const;
   std::filesystem::path picture_path(const std::string& extension);
   void save_window_picture(const std::string& name);

@@ -13,6 +13,12 @@ namespace tureen::viewer {
 
 namespace fs = std::filesystem;
 
+/// Says so where there is none.
+bool Application::has_scene() {
+  if (!state_.stage) state_.messages.note("There is no scene yet: open one first", state_.now);
+  return state_.stage != nullptr;
+}
+
 fs::path Application::folder_of_pictures() const {
   if (!options_.pictures.empty()) return options_.pictures;
   return state_.settings.pictures.empty() ? pictures_folder() : fs::path(state_.settings.pictures);
@@ -36,10 +42,11 @@ fs::path Application::picture_path(const std::string& extension) {
 }
 
 void Application::carry_out(const TakePicture& request) {
-  if (!state_.stage) return;
+  if (!has_scene()) return;
   const glm::ivec2 size = request.size.x > 0 ? request.size : state_.pixels;
   const PictureJob job{.scene = state_.stage->source(),
                        .camera = state_.controls.camera(size.x, size.y),
+                       .look = state_.look,
                        .transparent = request.transparent,
                        .path = picture_path(".png")};
   write("writing " + short_name(job.path), job.path,
@@ -83,6 +90,7 @@ void Application::carry_out(const StopWriting&) {
 }
 
 void Application::carry_out(const AddKeyframe&) {
+  if (!has_scene()) return;
   Film& film = state_.film;
   // A second and a half between views until somebody says otherwise.
   constexpr double apart = 1.5;
@@ -100,7 +108,7 @@ void Application::carry_out(const ShowKeyframe& request) {
 }
 
 void Application::carry_out(const MakeTurntable&) {
-  if (!state_.stage) return;
+  if (!has_scene()) return;
   state_.film.path =
       CameraPath(turntable({.first = state_.controls.camera(state_.pixels.x, state_.pixels.y),
                             .distance = state_.controls.distance(),
@@ -123,14 +131,15 @@ void Application::carry_out(const LoadPath& request) {
 }
 
 void Application::carry_out(const CopyCommand&) {
-  if (!state_.stage) return;
+  if (!has_scene()) return;
   const Camera camera = state_.controls.camera(state_.pixels.x, state_.pixels.y);
   fs::path file;
   if (needs_camera_file(camera)) {
     file = picture_path(".camera.json");
     write_file(file, cameras_to_json(std::span(&camera, 1)));
   }
-  window_.set_clipboard(render_command(*state_.stage, state_.stage->choice, camera, file));
+  window_.set_clipboard(
+      render_command(*state_.stage, state_.stage->choice, state_.look, camera, file));
   state_.messages.note("The command that draws this picture is in the clipboard", state_.now);
 }
 

@@ -32,7 +32,7 @@ void Application::carry_out() {
     try {
       std::visit([this](const auto& each) { carry_out(each); }, request);
     } catch (const std::exception& error) {
-      state_.messages.error("That did not work", error.what(), state_.now);
+      state_.messages.error("That cannot be done", error.what(), state_.now);
     }
     frames_wanted_ = std::max(frames_wanted_, 2);
   }
@@ -91,8 +91,8 @@ void Application::show(std::unique_ptr<Stage> stage, bool keep_view) {
     state_.controls.set_box(subject.low, subject.high);
   } else {
     state_.controls = CameraControls(subject);
-    state_.controls.set_viewport(state_.points.x, state_.points.y);
-    state_.controls.home();  // of this viewport
+    lay_out(window_.size(), window_.pixels());  // with the panels that a scene brings
+    state_.controls.home();                     // of this viewport
     state_.controls.arrive();
     state_.recorded = -1;
     if (!state_.stage->scene->cameras.empty()) {

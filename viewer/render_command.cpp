@@ -31,6 +31,16 @@ void add_choice(std::string& command, const DrawingChoice& choice) {
   if (!choice.obey_preset) command += " --preset faithful";
 }
 
+/// "depth"; "features:0" and "features:4-6" for a choice of them.
+std::string shown(const Look& look) {
+  std::string name = name_of(look.what);
+  if (look.what != Inspection::features) return name;
+  const int first = look.features.first, last = first + look.features.count - 1;
+  name += fmt::format(":{}", first);
+  if (last > first) name += fmt::format("-{}", last);
+  return name;
+}
+
 }  // namespace
 
 std::string quoted(const std::string& text) {
@@ -56,7 +66,7 @@ bool needs_camera_file(const Camera& camera) {
          std::abs(camera.fx / camera.fy - 1) * camera.width > pixels;
 }
 
-std::string render_command(const StageSource& scene, const DrawingChoice& choice,
+std::string render_command(const StageSource& scene, const DrawingChoice& choice, const Look& look,
                            const Camera& camera, const std::filesystem::path& camera_file) {
   std::string command = "tureen render " + quoted(scene.path.string());
   if (needs_camera_file(camera)) {
@@ -71,7 +81,10 @@ std::string render_command(const StageSource& scene, const DrawingChoice& choice
                list_of(axes[1]) + fmt::format(" --fov {}", fov);
   }
   command += fmt::format(" --size {}x{}", camera.width, camera.height);
-  add_choice(command, choice);
+  if (look.what == Inspection::color)
+    add_choice(command, choice);
+  else
+    command += " --show " + shown(look);
   return command + " -o picture.png";
 }
 

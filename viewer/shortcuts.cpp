@@ -86,7 +86,11 @@ const std::array table = {
     Shortcut{Key::k, false, pictures, "add this view to the camera path",
              [](State& s) { s.ask(AddKeyframe{}); }},
     Shortcut{Key::space, false, pictures, "play the camera path, or stop it",
-             [](State& s) { s.film.toggle(); }},
+             [](State& s) {
+               if (s.film.path.empty())
+                 s.messages.note("There is no camera path yet: K adds the view to one", s.now);
+               s.film.toggle();
+             }},
     Shortcut{Key::s, true, pictures, "save the picture",
              [](State& s) { s.ask(TakePicture{s.picture.window_size ? glm::ivec2(0) : s.picture.size,
                                               s.picture.transparent}); }},

@@ -10,6 +10,7 @@
 #include "formats/png.hpp"
 #include "formats/png_rows.hpp"
 #include "formats/video_file.hpp"
+#include "runtime/inspector.hpp"
 #include "runtime/picture_tiles.hpp"
 #include "soup/error.hpp"
 
@@ -26,6 +27,15 @@ constexpr int most_frames = 1000000;
 Renderer renderer_for(const StageSource& scene, const StageRequest& request) {
   const auto progress = [&](double done) { request.progress(preparing_share * done); };
   return prepare_renderer(scene, {request.context, request.choice, progress}).renderer;
+}
+
+/// Writes what `draw` hands to its sink.
+void write_rows(const PictureJob& job, const std::function<void(const BandSink&)>& draw) {
+  Output output(job.path);
+  PngRows rows(output, job.camera.width, job.camera.height);
+  draw([&](const Image8& band) { rows.append(band); });
+  rows.finish();
+  output.commit();
 }
 
 /// Draws every frame in turn and hands it on.
@@ -46,24 +56,30 @@ void draw_frames(const FilmJob& job, const StageRequest& request,
 }  // namespace
 
 void write_picture(const PictureJob& job, const StageRequest& request) {
+  const glm::vec4 background(job.scene.scene->info.background, job.transparent ? 0.0f : 1.0f);
+  const auto progress = [&](double done) {
+    request.progress(preparing_share + (1 - preparing_share) * done);
+  };
+  if (job.look.what != Inspection::color) {
+    Inspector inspector(request.context, job.scene.soup(), job.scene.scene->origin,
+                        {.background = background});
+    inspector.show(job.look.what, job.look.features);
+    PictureTiles tiles = tiles_of(inspector, request.context.capabilities());
+    tiles.progress = progress;
+    write_rows(job, [&](const BandSink& sink) { draw_in_bands(job.camera, tiles, sink); });
+    return;
+  }
   Renderer renderer = renderer_for(job.scene, request);
-  renderer.set_background(
-      glm::vec4(job.scene.scene->info.background, job.transparent ? 0.0f : 1.0f));
-  Output output(job.path);
-  PngRows rows(output, job.camera.width, job.camera.height);
+  renderer.set_background(background);
   if (renderer.plan().resolution_scale < 1) {
     // Tiles that are drawn coarser would not meet; what the device draws at once is enough there.
     renderer.draw(job.camera);
-    rows.append(renderer.read_color());
-  } else {
-    PictureTiles tiles = tiles_of(renderer, request.context.capabilities());
-    tiles.progress = [&](double done) {
-      request.progress(preparing_share + (1 - preparing_share) * done);
-    };
-    draw_in_bands(job.camera, tiles, [&](const Image8& band) { rows.append(band); });
+    write_rows(job, [&](const BandSink& sink) { sink(renderer.read_color()); });
+    return;
   }
-  rows.finish();
-  output.commit();
+  PictureTiles tiles = tiles_of(renderer, request.context.capabilities());
+  tiles.progress = progress;
+  write_rows(job, [&](const BandSink& sink) { draw_in_bands(job.camera, tiles, sink); });
 }
 
 void write_film(const FilmJob& job, const StageRequest& request) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "runtime/camera_path.hpp"
+#include "viewer/look.hpp"
 #include "viewer/stage.hpp"
 
 namespace tureen::viewer {
@@ -12,6 +13,7 @@ namespace tureen::viewer {
 struct PictureJob {
   StageSource scene;
   Camera camera;  // with the picture's size, which may be beyond the device's
+  Look look = {};
   bool transparent = false;
   std::filesystem::path path;
 };

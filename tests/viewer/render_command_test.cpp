@@ -52,7 +52,7 @@ TEST(RenderCommand, NamesTheSameCamera) {
   controls.set_fov(0.7);
   const Camera camera = controls.camera(801, 633);
   ASSERT_FALSE(needs_camera_file(camera));
-  const auto words = words_of(render_command(source("it's a soup.glb"), {}, camera, ""));
+  const auto words = words_of(render_command(source("it's a soup.glb"), {}, {}, camera, ""));
   ASSERT_GE(words.size(), 3u);
   EXPECT_EQ(words[2], "it's a soup.glb") << "quoted for the shell";
   double fov = 0;
@@ -72,9 +72,20 @@ TEST(RenderCommand, WhatOptionsCannotSayComesFromAFile) {
   Camera camera = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.8, 400, 300);
   camera.cx += 3;
   ASSERT_TRUE(needs_camera_file(camera));
-  const std::string command = render_command(source("a.glb"), {}, camera, "a-1.camera.json");
+  const std::string command = render_command(source("a.glb"), {}, {}, camera, "a-1.camera.json");
   EXPECT_THAT(command, HasSubstr("--camera a-1.camera.json"));
   EXPECT_THAT(command, Not(HasSubstr("--eye")));
+}
+
+TEST(RenderCommand, SaysWhatIsLookedAt) {
+  const Camera camera = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.8, 400, 300);
+  const auto command = [&](const Look& look) {
+    return render_command(source("a.glb"), {}, look, camera, "");
+  };
+  EXPECT_THAT(command({}), Not(HasSubstr("--show")));
+  EXPECT_THAT(command({Inspection::triangle_id, {}}), HasSubstr("--show triangle-id "));
+  EXPECT_THAT(command({Inspection::features, {4, 3}}), HasSubstr("--show features:4-6 "));
+  EXPECT_THAT(command({Inspection::features, {3, 1}}), HasSubstr("--show features:3 "));
 }
 
 TEST(RenderCommand, SaysHowItIsDrawn) {
@@ -83,7 +94,7 @@ TEST(RenderCommand, SaysHowItIsDrawn) {
   choice.supersampling = 3;
   choice.plan.leave_out = LeaveOutSet::all().without(LeaveOut::alpha_test);
   choice.obey_preset = false;
-  const std::string command = render_command(source("a.glb"), choice, camera, "");
+  const std::string command = render_command(source("a.glb"), choice, {}, camera, "");
   EXPECT_THAT(command, HasSubstr("--supersample 3"));
   EXPECT_THAT(command, HasSubstr("--keep alpha-test"));
   EXPECT_THAT(command, HasSubstr("--preset"));

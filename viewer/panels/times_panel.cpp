@@ -53,7 +53,8 @@ void times_panel(State& state, const FrameClock& clock) {
       processor.push_back(frame.processor_ms);
     }
     graph(frames);
-    text("drawing {:.2f} ms (blue), asking for it {:.2f} ms", median(device), median(processor));
+    paragraph(fmt::format("drawing {:.2f} ms (blue), asking for it {:.2f} ms", median(device),
+                          median(processor)));
     aside(fmt::format("medians of the last {} frames; a frame is drawn when something changes",
                       frames.size()));
     for (const gl::PassTimer::PassTime& pass : clock.passes())

@@ -86,7 +86,7 @@ void view_panel(State& state) {
     controls.set_fov(fov / degrees_per_radian);
   recorded_slider(state);
   const glm::dvec3 eye = controls.eye();
-  aside(fmt::format("eye {:.4g}, {:.4g}, {:.4g}", eye.x, eye.y, eye.z));
+  aside(fmt::format("eye {:.7g}, {:.7g}, {:.7g}", eye.x, eye.y, eye.z));
   ImGui::Checkbox("smooth motion", &state.settings.smooth_motion);
 }
 
