@@ -139,7 +139,6 @@ double Application::wait_seconds() const {
 
 std::vector<Event> Application::gather_live() {
   std::vector<Event> events = window_.events(wait_seconds());
-  if (recorder_) recorder_->add(clock(), events);
   pending_.insert(pending_.end(), events.begin(), events.end());
   return take_frame(pending_);
 }
@@ -159,11 +158,12 @@ void Application::frame() {
   const std::vector<Event> events = gather();
   const double began = seconds_since_start();
   const double now = clock();
+  if (recorder_) recorder_->add(now, events);
   const double step = replay_ ? Replay::frame_seconds : std::min(now - last_, longest_step);
   last_ = state_.now = now;
   if (!events.empty()) frames_wanted_ = frames_after_event;
 
-  const bool was_busy = state_.busy || state_.writing;
+  const bool was_loading = state_.busy.has_value(), was_busy = was_loading || state_.writing;
   try {
     worker_.collect();
     writer_.collect();
@@ -172,6 +172,9 @@ void Application::frame() {
   }
   state_.busy = worker_.status();
   state_.writing = writer_.status();
+  // Whoever replays this on a slower machine waits as long as it takes there.
+  if (recorder_ && was_loading && !state_.busy)
+    recorder_->add(now, std::vector<Event>{AwaitRest{}});
   if (state_.busy || state_.writing || was_busy) frames_wanted_ = std::max(frames_wanted_, 1);
   watch_file();
   if (const bool wanted = state_.settings.vsync && !replay_; wanted != vsync_)

@@ -156,7 +156,7 @@ Replay::Step Replay::next(bool at_rest) {
   };
   if (awaits()) {
     if (!at_rest) return step;
-    ++position_;
+    step.events.push_back(session_.events[position_++].event);  // for who records
   }
   clock_ += frame_seconds;
   while (!finished() && session_.events[position_].seconds <= clock_ && !awaits()) {

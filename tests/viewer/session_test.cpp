@@ -95,8 +95,9 @@ TEST(Replay, WaitsForRestAndEndsAFrameWithAPicture) {
   for (int i = 0; i < 10; ++i) EXPECT_TRUE(replay.next(false).events.empty());
   EXPECT_EQ(replay.now(), 0) << "the clock stands while it waits";
   const Replay::Step picture = replay.next(true);
-  ASSERT_EQ(picture.events.size(), 1u);
-  EXPECT_TRUE(std::holds_alternative<WindowPictured>(picture.events[0]));
+  ASSERT_EQ(picture.events.size(), 2u);
+  EXPECT_TRUE(std::holds_alternative<AwaitRest>(picture.events[0]));
+  EXPECT_TRUE(std::holds_alternative<WindowPictured>(picture.events[1]));
   EXPECT_EQ(replay.next(true).events.size(), 1u);
   EXPECT_TRUE(replay.finished());
 }

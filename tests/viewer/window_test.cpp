@@ -361,6 +361,24 @@ TEST_F(Window, TheSameSessionShowsTheSame) {
   expect_equal(once, picture("once"));
 }
 
+TEST_F(Window, WhatIsRecordedCanBeReplayed) {
+  const Person person = Person()
+                            .wait()
+                            .press(Key::digit_7)
+                            .wait()
+                            .drag(Button::left, {150, 200}, {230, 180})
+                            .turn_wheel(2)
+                            .look("end");
+  EXPECT_EQ(replay(person, {"soup.glb", "--record", "recorded.json"}).exit_code, 0);
+  const Image8 first = picture("end");
+  fs::remove(folder_ / "pictures" / "end.png");
+  const ChildResult again =
+      Child({"soup.glb", "--replay", "recorded.json", "--pictures", "pictures"}, folder_).wait();
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_GE(read_session(folder_ / "recorded.json").events.size(), 10u);
+  expect_equal(picture("end"), first);
+}
+
 TEST_F(Window, WhatCannotBeIsSaid) {
   ChildResult result = Child({"--size", "8"}, folder_).wait();
   EXPECT_EQ(result.exit_code, 2);
