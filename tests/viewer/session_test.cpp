@@ -15,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 
 std::filesystem::path written(const std::string& text) {
-  const std::filesystem::path path =
+  std::filesystem::path path =
       std::filesystem::path(testing::TempDir()) /
       (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".json");
   std::ofstream(path) << text;
