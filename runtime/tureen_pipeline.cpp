@@ -70,6 +70,7 @@ class TureenPipeline final : public Pipeline {
   }
 
   void draw(const FrameCamera& frame, const glm::vec4& background) override {
+    if (search_rests_ > 0) --search_rests_;
     gl::use_plain_rasterisation(width_, height_);
     if (plan_.reversed_depth) gl::use_zero_to_one_depth(api_, true);
     if (plan_.site == ShadingSite::deferred) {
@@ -209,7 +210,7 @@ class TureenPipeline final : public Pipeline {
     const glm::dvec3 forward = -frame.camera.world_from_view_rotation()[2];
     order_.sort(clusters, glm::vec3(frame.eye), glm::vec3(forward), first_slot);
     const auto first = order_.first_vertices(), count = order_.vertex_counts();
-    if (covered_ && !parts && covered_->begin_frame(frame, subpixel_bits_)) {
+    if (covered_ && !parts && search_rests_ == 0 && covered_->begin_frame(frame, subpixel_bits_)) {
       draw_covered(first, count);
       return;
     }
@@ -227,6 +228,10 @@ class TureenPipeline final : public Pipeline {
   void draw_covered(std::span<const std::int32_t> first, std::span<const std::int32_t> count) {
     vertices_.clear();
     for (std::size_t i = 0; i < first.size(); ++i) covered_->append(first[i], count[i], vertices_);
+    std::size_t all = 0;
+    for (const std::int32_t each : count) all += static_cast<std::size_t>(each);
+    if (static_cast<double>(vertices_.size()) > worthwhile * static_cast<double>(all))
+      search_rests_ = rested_frames;
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, covered_vertices_.id());
     glBufferData(GL_ELEMENT_ARRAY_BUFFER,
                  static_cast<GLsizeiptr>(vertices_.size() * sizeof vertices_[0]), vertices_.data(),
@@ -245,6 +250,11 @@ class TureenPipeline final : public Pipeline {
   gl::Buffer covered_vertices_;
   std::vector<std::uint32_t> vertices_;  // of the last frame's
   int subpixel_bits_ = 0;
+  /// Looking for a face between pixels costs a part of what not drawing it saves: where most faces
+  /// are seen, the next frames draw all of them, which is the same picture.
+  static constexpr double worthwhile = 0.7;
+  static constexpr int rested_frames = 30;  // the search is then a thirtieth of what it was
+  int search_rests_ = 0;                    // frames
   int width_ = 0, height_ = 0;
   gl::Texture depth_, color_;
   gl::Framebuffer color_framebuffer_;
