@@ -147,10 +147,8 @@ TEST_P(CoveredFacesPicture, StaysTheSameToTheBit) {
     }
   // Rims are left out to a rounding only.
   const LeaveOutSet all = LeaveOutSet::all().without(LeaveOut::transparent_rims);
-  Renderer with(context, soup, glm::dvec3(0), {.plan = {.leave_out = all}});
   Renderer without(context, soup, glm::dvec3(0),
                    {.plan = {.leave_out = all.without(LeaveOut::faces_between_pixels)}});
-  ASSERT_TRUE(with.plan().drops_faces_between_pixels);
   ASSERT_FALSE(without.plan().drops_faces_between_pixels);
   int showing = 0;
   for (int i = 0; i < 4; ++i) {
@@ -159,11 +157,16 @@ TEST_P(CoveredFacesPicture, StaysTheSameToTheBit) {
       const glm::dvec3 eye = (i == 2 ? 0.4 : 1.0) * random.direction();
       camera = look_at(eye, 0.3 * random.direction(), {0, 0, 1}, 1.2, 200, 151);
     }
+    // Anew for each view: a frame that shows most faces lets the search rest in those after it.
+    Renderer with(context, soup, glm::dvec3(0), {.plan = {.leave_out = all}});
+    ASSERT_TRUE(with.plan().drops_faces_between_pixels);
     with.draw(camera);
     without.draw(camera);
     const Image8 a = with.read_color(), b = without.read_color();
     EXPECT_TRUE(a.pixels == b.pixels) << "seed " << seed << ", view " << i;
     EXPECT_EQ(with.read_faces(), without.read_faces());
+    with.draw(camera);  // resting, maybe
+    EXPECT_TRUE(with.read_color().pixels == b.pixels) << "seed " << seed << ", again, view " << i;
     showing += std::any_of(a.pixels.begin(), a.pixels.end(),
                            [&](glm::u8vec4 p) { return p != a.pixels[0]; })
                    ? 1
