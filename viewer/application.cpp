@@ -80,6 +80,16 @@ double layout_scale(const Window& window) {
   return window.content_scale() / std::max(pixels_per_point, 1.0);
 }
 
+/// Throws OutputError with both names.
+void replace_file(const FileReplaced& files) {
+  std::error_code failed;
+  std::filesystem::copy_file(files.from, files.to,
+                             std::filesystem::copy_options::overwrite_existing, failed);
+  if (failed)
+    throw OutputError({files.to, {}, {}},
+                      "cannot be replaced by " + files.from + ": " + failed.message());
+}
+
 }  // namespace
 
 Application::Application(ApplicationOptions options)
@@ -230,9 +240,7 @@ void Application::handle(const Event& event) {
     for (const std::string& path : dropped->paths) state_.ask(OpenPath{path});
   if (const auto* size = std::get_if<Resized>(&event); size && replay_)
     window_.resize({size->width, size->height});
-  if (const auto* replaced = std::get_if<FileReplaced>(&event))
-    std::filesystem::copy_file(replaced->from, replaced->to,
-                               std::filesystem::copy_options::overwrite_existing);
+  if (const auto* replaced = std::get_if<FileReplaced>(&event)) replace_file(*replaced);
 }
 
 void Application::move(double seconds) {

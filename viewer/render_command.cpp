@@ -7,14 +7,14 @@
 #include <glm/geometric.hpp>
 #include <string_view>
 
+#include "viewer/axes.hpp"
+
 namespace tureen::viewer {
 
 namespace {
 
 /// The shortest text that reads back as the same double.
 std::string list_of(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
-
-constexpr double degrees_per_radian = 57.295779513082320877;
 
 void add_choice(std::string& command, const DrawingChoice& choice) {
   if (choice.plan.pipeline == PipelineKind::published) command += " --pipeline published";

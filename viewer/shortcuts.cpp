@@ -1,7 +1,8 @@
 #include "viewer/shortcuts.hpp"
 
 #include <array>
-#include <glm/geometric.hpp>
+
+#include "viewer/axes.hpp"
 
 namespace tureen::viewer {
 
@@ -24,15 +25,12 @@ void look_from(State& state) {
   state.controls.look_from(view);
 }
 
-/// y, z, x and their negatives: the likelier first.
 void next_up(State& state) {
-  static const std::array<glm::dvec3, 6> axes = {
-      {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {-1, 0, 0}}};
   std::size_t next = 0;
-  for (std::size_t i = 0; i < axes.size(); ++i)
-    if (glm::dot(axes[i], state.controls.up()) > 0.999) next = (i + 1) % axes.size();
-  state.controls.set_up(axes[next]);
-  state.messages.note("Up is now " + axis_name(axes[next]), state.now);
+  for (std::size_t i = 0; i < up_axes.size(); ++i)
+    if (is_axis(state.controls.up(), up_axes[i])) next = (i + 1) % up_axes.size();
+  state.controls.set_up(up_axes[next]);
+  state.messages.note("Up is now " + axis_name(up_axes[next]), state.now);
 }
 
 void next_look(State& state) {

@@ -1,3 +1,5 @@
+// What a person's drags, wheel and keys make of a view. Past 600 lines: one fixture's random
+// sequences of every control are held against the same invariants, at scales from 1e-6 to 1e8.
 #include "runtime/camera_controls.hpp"
 
 #include <gtest/gtest.h>

@@ -259,6 +259,22 @@ TEST_F(Window, AnotherSceneIsShownAsFarAsItCanBe) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 
+// What is saved is what is looked at, by another drawer than the window's own.
+TEST_F(Window, SavesWhatIsLookedAt) {
+  const ChildResult result = replay(Person({320, 240})
+                                        .wait()
+                                        .press(Key::h)
+                                        .press(Key::right_bracket)
+                                        .press(Key::v)
+                                        .look("shown")
+                                        .press_with_control(Key::s)
+                                        .wait());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const Image8 saved = picture("soup-1");
+  expect_equal(saved, rendered({"--camera", "soup.glb:0", "--size", "320x240", "--show", "depth"}));
+  expect_equal(picture("shown"), saved);
+}
+
 TEST_F(Window, PicturesInARowAreAllSaved) {
   Person person({320, 200});
   person.wait().press(Key::h);

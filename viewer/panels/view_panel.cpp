@@ -1,8 +1,7 @@
 // Where the eye is and how it moves.
 #include <algorithm>
-#include <array>
-#include <glm/geometric.hpp>
 
+#include "viewer/axes.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
 #include "viewer/shortcuts.hpp"
@@ -10,8 +9,6 @@
 namespace tureen::viewer {
 
 namespace {
-
-constexpr double degrees_per_radian = 57.295779513082320877;
 
 void mode_buttons(CameraControls& controls) {
   int mode = static_cast<int>(controls.mode());
@@ -27,12 +24,10 @@ void mode_buttons(CameraControls& controls) {
 
 void up_menu(State& state) {
   CameraControls& controls = state.controls;
-  static const std::array<glm::dvec3, 6> axes = {
-      {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
   ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
   if (ImGui::BeginCombo("up", axis_name(controls.up()).c_str())) {
-    for (const glm::dvec3& axis : axes)
-      if (ImGui::Selectable(axis_name(axis).c_str(), glm::dot(axis, controls.up()) > 0.999))
+    for (const glm::dvec3& axis : up_axes)
+      if (ImGui::Selectable(axis_name(axis).c_str(), is_axis(controls.up(), axis)))
         controls.set_up(axis);
     ImGui::EndCombo();
   }
