@@ -15,6 +15,14 @@
 
 namespace tureen {
 
+namespace {
+
+std::span<const std::byte> bytes_of(std::string_view text) {
+  return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+}  // namespace
+
 Output::Output(std::filesystem::path path) : path_(std::move(path)) {
   static std::atomic<unsigned> counter{0};
   temporary_ = path_;
@@ -43,7 +51,7 @@ void Output::write(std::span<const std::byte> bytes) {
   position_ += bytes.size();
 }
 
-void Output::write(std::string_view text) { write(std::as_bytes(std::span(text))); }
+void Output::write(std::string_view text) { write(bytes_of(text)); }
 
 void Output::commit() {
   if (std::fflush(file_) != 0) fail("cannot be written");
@@ -66,7 +74,7 @@ void Output::fail(const char* what) const {
 }
 
 void write_file(const std::filesystem::path& path, std::string_view text) {
-  write_file(path, std::as_bytes(std::span(text)));
+  write_file(path, bytes_of(text));
 }
 
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {

@@ -118,13 +118,17 @@ struct CoveredFaces::Block {
   }
 };
 
-CoveredFaces::CoveredFaces(const TriangleSoup& soup, std::span<const std::uint32_t> faces) {
-  for (std::vector<float>& each : coordinates_) each.resize(faces.size());
-  for (std::size_t i = 0; i < faces.size(); ++i)
-    for (int corner = 0; corner < 3; ++corner) {
-      const glm::vec3& p = soup.positions[soup.triangles[faces[i]][corner]];
-      for (int c = 0; c < 3; ++c) coordinates_[3 * std::size_t(corner) + std::size_t(c)][i] = p[c];
-    }
+CoveredFaces::CoveredFaces(const GeometrySource& source) {
+  for (std::vector<float>& each : coordinates_) each.resize(source.face_count);
+  std::vector<FaceCorners> block;
+  for (std::size_t first = 0; first < source.face_count; first += block.size()) {
+    block.resize(std::min(block_size, source.face_count - first));
+    source.fill(first, block);
+    for (std::size_t i = 0; i < block.size(); ++i)
+      for (std::size_t corner = 0; corner < 3; ++corner)
+        for (std::size_t c = 0; c < 3; ++c)
+          coordinates_[3 * corner + c][first + i] = block[i][corner][int(c)];
+  }
 }
 
 bool CoveredFaces::begin_frame(const FrameCamera& frame, int subpixel_bits) {

@@ -12,15 +12,15 @@
 #include <span>
 #include <vector>
 
-#include "runtime/draw_order.hpp"
+#include "runtime/geometry_source.hpp"
 #include "runtime/pipeline.hpp"
 
 namespace tureen {
 
 class CoveredFaces {
  public:
-  /// Keeps a copy of the corners of `faces` (indices into soup.triangles): 36 bytes each.
-  CoveredFaces(const TriangleSoup& soup, std::span<const std::uint32_t> faces);
+  /// Keeps a copy of the corners of the source's faces: 36 bytes each.
+  explicit CoveredFaces(const GeometrySource& source);
 
   /// What follows is about this frame. `subpixel_bits`: GL_SUBPIXEL_BITS. False where floats know
   /// too little of where corners come to lie, in enormous pictures and through the narrowest

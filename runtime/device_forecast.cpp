@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "runtime/lattice_upload.hpp"
+#include "runtime/lattice_source.hpp"
 #include "runtime/texel_store.hpp"
 #include "soup/lattice.hpp"
 #include "soup/spherical_harmonics.hpp"
@@ -15,7 +15,7 @@ namespace tureen {
 
 namespace {
 
-/// Adds up the stores that runtime/appearance_upload.cpp makes, appearance by appearance; a test
+/// Adds up the stores that runtime/appearance_source.cpp makes, appearance by appearance; a test
 /// holds the sum against what it really makes.
 class Forecaster {
  public:

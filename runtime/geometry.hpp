@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "runtime/geometry_source.hpp"
 #include "runtime/gl/program.hpp"
 #include "runtime/pipeline.hpp"
 
@@ -10,10 +11,8 @@ namespace tureen {
 
 class Geometry {
  public:
-  /// `parts` are what is drawn of the last parts.size() of the faces; those before are drawn whole.
-  /// Throws DeviceLimitError.
-  Geometry(const TriangleSoup& soup, std::span<const std::uint32_t> faces,
-           std::span<const FacePart> parts = {});
+  /// The source is not needed afterwards. Throws DeviceLimitError.
+  explicit Geometry(const GeometrySource& source);
 
   /// For faces that are drawn whole: vertex 3 i is the first of slot i.
   void bind();

@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "runtime/appearance_upload.hpp"
 #include "runtime/clip_range.hpp"
+#include "runtime/device_appearance.hpp"
 #include "runtime/fragment_store.hpp"
 #include "runtime/geometry.hpp"
 #include "runtime/gl/state.hpp"
@@ -56,19 +56,19 @@ const char* shader_of(const TriangleSoup& soup) {
                                                                  : "inspection_plain.glsl";
 }
 
-/// Adds what of the geometry a pixel looks up: shaders/face_corners.glsl and inspection.frag.
-void add_geometry(const TriangleSoup& soup, const RenderPlan& plan, const TexelLayout& layout,
-                  DeviceAppearance& appearance) {
+/// With what of the geometry a pixel looks up: shaders/face_corners.glsl and inspection.frag.
+AppearanceSource inspected_appearance(const TriangleSoup& soup, const RenderPlan& plan,
+                                      const TexelLayout& layout) {
+  AppearanceSource appearance = prepare_appearance(soup, plan, layout);
   std::vector<glm::vec3> corners;
   corners.reserve(3 * plan.faces.size());
   for (const std::uint32_t face : plan.faces)
     for (int k = 0; k < 3; ++k) corners.push_back(soup.positions[soup.triangles[face][k]]);
   appearance.samplers.push_back(
-      {"corners", TexelStore::from(layout, texel_formats::rgb32f,
-                                   std::span<const glm::vec3>(corners), "corners")});
+      {"corners", TexelSource::of(texel_formats::rgb32f, std::move(corners), "corners")});
   appearance.samplers.push_back(
-      {"soup_faces", TexelStore::from(layout, texel_formats::r32ui,
-                                      std::span<const std::uint32_t>(plan.faces), "faces")});
+      {"soup_faces", TexelSource::of(texel_formats::r32ui, plan.faces, "faces")});
+  return appearance;
 }
 
 /// SHOW_DEPTH and the like, from the names on the command line.
@@ -133,9 +133,9 @@ Inspector::State::State(const gl::Capabilities& capabilities, const TriangleSoup
       shader(shader_of(soup)),
       features(feature_count(soup)),
       plan(make_inspection_plan(soup, device_limits(capabilities), options)),
-      appearance(upload_appearance(soup, plan, TexelLayout::of(device_limits(capabilities)))),
-      geometry(soup, plan.faces) {
-  add_geometry(soup, plan, TexelLayout::of(device_limits(capabilities)), appearance);
+      appearance(inspected_appearance(soup, plan, TexelLayout::of(device_limits(capabilities))),
+                 TexelLayout::of(device_limits(capabilities))),
+      geometry(prepare_geometry(soup, plan.faces)) {
   for (const InspectionName& name : inspection_names())
     refusals[std::size_t(name.what)] = why_not(name.what, soup);
   if (const auto* texture = std::get_if<LatticeTexture>(&soup.appearance); texture && texture->mlp)

@@ -7,8 +7,10 @@
 #include <memory>
 #include <optional>
 
+#include "runtime/appearance_source.hpp"
 #include "runtime/choose_shading_stage.hpp"
 #include "runtime/clip_range.hpp"
+#include "runtime/geometry_source.hpp"
 #include "runtime/gl/context.hpp"
 #include "runtime/gl/objects.hpp"
 #include "runtime/gl/timer_query.hpp"
@@ -58,8 +60,11 @@ class Pipeline {
   gl::PassTimer* timer_ = nullptr;
 };
 
+/// The plan must outlive the pipeline; the sources are read and not needed afterwards.
 std::unique_ptr<Pipeline> make_tureen_pipeline(const gl::Capabilities& capabilities,
-                                               const DeviceLimits& limits, const TriangleSoup& soup,
+                                               const DeviceLimits& limits,
+                                               AppearanceSource appearance,
+                                               const GeometrySource& geometry,
                                                const RenderPlan& plan);
 std::unique_ptr<Pipeline> make_published_pipeline(const gl::Capabilities& capabilities,
                                                   const DeviceLimits& limits,

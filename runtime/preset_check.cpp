@@ -71,35 +71,44 @@ double measured_promise(const gl::Context& context, const Scene& scene,
   return psnr_between(faithful, quick, preset_views(scene));
 }
 
+PresetPromise promise_of_preset(const RenderPreset& preset) {
+  return {.knobs = describe(preset), .psnr_db = preset.promised_psnr_db};
+}
+
+CheckedRenderer checked_renderer(const PresetPromise& promise, const PresetCandidates& candidates) {
+  std::optional<Renderer> quick;
+  try {
+    quick.emplace(candidates.with_preset());
+  } catch (const UsageError& error) {
+    return {candidates.without(), "the scene's preset is not obeyed: " + error.reason(), false};
+  } catch (const DeviceLimitError& error) {
+    return {candidates.without(), "the scene's preset is not obeyed: " + error.reason(), false};
+  }
+  if (!promise.psnr_db)
+    return {std::move(*quick),
+            "the scene's preset is obeyed, it promises nothing: " + promise.knobs, true};
+  Renderer plain = candidates.without();
+  const double psnr = psnr_between(plain, *quick, promise.views);
+  const std::string measured = decibels(psnr) + " on four views, " + decibels(*promise.psnr_db) +
+                               " promised: " + promise.knobs;
+  if (psnr >= *promise.psnr_db - promise_slack_db)
+    return {std::move(*quick), "the scene's preset is obeyed, " + measured, true};
+  return {std::move(plain), "the scene's preset is not obeyed, " + measured, false};
+}
+
 CheckedRenderer checked_renderer(const gl::Context& context, const TriangleSoup& soup,
                                  glm::dvec3 origin, const RenderOptions& options,
                                  const ScenePreset& scene) {
-  const auto faithful = [&](std::string sentence) -> CheckedRenderer {
-    return {Renderer(context, soup, origin, options), std::move(sentence), false};
+  const auto faithful = [&] { return Renderer(context, soup, origin, options); };
+  if (!scene.preset || is_faithful(*scene.preset)) return {faithful(), "", false};
+  PresetPromise promise = promise_of_preset(*scene.preset);
+  promise.views = scene.views;
+  const auto quick = [&] {
+    RenderOptions with_preset = options;
+    with_preset.plan.preset = combined(*scene.preset, options.plan.preset.value_or(RenderPreset()));
+    return Renderer(context, soup, origin, with_preset);
   };
-  if (!scene.preset || is_faithful(*scene.preset)) return faithful("");
-  RenderOptions quick_options = options;
-  quick_options.plan.preset = combined(*scene.preset, options.plan.preset.value_or(RenderPreset()));
-  const std::string knobs = describe(*scene.preset);
-  std::optional<Renderer> quick;
-  try {
-    quick.emplace(context, soup, origin, quick_options);
-  } catch (const UsageError& error) {
-    return faithful("the scene's preset is not obeyed: " + error.reason());
-  } catch (const DeviceLimitError& error) {
-    return faithful("the scene's preset is not obeyed: " + error.reason());
-  }
-  const std::optional<double>& promised = scene.preset->promised_psnr_db;
-  if (!promised)
-    return {std::move(*quick), "the scene's preset is obeyed, it promises nothing: " + knobs, true};
-  CheckedRenderer plain = faithful("");
-  const double psnr = psnr_between(plain.renderer, *quick, scene.views);
-  const std::string measured =
-      decibels(psnr) + " on four views, " + decibels(*promised) + " promised: " + knobs;
-  if (psnr >= *promised - promise_slack_db)
-    return {std::move(*quick), "the scene's preset is obeyed, " + measured, true};
-  plain.sentence = "the scene's preset is not obeyed, " + measured;
-  return plain;
+  return checked_renderer(promise, {.with_preset = quick, .without = faithful});
 }
 
 }  // namespace tureen

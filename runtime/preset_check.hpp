@@ -3,6 +3,7 @@
 // file may have been changed since, or the device may round otherwise.
 #pragma once
 
+#include <functional>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
@@ -43,6 +44,25 @@ struct ScenePreset {
   std::optional<RenderPreset> preset = {};  // Scene::preset
   std::vector<Camera> views = {};           // preset_views()
 };
+
+/// A preset as far as it can be checked without its soup.
+struct PresetPromise {
+  std::string knobs;  // describe()
+  std::optional<double> psnr_db = {};
+  std::vector<Camera> views = {};  // preset_views()
+};
+PresetPromise promise_of_preset(const RenderPreset& preset);
+
+/// How to come by a renderer with the preset and one without. Each is called once at most;
+/// `with_preset` may throw UsageError or DeviceLimitError, and then the preset is not obeyed.
+struct PresetCandidates {
+  std::function<Renderer()> with_preset;
+  std::function<Renderer()> without;
+};
+
+/// Whichever may be shown: the one with the preset if over the views it comes as near to the other
+/// as was promised, or nothing was promised.
+CheckedRenderer checked_renderer(const PresetPromise& promise, const PresetCandidates& candidates);
 
 /// A renderer that obeys the scene's preset if it holds: over its views it comes as near to
 /// faithful pictures as it promised, or nothing was promised. One that misses its promise, that

@@ -26,7 +26,7 @@ class PublishedPipeline final : public Pipeline {
  public:
   PublishedPipeline(const gl::Capabilities& capabilities, const DeviceLimits& limits,
                     const TriangleSoup& soup, const RenderPlan& plan)
-      : face_count_(plan.faces.size()), geometry_(soup, plan.faces) {
+      : face_count_(plan.faces.size()), geometry_(prepare_geometry(soup, plan.faces)) {
     const auto& texture = std::get<LatticeTexture>(soup.appearance);
     upload_lookup_textures(texture, plan, limits);
     network_ = color_mlp_source(*texture.mlp, MlpWeights::uniforms);

@@ -9,20 +9,8 @@
 #include "runtime/resampled_pipeline.hpp"
 #include "runtime/targets.hpp"
 #include "soup/error.hpp"
-#include "soup/preset_data.hpp"
 
 namespace tureen {
-
-namespace {
-
-std::optional<PresetSoup> turn_knobs(const TriangleSoup& soup, const RenderOptions& options) {
-  const std::optional<RenderPreset>& preset = options.plan.preset;
-  if (!preset || options.plan.pipeline == PipelineKind::published || defect(*preset, soup))
-    return std::nullopt;  // make_plan refuses what makes no sense
-  return with_preset(soup, *preset, options.progress);
-}
-
-}  // namespace
 
 struct Renderer::State {
   RenderPlan plan;  // pipeline refers to it
@@ -56,13 +44,8 @@ DeviceLimits device_limits(const gl::Capabilities& capabilities) {
 
 namespace {
 
-std::unique_ptr<Pipeline> make_pipeline(const gl::Capabilities& capabilities,
-                                        const DeviceLimits& limits, const TriangleSoup& soup,
-                                        const RenderPlan& plan) {
-  std::unique_ptr<Pipeline> pipeline =
-      plan.pipeline == PipelineKind::published
-          ? make_published_pipeline(capabilities, limits, soup, plan)
-          : make_tureen_pipeline(capabilities, limits, soup, plan);
+std::unique_ptr<Pipeline> resampled(std::unique_ptr<Pipeline> pipeline, const RenderPlan& plan,
+                                    const gl::Capabilities& capabilities) {
   const PictureLimit limit{capabilities.api, capabilities.max_picture_side};
   if (plan.supersampling > 1)
     pipeline = make_supersampled(std::move(pipeline), plan.supersampling, limit);
@@ -75,28 +58,44 @@ std::unique_ptr<Pipeline> make_pipeline(const gl::Capabilities& capabilities,
 
 Renderer::Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
                    const RenderOptions& options) {
-  const std::optional<PresetSoup> turned = turn_knobs(soup, options);
-  const TriangleSoup& drawn = turned ? turned->soup : soup;
-  RenderPlan plan = make_plan(drawn, options.limits.value_or(device_limits(context.capabilities())),
-                              options.plan);
-  if (turned)
-    plan.sentences.insert(plan.sentences.begin() + 1, turned->sentences.begin(),
-                          turned->sentences.end());
-  *this = Renderer(context, drawn, origin, std::move(plan), options);
+  PlannedSoup planned = plan_soup(soup, device_limits(context.capabilities()), options);
+  *this = Renderer(context, planned.turned ? *planned.turned : soup, origin,
+                   std::move(planned.plan), options);
 }
 
 Renderer::Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
-                   RenderPlan plan, const RenderOptions& options)
-    : state_(std::make_unique<State>()) {
+                   RenderPlan plan, const RenderOptions& options) {
   const gl::Capabilities& capabilities = context.capabilities();
   const DeviceLimits limits = options.limits.value_or(device_limits(capabilities));
+  if (plan.pipeline == PipelineKind::tureen) {
+    *this = Renderer(context, prepare_soup(soup, origin, limits, std::move(plan)), options);
+    return;
+  }
+  state_ = std::make_unique<State>();
   state_->plan = std::move(plan);
   state_->bounds = bounds(soup);
   state_->origin = origin;
   state_->background = options.background;
   state_->max_side = capabilities.max_picture_side;
   gl::use_plain_pixel_transfer();
-  state_->pipeline = make_pipeline(capabilities, limits, soup, state_->plan);
+  state_->pipeline = resampled(make_published_pipeline(capabilities, limits, soup, state_->plan),
+                               state_->plan, capabilities);
+}
+
+Renderer::Renderer(const gl::Context& context, PreparedSoup prepared, const RenderOptions& options)
+    : state_(std::make_unique<State>()) {
+  const gl::Capabilities& capabilities = context.capabilities();
+  const DeviceLimits limits = options.limits.value_or(device_limits(capabilities));
+  state_->plan = std::move(prepared.plan);
+  state_->bounds = prepared.bounds;
+  state_->origin = prepared.origin;
+  state_->background = options.background;
+  state_->max_side = capabilities.max_picture_side;
+  gl::use_plain_pixel_transfer();
+  state_->pipeline =
+      resampled(make_tureen_pipeline(capabilities, limits, std::move(prepared.appearance),
+                                     prepared.geometry, state_->plan),
+                state_->plan, capabilities);
 }
 
 Renderer::~Renderer() = default;

@@ -10,16 +10,16 @@
 // clip control is left at GL's default.
 #pragma once
 
-#include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "runtime/gl/context.hpp"
 #include "runtime/plan.hpp"
+#include "runtime/prepared_soup.hpp"
+#include "runtime/render_options.hpp"
 #include "soup/camera.hpp"
 #include "soup/image.hpp"
 #include "soup/triangle_soup.hpp"
@@ -30,17 +30,6 @@ class Pipeline;
 namespace gl {
 class PassTimer;
 }
-
-struct RenderOptions {
-  PlanPreferences plan = {};
-  /// What pixels without a face become: display-referred colour, and alpha (0 for transparent).
-  glm::vec4 background{0.0f, 0.0f, 0.0f, 1.0f};
-  /// Pretend that the device can do no more than this (tests, forecasts).
-  std::optional<DeviceLimits> limits = {};
-  /// Called now and then with the fraction done, 0..1, while a preset changes the data, which takes
-  /// seconds where it bakes a network; may throw to abandon the renderer.
-  std::function<void(double)> progress = {};
-};
 
 DeviceLimits device_limits(const gl::Capabilities& capabilities);
 
@@ -55,6 +44,9 @@ class Renderer {
   /// options.plan has no say.
   Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin, RenderPlan plan,
            const RenderOptions& options = {});
+  /// Of what prepare_soup made for limits that the device has; the same pictures. Of the options
+  /// only the background has a say. Throws DeviceLimitError where the device refuses.
+  Renderer(const gl::Context& context, PreparedSoup prepared, const RenderOptions& options = {});
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "runtime/appearance_upload.hpp"
 #include "runtime/choose_shading_stage.hpp"
+#include "runtime/device_appearance.hpp"
 #include "runtime/fragment_store.hpp"
 #include "runtime/gl/program.hpp"
 #include "runtime/gl/timer_query.hpp"

@@ -15,9 +15,10 @@ TexelLayout TexelLayout::of(const DeviceLimits& limits) {
   return layout;
 }
 
-TexelStore::TexelStore(const TexelLayout& layout, const TexelFormat& format, std::uint64_t count,
-                       const std::string& what,
-                       const std::function<void(std::uint64_t, std::span<std::byte>)>& fill) {
+TexelStore::TexelStore(const TexelLayout& layout, const TexelSource& source) {
+  const TexelFormat& format = source.format;
+  const std::uint64_t count = source.count;
+  const std::string& what = source.what;
   if (count > layout.capacity())
     throw DeviceLimitError(what + ": " + std::to_string(count) + " texels, this device holds " +
                            std::to_string(layout.capacity()) + " in a texture of " +
@@ -61,7 +62,7 @@ TexelStore::TexelStore(const TexelLayout& layout, const TexelFormat& format, std
     const std::uint64_t first = row * width;
     const std::uint64_t texels = std::min(count_rows * width, count - std::min(first, count));
     const std::span<std::byte> bytes(block.data(), texels * format.bytes);
-    fill(first, bytes);
+    source.fill(first, bytes);
     std::fill(block.begin() + static_cast<std::ptrdiff_t>(bytes.size()), block.end(), std::byte{0});
     glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, static_cast<GLint>(row_in_layer),
                     static_cast<GLint>(layer), static_cast<GLsizei>(width),

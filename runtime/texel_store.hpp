@@ -8,6 +8,8 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "runtime/gl/objects.hpp"
 #include "runtime/plan.hpp"
@@ -50,26 +52,33 @@ inline constexpr TexelFormat rg32ui{GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 8
 inline constexpr TexelFormat rgba32ui{GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16};
 }  // namespace texel_formats
 
+/// What a store will hold, before there is a device for it.
+struct TexelSource {
+  TexelFormat format = texel_formats::rgba8;
+  std::uint64_t count = 0;
+  std::string what;  // names the contents, for people
+  /// Writes the texels from `first` on, out.size() / format.bytes of them; called with growing
+  /// `first`, so that contents larger than memory can hold twice need never be whole.
+  std::function<void(std::uint64_t first, std::span<std::byte> out)> fill;
+
+  /// Of values that the source keeps: format.bytes of them are a texel.
+  template <class T>
+  static TexelSource of(const TexelFormat& format, std::vector<T> values, std::string what) {
+    const std::uint64_t count = values.size() * sizeof(T) / format.bytes;
+    return {format, count, std::move(what),
+            [values = std::move(values), each = format.bytes](std::uint64_t first,
+                                                              std::span<std::byte> out) {
+              std::copy_n(std::as_bytes(std::span(values)).data() + first * each, out.size(),
+                          out.data());
+            }};
+  }
+};
+
 class TexelStore {
  public:
   TexelStore() = default;
-  /// `fill(first, out)` writes the texels from `first` on, out.size() / format.bytes of them; it is
-  /// called with growing `first`, so that a store larger than memory can hold twice can be made.
-  /// Throws DeviceLimitError with what would fit; `what` names the contents there.
-  TexelStore(const TexelLayout& layout, const TexelFormat& format, std::uint64_t count,
-             const std::string& what,
-             const std::function<void(std::uint64_t first, std::span<std::byte> out)>& fill);
-
-  /// From memory: values.size_bytes() / format.bytes texels.
-  template <class T>
-  static TexelStore from(const TexelLayout& layout, const TexelFormat& format,
-                         std::span<const T> values, const std::string& what) {
-    const auto bytes = std::as_bytes(values);
-    return TexelStore(layout, format, bytes.size() / format.bytes, what,
-                      [&](std::uint64_t first, std::span<std::byte> out) {
-                        std::copy_n(bytes.data() + first * format.bytes, out.size(), out.data());
-                      });
-  }
+  /// Throws DeviceLimitError with what would fit.
+  TexelStore(const TexelLayout& layout, const TexelSource& source);
 
   GLuint texture() const { return texture_.id(); }
   std::size_t device_bytes() const { return device_bytes_; }

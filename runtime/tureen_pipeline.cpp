@@ -1,13 +1,15 @@
 // Our frame: a geometry pass that stores the winning fragment of each pixel, its name or its
 // features, then a shading pass over the covered pixels; or colour at once.
 #include <optional>
+#include <utility>
 #include <vector>
 
-#include "runtime/appearance_upload.hpp"
 #include "runtime/coverage_target.hpp"
 #include "runtime/covered_faces.hpp"
+#include "runtime/device_appearance.hpp"
 #include "runtime/fragment_store.hpp"
 #include "runtime/geometry.hpp"
+#include "runtime/gl/draw.hpp"
 #include "runtime/gl/state.hpp"
 #include "runtime/pipeline.hpp"
 #include "runtime/shader_source.hpp"
@@ -21,14 +23,14 @@ namespace {
 class TureenPipeline final : public Pipeline {
  public:
   TureenPipeline(const gl::Capabilities& capabilities, const DeviceLimits& limits,
-                 const TriangleSoup& soup, const RenderPlan& plan)
+                 AppearanceSource appearance, const GeometrySource& geometry,
+                 const RenderPlan& plan)
       : plan_(plan),
-        api_(capabilities.api),
-        multi_draw_(capabilities.multi_draw),
-        appearance_(upload_appearance(soup, plan, TexelLayout::of(limits))),
-        geometry_(soup, plan.faces, plan.parts) {
+        device_(capabilities),
+        appearance_(std::move(appearance), TexelLayout::of(limits)),
+        geometry_(geometry) {
     if (plan.drops_faces_between_pixels) {
-      covered_.emplace(soup, plan.faces);
+      covered_.emplace(geometry);
       covered_vertices_ = gl::Buffer::create();
       glGetIntegerv(GL_SUBPIXEL_BITS, &subpixel_bits_);
     }
@@ -72,7 +74,7 @@ class TureenPipeline final : public Pipeline {
   void draw(const FrameCamera& frame, const glm::vec4& background) override {
     if (search_rests_ > 0) --search_rests_;
     gl::use_plain_rasterisation(width_, height_);
-    if (plan_.reversed_depth) gl::use_zero_to_one_depth(api_, true);
+    if (plan_.reversed_depth) gl::use_zero_to_one_depth(device_.api, true);
     if (plan_.site == ShadingSite::deferred) {
       draw_store(frame);
       shading_->draw({.camera = frame,
@@ -87,7 +89,7 @@ class TureenPipeline final : public Pipeline {
     } else {
       draw_forward(frame, background);
     }
-    if (plan_.reversed_depth) gl::use_zero_to_one_depth(api_, false);
+    if (plan_.reversed_depth) gl::use_zero_to_one_depth(device_.api, false);
     gl::check("draw");
   }
 
@@ -127,7 +129,7 @@ class TureenPipeline final : public Pipeline {
                                       {"network.glsl", appearance_.mlp.text}}};
     source.constants["ALPHA_TO_COVERAGE"] = plan_.coverage_samples > 0 ? "1" : "0";
     source.constants.insert(constants.begin(), constants.end());
-    return assemble(source, api_);
+    return assemble(source, device_.api);
   }
 
   ShadingSources shading_sources() const {
@@ -135,8 +137,9 @@ class TureenPipeline final : public Pipeline {
         {"NO_FACE", "0xffffffffu"},
         {"DEPTH_REJECTS_BACKGROUND", plan_.depth_rejects_background ? "1" : "0"},
         {"GROUP_SIDE", std::to_string(shading_group_side)}};
-    ShadingSources sources{
-        .vertex = assemble({.file = "full_screen.vert"}, api_), .fragment = {}, .compute = {}};
+    ShadingSources sources{.vertex = assemble({.file = "full_screen.vert"}, device_.api),
+                           .fragment = {},
+                           .compute = {}};
     if (plan_.shading_stage != ShadingStage::compute)
       sources.fragment =
           with_appearance(FragmentStore::shading_shader(plan_.feature_storage), constants);
@@ -214,14 +217,7 @@ class TureenPipeline final : public Pipeline {
       draw_covered(first, count);
       return;
     }
-#ifndef __EMSCRIPTEN__
-    if (multi_draw_) {
-      glMultiDrawArrays(GL_TRIANGLES, first.data(), count.data(),
-                        static_cast<GLsizei>(first.size()));
-      return;
-    }
-#endif
-    for (std::size_t i = 0; i < first.size(); ++i) glDrawArrays(GL_TRIANGLES, first[i], count[i]);
+    gl::draw_runs(device_, first, count);
   }
 
   /// Those of the runs' faces that may show.
@@ -240,8 +236,7 @@ class TureenPipeline final : public Pipeline {
   }
 
   const RenderPlan& plan_;
-  gl::Api api_;
-  bool multi_draw_;
+  gl::Capabilities device_;
   DeviceAppearance appearance_;
   Geometry geometry_;
   gl::Program opaque_, cut_out_;
@@ -266,9 +261,12 @@ class TureenPipeline final : public Pipeline {
 }  // namespace
 
 std::unique_ptr<Pipeline> make_tureen_pipeline(const gl::Capabilities& capabilities,
-                                               const DeviceLimits& limits, const TriangleSoup& soup,
+                                               const DeviceLimits& limits,
+                                               AppearanceSource appearance,
+                                               const GeometrySource& geometry,
                                                const RenderPlan& plan) {
-  return std::make_unique<TureenPipeline>(capabilities, limits, soup, plan);
+  return std::make_unique<TureenPipeline>(capabilities, limits, std::move(appearance), geometry,
+                                          plan);
 }
 
 }  // namespace tureen

@@ -9,6 +9,10 @@
 #include "runtime/gl/platform.hpp"
 #include "soup/error.hpp"
 
+#ifdef __EMSCRIPTEN__
+#include <emscripten/html5.h>
+#endif
+
 namespace tureen::gl {
 
 namespace {
@@ -58,7 +62,7 @@ std::vector<int> query_sample_counts() {
   return counts;
 }
 
-#ifndef NDEBUG
+#if !defined NDEBUG && !defined __EMSCRIPTEN__
 void GLAD_API_PTR report(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message,
                          const void*) {
   // Performance hints and notices are not ours to mend.
@@ -87,6 +91,37 @@ bool has_timer_queries(Api api) {
 #endif
 }
 
+bool has_clip_control(Api api, int version) {
+#ifdef __EMSCRIPTEN__
+  (void)api, (void)version;
+  return false;  // Emscripten 3.1 cannot reach EXT_clip_control
+#else
+  return api == Api::desktop ? glClipControl != nullptr && version >= 45
+                             : glClipControlEXT != nullptr;
+#endif
+}
+
+/// Many runs of vertices in one call.
+bool has_multi_draw(Api api) {
+#ifdef __EMSCRIPTEN__
+  (void)api;
+  return emscripten_webgl_enable_WEBGL_multi_draw(emscripten_webgl_get_current_context());
+#else
+  return api == Api::desktop;
+#endif
+}
+
+/// Browsers hide the device behind a name of their own; some tell it when asked for "unmasked".
+std::string renderer_name() {
+#ifdef __EMSCRIPTEN__
+  constexpr GLenum unmasked_renderer = 0x9246;
+  if (emscripten_webgl_enable_extension(emscripten_webgl_get_current_context(),
+                                        "WEBGL_debug_renderer_info"))
+    return text_of(unmasked_renderer);
+#endif
+  return text_of(GL_RENDERER);
+}
+
 bool has_compute_shaders(Api api, int version) {
 #ifdef __EMSCRIPTEN__
   (void)api, (void)version;
@@ -101,16 +136,15 @@ Capabilities query_capabilities(Api api) {
   result.api = api;
   result.major = integer_of(GL_MAJOR_VERSION);
   result.minor = integer_of(GL_MINOR_VERSION);
-  result.renderer = text_of(GL_RENDERER);
+  result.renderer = renderer_name();
   result.vendor = text_of(GL_VENDOR);
   result.version = text_of(GL_VERSION);
   const bool desktop = api == Api::desktop;
   const int version = 10 * result.major + result.minor;
   if (version < (desktop ? 33 : 30))
     throw ContextError("OpenGL " + result.version + " is too old: 3.3 core or ES 3.0 is needed");
-  result.clip_control =
-      desktop ? glClipControl != nullptr && version >= 45 : glClipControlEXT != nullptr;
-  result.multi_draw = desktop;
+  result.clip_control = has_clip_control(api, version);
+  result.multi_draw = has_multi_draw(api);
   result.timer_queries = has_timer_queries(api);
   result.software = contains(result.renderer, "llvmpipe") ||
                     contains(result.renderer, "softpipe") ||
@@ -138,6 +172,7 @@ void check(const char* where) {
 }
 #endif
 
+#ifndef __EMSCRIPTEN__
 Context Context::create(const ContextRequest& request) {
   std::string tried;
   const auto attempt = [&](auto create_platform, const char* name) -> std::unique_ptr<Platform> {
@@ -158,6 +193,8 @@ Context Context::create(const ContextRequest& request) {
   return Context(std::move(platform), request.api);
 }
 
+#endif
+
 Context Context::external(GetProcAddress get_proc_address, Api api) {
   return Context(std::make_unique<ExternalPlatform>(get_proc_address), api);
 }
@@ -166,7 +203,7 @@ Context::Context(std::unique_ptr<Platform> platform, Api api) : platform_(std::m
   capabilities_.api = api;
   make_current();
   capabilities_ = query_capabilities(api);
-#ifndef NDEBUG
+#if !defined NDEBUG && !defined __EMSCRIPTEN__
   if (glDebugMessageCallback) {
     glEnable(GL_DEBUG_OUTPUT);
     glDebugMessageCallback(report, nullptr);
@@ -180,10 +217,12 @@ Context::~Context() = default;
 
 void Context::make_current() {
   platform_->make_current();
+#ifndef __EMSCRIPTEN__
   // glad keeps one table of functions; another library's context needs its own in it.
   const auto load = reinterpret_cast<GLADloadfunc>(platform_->get_proc_address());
   const int loaded = capabilities_.api == Api::es ? gladLoadGLES2(load) : gladLoadGL(load);
   if (!loaded) throw ContextError("the context does not yield the OpenGL functions");
+#endif
 }
 
 Backend Context::backend() const { return platform_->backend(); }

@@ -45,7 +45,7 @@ struct Capabilities {
 class Context {
  public:
   /// Creates a context and makes it current. Throws ContextError with what was tried and what to
-  /// install.
+  /// install. Not in a browser, where a canvas has one: external().
   static Context create(const ContextRequest& request);
 
   using GetProcAddress = void* (*)(const char* name);

@@ -24,7 +24,7 @@ FrameCamera frame_of(const Camera& camera) { return {camera, camera.eye(), {0.01
 std::vector<bool> shown(const TriangleSoup& soup, const FrameCamera& frame) {
   std::vector<std::uint32_t> faces(soup.triangles.size()), vertices;
   std::iota(faces.begin(), faces.end(), 0u);
-  CoveredFaces covered(soup, faces);
+  CoveredFaces covered(prepare_geometry(soup, faces));
   EXPECT_TRUE(covered.begin_frame(frame, subpixel_bits));
   covered.append(0, std::int32_t(3 * faces.size()), vertices);
   std::vector<bool> result(faces.size());
@@ -115,7 +115,7 @@ TEST(CoveredFaces, AreThoseThatASearchFinds) {
 TEST(CoveredFaces, AreAllThereIsWhereFloatsKnowTooLittle) {
   const TriangleSoup soup = random_soup(1, {.faces = 10});
   const std::vector<std::uint32_t> faces{0, 1, 2};
-  CoveredFaces covered(soup, faces);
+  CoveredFaces covered(prepare_geometry(soup, faces));
   Random random(1);
   Camera camera = random_camera(random, 320, 240);
   EXPECT_TRUE(covered.begin_frame(frame_of(camera), subpixel_bits));

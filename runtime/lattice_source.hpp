@@ -7,24 +7,25 @@
 
 namespace tureen {
 
-struct LatticeStores {
-  TexelStore features0;  // f0..f3
-  TexelStore features1;  // f4..f6, 0
+struct LatticeSources {
+  TexelSource features0;  // f0..f3
+  TexelSource features1;  // f4..f6, 0
   /// Alpha at the four corners of each cell, so that an alpha test costs one read instead of three;
   /// docs/decisions/alpha-cells.md has the measurement.
-  TexelStore alpha_cells;
+  TexelSource alpha_cells;
   /// LatticeHarmonics' values of each texel, four to a texel of this store: 3 times
   /// band_groups(degree) of them, each group of three holding four RGB coefficients, the last ones
   /// of degree 1 unused.
-  TexelStore bands;
-  TexelStore patches;  // (first texel, level, first cell, 0) a slot
+  TexelSource bands;
+  TexelSource patches;  // (first texel, level, first cell, 0) a slot
 };
 
 constexpr int band_groups(int degree) { return degree; }
 
-/// Makes only the stores that the plan reads: features1 where the network sees it, alpha_cells with
-/// cut-outs, patches without a uniform level, bands with harmonics. Throws DeviceLimitError.
-LatticeStores upload_lattice(const LatticeTexture& texture, const RenderPlan& plan,
-                             const TexelLayout& layout);
+/// Only what the plan reads: features1 where the network sees it, alpha_cells with cut-outs,
+/// patches without a uniform level, bands with harmonics; the others have no `fill`. All of them
+/// read `texture`, which must outlive them. Throws DeviceLimitError.
+LatticeSources prepare_lattice(const LatticeTexture& texture, const RenderPlan& plan,
+                               const TexelLayout& layout);
 
 }  // namespace tureen

@@ -1,10 +1,11 @@
-#include "runtime/lattice_upload.hpp"
+#include "runtime/lattice_source.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <glm/vec4.hpp>
 #include <map>
+#include <memory>
 #include <utility>
 
 #include "runtime/texel_encoding.hpp"
@@ -26,8 +27,7 @@ struct Run {
 /// Where the texels and cells of each slot come from and go to.
 class Placement {
  public:
-  Placement(const LatticeTexture& texture, const RenderPlan& plan)
-      : texture_(texture), plan_(plan) {
+  Placement(const LatticeTexture& texture, const RenderPlan& plan) : texture_(texture) {
     // Without a uniform level and without levels of our own the texels stay as the soup has them,
     // and faces that share texels share their cells.
     repacked_ = plan.lattice.uniform_level >= 0 || !plan.lattice.levels.empty();
@@ -133,121 +133,118 @@ class Placement {
   }
 
   const LatticeTexture& texture_;
-  const RenderPlan& plan_;
   bool repacked_ = false;
   std::uint64_t texel_count_ = 0, cell_count_ = 0;
   std::vector<Run> texel_runs_, cell_runs_;
   std::vector<glm::uvec4> patches_;
 };
 
+using SharedPlacement = std::shared_ptr<const Placement>;
+
 /// Four channels a texel from `channel` on; those past the last feature are 0.
 template <class Value>
-TexelStore feature_store(const std::vector<Value>& values, const Placement& placement,
-                         const TexelLayout& layout, const TexelFormat& format, int channel) {
+TexelSource feature_source(const std::vector<Value>& values, const SharedPlacement& placement,
+                           const TexelFormat& format, int channel) {
   const auto copied = std::size_t(std::min(4, LatticeTexture::features - channel));
-  return TexelStore(
-      layout, format, placement.texel_count(), "lattice texels",
-      [&](std::uint64_t first, std::span<std::byte> out) {
-        std::fill(out.begin(), out.end(), std::byte{0});
-        placement.for_each_texel(
-            first, out.size() / format.bytes, [&](std::uint64_t i, std::uint64_t source) {
-              std::memcpy(&out[i * format.bytes],
-                          &values[source * LatticeTexture::channels + std::uint64_t(channel)],
-                          sizeof(Value) * copied);
-            });
-      });
+  const auto fill = [&values, placement, channel, copied, each = format.bytes](
+                        std::uint64_t first, std::span<std::byte> out) {
+    std::fill(out.begin(), out.end(), std::byte{0});
+    placement->for_each_texel(first, out.size() / each, [&](std::uint64_t i, std::uint64_t source) {
+      std::memcpy(&out[i * each],
+                  &values[source * LatticeTexture::channels + std::uint64_t(channel)],
+                  sizeof(Value) * copied);
+    });
+  };
+  return {format, placement->texel_count(), "lattice texels", fill};
 }
 
 template <class Value>
-TexelStore alpha_cell_store(const std::vector<Value>& values, const Placement& placement,
-                            const TexelLayout& layout, const TexelFormat& format) {
-  return TexelStore(
-      layout, format, placement.cells(), "lattice alpha",
-      [&](std::uint64_t first, std::span<std::byte> out) {
-        placement.for_each_cell(
-            first, out.size() / format.bytes,
-            [&](std::uint64_t i, const std::array<std::uint64_t, 4>& sources) {
-              Value corners[4];
-              for (std::size_t k = 0; k < 4; ++k)
-                corners[k] =
-                    values[sources[k] * LatticeTexture::channels + LatticeTexture::features];
-              std::memcpy(&out[i * format.bytes], corners, sizeof corners);
-            });
-      });
-}
-
-/// With other bits than the soup has: four values of a texel, or four alphas of a cell, each found
-/// by `value`.
-template <class Source, class ForEach, class ValuesOf>
-TexelStore encoded_store(const TexelLayout& layout, int bits, Alphas alphas, std::uint64_t count,
-                         const char* what, const ForEach& for_each, const ValuesOf& values_of) {
-  const TexelFormat format = rgba_format(bits);
-  return TexelStore(
-      layout, format, count, what, [&](std::uint64_t first, std::span<std::byte> out) {
-        for_each(first, out.size() / format.bytes, [&](std::uint64_t i, const Source& source) {
-          encode_texel(values_of(source), bits, alphas, &out[i * format.bytes]);
+TexelSource alpha_cell_source(const std::vector<Value>& values, const SharedPlacement& placement,
+                              const TexelFormat& format) {
+  const auto fill = [&values, placement, each = format.bytes](std::uint64_t first,
+                                                              std::span<std::byte> out) {
+    placement->for_each_cell(
+        first, out.size() / each,
+        [&](std::uint64_t i, const std::array<std::uint64_t, 4>& sources) {
+          Value corners[4];
+          for (std::size_t k = 0; k < 4; ++k)
+            corners[k] = values[sources[k] * LatticeTexture::channels + LatticeTexture::features];
+          std::memcpy(&out[i * each], corners, sizeof corners);
         });
-      });
-}
-
-TexelStore encoded_features(const LatticeTexture& texture, const Placement& placement,
-                            const TexelLayout& layout, int bits, int channel) {
-  return encoded_store<std::uint64_t>(
-      layout, bits, Alphas::none, placement.texel_count(), "lattice texels",
-      [&](auto... arguments) { placement.for_each_texel(arguments...); },
-      [&](std::uint64_t texel) {
-        std::array<float, 4> values{};
-        for (int c = 0; c < 4 && channel + c < LatticeTexture::features; ++c)
-          values[std::size_t(c)] = texture.value(texel, channel + c);
-        return values;
-      });
-}
-
-TexelStore encoded_alpha_cells(const LatticeTexture& texture, const Placement& placement,
-                               const TexelLayout& layout, int bits) {
-  using Corners = std::array<std::uint64_t, 4>;
-  return encoded_store<Corners>(
-      layout, bits, Alphas::all, placement.cells(), "lattice alpha",
-      [&](auto... arguments) { placement.for_each_cell(arguments...); },
-      [&](const Corners& corners) {
-        std::array<float, 4> values;
-        for (std::size_t k = 0; k < 4; ++k)
-          values[k] = texture.value(corners[k], LatticeTexture::features);
-        return values;
-      });
-}
-
-TexelStore band_store(const LatticeHarmonics& harmonics, const Placement& placement,
-                      const TexelLayout& layout, int bits) {
-  const auto own = std::uint64_t(harmonics.values_per_texel());
-  const auto parts = std::uint64_t(3 * band_groups(harmonics.degree));
-  const auto* bytes = std::get_if<std::vector<std::int8_t>>(&harmonics.coefficients);
-  const TexelFormat format = bytes ? texel_formats::rgba8_signed : rgba_format(std::max(bits, 16));
-  const auto write = [&](std::uint64_t texel, std::uint64_t part, std::byte* out) {
-    std::array<float, 4> values{};
-    for (std::uint64_t k = 0; k < 4 && 4 * part + k < own; ++k) {
-      const std::uint64_t index = texel * own + 4 * part + k;
-      if (bytes)
-        out[k] = std::byte((*bytes)[index]);
-      else
-        values[k] = float(harmonics.value(index));
-    }
-    if (!bytes) encode_texel(values, std::max(bits, 16), Alphas::none, out);
   };
-  return TexelStore(
-      layout, format, placement.texel_count() * parts, "baked harmonics",
-      [&](std::uint64_t first, std::span<std::byte> out) {
-        std::fill(out.begin(), out.end(), std::byte{0});
-        const std::uint64_t end = first + out.size() / format.bytes, first_texel = first / parts;
-        placement.for_each_texel(first_texel, (end + parts - 1) / parts - first_texel,
-                                 [&](std::uint64_t i, std::uint64_t source) {
-                                   for (std::uint64_t part = 0; part < parts; ++part) {
-                                     const std::uint64_t place = (first_texel + i) * parts + part;
-                                     if (place >= first && place < end)
-                                       write(source, part, &out[(place - first) * format.bytes]);
-                                   }
-                                 });
-      });
+  return {format, placement->cells(), "lattice alpha", fill};
+}
+
+// With other bits than the soup has.
+
+TexelSource encoded_features(const LatticeTexture& texture, const SharedPlacement& placement,
+                             int bits, int channel) {
+  const auto fill = [&texture, placement, bits, channel, each = rgba_format(bits).bytes](
+                        std::uint64_t first, std::span<std::byte> out) {
+    placement->for_each_texel(first, out.size() / each, [&](std::uint64_t i, std::uint64_t texel) {
+      std::array<float, 4> values{};
+      for (int c = 0; c < 4 && channel + c < LatticeTexture::features; ++c)
+        values[std::size_t(c)] = texture.value(texel, channel + c);
+      encode_texel(values, bits, Alphas::none, &out[i * each]);
+    });
+  };
+  return {rgba_format(bits), placement->texel_count(), "lattice texels", fill};
+}
+
+TexelSource encoded_alpha_cells(const LatticeTexture& texture, const SharedPlacement& placement,
+                                int bits) {
+  const auto fill = [&texture, placement, bits, each = rgba_format(bits).bytes](
+                        std::uint64_t first, std::span<std::byte> out) {
+    placement->for_each_cell(first, out.size() / each,
+                             [&](std::uint64_t i, const std::array<std::uint64_t, 4>& corners) {
+                               std::array<float, 4> values;
+                               for (std::size_t k = 0; k < 4; ++k)
+                                 values[k] = texture.value(corners[k], LatticeTexture::features);
+                               encode_texel(values, bits, Alphas::all, &out[i * each]);
+                             });
+  };
+  return {rgba_format(bits), placement->cells(), "lattice alpha", fill};
+}
+
+/// One texel of the soup in one texel of the store's: the `part`-th four of its values.
+void write_bands(const LatticeHarmonics& harmonics, int bits, std::uint64_t texel,
+                 std::uint64_t part, std::byte* out) {
+  const auto own = std::uint64_t(harmonics.values_per_texel());
+  const auto* bytes = std::get_if<std::vector<std::int8_t>>(&harmonics.coefficients);
+  std::array<float, 4> values{};
+  for (std::uint64_t k = 0; k < 4 && 4 * part + k < own; ++k) {
+    const std::uint64_t index = texel * own + 4 * part + k;
+    if (bytes)
+      out[k] = std::byte((*bytes)[index]);
+    else
+      values[k] = float(harmonics.value(index));
+  }
+  if (!bytes) encode_texel(values, bits, Alphas::none, out);
+}
+
+TexelSource band_source(const LatticeHarmonics& harmonics, const SharedPlacement& placement,
+                        int texel_bits) {
+  const int bits = std::max(texel_bits, 16);
+  const auto parts = std::uint64_t(3 * band_groups(harmonics.degree));
+  const TexelFormat format =
+      std::holds_alternative<std::vector<std::int8_t>>(harmonics.coefficients)
+          ? texel_formats::rgba8_signed
+          : rgba_format(bits);
+  const auto fill = [&harmonics, placement, bits, parts, each = format.bytes](
+                        std::uint64_t first, std::span<std::byte> out) {
+    std::fill(out.begin(), out.end(), std::byte{0});
+    const std::uint64_t end = first + out.size() / each, first_texel = first / parts;
+    placement->for_each_texel(first_texel, (end + parts - 1) / parts - first_texel,
+                              [&](std::uint64_t i, std::uint64_t source) {
+                                for (std::uint64_t part = 0; part < parts; ++part) {
+                                  const std::uint64_t place = (first_texel + i) * parts + part;
+                                  if (place >= first && place < end)
+                                    write_bands(harmonics, bits, source, part,
+                                                &out[(place - first) * each]);
+                                }
+                              });
+  };
+  return {format, placement->texel_count() * parts, "baked harmonics", fill};
 }
 
 void check_capacity(const Placement& placement, const RenderPlan& plan, const TexelLayout& layout) {
@@ -263,34 +260,36 @@ void check_capacity(const Placement& placement, const RenderPlan& plan, const Te
 
 }  // namespace
 
-LatticeStores upload_lattice(const LatticeTexture& texture, const RenderPlan& plan,
-                             const TexelLayout& layout) {
-  const Placement placement(texture, plan);
-  check_capacity(placement, plan, layout);
+LatticeSources prepare_lattice(const LatticeTexture& texture, const RenderPlan& plan,
+                               const TexelLayout& layout) {
+  const auto placement = std::make_shared<const Placement>(texture, plan);
+  check_capacity(*placement, plan, layout);
   const int bits = plan.lattice.texel_bits;
   const TexelFormat format = rgba_format(bits);
   const bool cut_outs = plan.opaque_count < plan.faces.size();
-  LatticeStores stores;
+  LatticeSources sources;
   if (bits == stored_texel_bits(texture, 32)) {
     std::visit(
         [&](const auto& values) {
-          stores.features0 = feature_store(values, placement, layout, format, 0);
+          sources.features0 = feature_source(values, placement, format, 0);
           if (plan.latent_features)
-            stores.features1 = feature_store(values, placement, layout, format, 4);
-          if (cut_outs) stores.alpha_cells = alpha_cell_store(values, placement, layout, format);
+            sources.features1 = feature_source(values, placement, format, 4);
+          if (cut_outs) sources.alpha_cells = alpha_cell_source(values, placement, format);
         },
         texture.texels);
   } else {
-    stores.features0 = encoded_features(texture, placement, layout, bits, 0);
-    if (plan.latent_features)
-      stores.features1 = encoded_features(texture, placement, layout, bits, 4);
-    if (cut_outs) stores.alpha_cells = encoded_alpha_cells(texture, placement, layout, bits);
+    sources.features0 = encoded_features(texture, placement, bits, 0);
+    if (plan.latent_features) sources.features1 = encoded_features(texture, placement, bits, 4);
+    if (cut_outs) sources.alpha_cells = encoded_alpha_cells(texture, placement, bits);
   }
-  if (texture.harmonics) stores.bands = band_store(*texture.harmonics, placement, layout, bits);
-  if (plan.lattice.uniform_level < 0)
-    stores.patches =
-        TexelStore::from(layout, texel_formats::rgba32ui, placement.patches(), "lattice patches");
-  return stores;
+  if (texture.harmonics) sources.bands = band_source(*texture.harmonics, placement, bits);
+  if (plan.lattice.uniform_level < 0) {
+    const auto patches = placement->patches();
+    sources.patches =
+        TexelSource::of(texel_formats::rgba32ui,
+                        std::vector<glm::uvec4>(patches.begin(), patches.end()), "lattice patches");
+  }
+  return sources;
 }
 
 }  // namespace tureen

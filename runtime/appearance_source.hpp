@@ -1,0 +1,34 @@
+// An appearance before there is a device: what its texel stores will hold, in slot order, and the
+// shader text that reads them. runtime/device_appearance.hpp puts it on a device.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "runtime/color_mlp_source.hpp"
+#include "runtime/plan.hpp"
+#include "runtime/texel_store.hpp"
+
+namespace tureen {
+
+struct AppearanceSource {
+  struct Sampler {
+    std::string name;  // of the uniform
+    TexelSource source;
+  };
+
+  /// Stands for #include "appearance.glsl": fragment_exists() and fragment_color().
+  std::string glsl;
+  /// What that text wants defined.
+  std::map<std::string, std::string> constants;
+  std::vector<Sampler> samplers;
+  ColorMlpSource mlp;  // its uniforms
+};
+
+/// The sources read the soup and the elements of plan.faces, which must outlive them where they
+/// are; the plan itself may be moved. Throws DeviceLimitError.
+AppearanceSource prepare_appearance(const TriangleSoup& soup, const RenderPlan& plan,
+                                    const TexelLayout& layout);
+
+}  // namespace tureen

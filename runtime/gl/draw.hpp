@@ -1,0 +1,15 @@
+// Many runs of vertices in one call, where the context has such a call.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "runtime/gl/context.hpp"
+
+namespace tureen::gl {
+
+/// Triangles from the bound vertex array: counts[i] vertices from first[i] on, run by run.
+void draw_runs(const Capabilities& capabilities, std::span<const std::int32_t> first,
+               std::span<const std::int32_t> counts);
+
+}  // namespace tureen::gl

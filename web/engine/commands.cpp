@@ -1,0 +1,87 @@
+#include "web/engine/commands.hpp"
+
+#include <emscripten.h>
+
+#include <new>
+
+#include "soup/error.hpp"
+
+namespace tureen::web {
+
+// clang-format off
+EM_JS(void, tureen_report_progress, (double fraction), {
+  if (Module.onProgress) Module.onProgress(fraction);
+})
+EM_JS(void, tureen_pull_block, (int blob, double offset, void* out, int size), {
+  HEAPU8.set(new Uint8Array(Module.blobs[blob], offset, size), out);
+})
+// clang-format on
+
+std::vector<std::byte>& buffer() {
+  static std::vector<std::byte> bytes;
+  return bytes;
+}
+
+void report_progress(double fraction) { tureen_report_progress(fraction); }
+
+void pull_block(std::size_t blob, std::uint64_t offset, std::span<std::byte> out) {
+  tureen_pull_block(int(blob), double(offset), out.data(), int(out.size()));
+}
+
+namespace {
+
+Commands all_commands() {
+  Commands commands = loader_commands();
+  commands.merge(viewer_commands());
+  return commands;
+}
+
+Json failure(const char* kind, const std::string& message) {
+  return {{"error", {{"kind", kind}, {"message", message}}}};
+}
+
+/// Every error becomes a value: an exception that reached JavaScript would be a number there.
+Json run(const std::string& name, const char* arguments) {
+  static const Commands commands = all_commands();
+  try {
+    return {{"result", commands.at(name)(Json::parse(arguments))}};
+  } catch (const InputError& error) {
+    return failure("input", error.what());
+  } catch (const UsageError& error) {
+    return failure("usage", error.what());
+  } catch (const Error& error) {
+    return failure("device", error.what());
+  } catch (const std::bad_alloc&) {
+    return failure("memory", "there is not enough memory for this scene in a page");
+  } catch (const std::exception& error) {
+    return failure("usage", name + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+extern "C" {
+
+/// {"result": ..} or {"error": {"kind", "message"}}; good until the next call.
+EMSCRIPTEN_KEEPALIVE const char* tureen_call(const char* name, const char* arguments) {
+  static std::string answer;
+  // Names in files need not be UTF-8.
+  answer = run(name, arguments).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return answer.c_str();
+}
+
+/// Makes buffer() so large and says where it lies; 0 where there is no memory. A negative size
+/// keeps it as it is.
+EMSCRIPTEN_KEEPALIVE void* tureen_buffer(int size) {
+  try {
+    if (size >= 0) buffer().resize(std::size_t(size));
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+  return buffer().data();
+}
+
+EMSCRIPTEN_KEEPALIVE int tureen_buffer_size() { return int(buffer().size()); }
+}
+
+}  // namespace tureen::web

@@ -1,0 +1,136 @@
+// Reads a scene and prepares it for a device that another instance has.
+#include <filesystem>
+#include <optional>
+
+#include "formats/scene_file.hpp"
+#include "runtime/inspection.hpp"
+#include "runtime/preset_check.hpp"
+#include "runtime/up_axis.hpp"
+#include "web/engine/commands.hpp"
+#include "web/engine/prepared_archive.hpp"
+
+namespace tureen::web {
+
+namespace {
+
+struct Loader {
+  std::optional<Scene> scene;
+  std::optional<PreparedSoup> prepared;  // reads the scene's soup
+
+  const TriangleSoup& soup() const { return std::get<TriangleSoup>(scene->primitives); }
+};
+
+Loader& loader() {
+  static Loader one;
+  return one;
+}
+
+Json looks_of(const TriangleSoup& soup) {
+  Json looks = Json::array();
+  for (const InspectionName& name : inspection_names()) {
+    const auto reason = why_not(name.what, soup);
+    looks.push_back({{"look", name.name},
+                     {"title", name.title},
+                     {"meaning", name.meaning},
+                     {"missing", reason ? Json(*reason) : Json()}});
+  }
+  return looks;
+}
+
+/// What the preset promises, for the instance that can look whether it holds.
+Json promise_of(const Scene& scene) {
+  if (!scene.preset || is_faithful(*scene.preset)) return nullptr;
+  Json views = Json::array();
+  for (const Camera& view : preset_views(scene)) views.push_back(to_json(view));
+  const PresetPromise promise = promise_of_preset(*scene.preset);
+  return {{"knobs", promise.knobs},
+          {"psnr_db", promise.psnr_db ? Json(*promise.psnr_db) : Json()},
+          {"views", views}};
+}
+
+Json describe(const Scene& scene) {
+  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  Subject subject = tureen::subject_of(scene);
+  const UpGuess up = guess_up(evidence_of(scene, subject));
+  subject.up = up.axis;
+  Json cameras = Json::array();
+  for (const Camera& camera : scene.cameras) cameras.push_back(to_json(camera));
+  return {{"name", scene.info.name},
+          {"source", scene.info.source},
+          {"notes", scene.info.notes},
+          {"triangles", soup.triangles.size()},
+          {"appearance", appearance_name(soup.appearance)},
+          {"cameras", cameras},
+          {"background", to_json(glm::dvec3(scene.info.background))},
+          {"subject", to_json(subject)},
+          {"up_reason", up.why},
+          {"looks", looks_of(soup)},
+          {"feature_count", feature_count(soup)},
+          {"promise", promise_of(scene)}};
+}
+
+Json take(Scene scene) {
+  loader().prepared.reset();
+  loader().scene = std::move(scene);
+  opaque_soup(*loader().scene);
+  return describe(*loader().scene);
+}
+
+/// {"folder", "path"}: any scene, in the file system of this instance; the path is relative to the
+/// folder, and so are those that errors name.
+Json read(const Json& arguments) {
+  std::filesystem::current_path(arguments.at("folder").get<std::string>());
+  ReadOptions options;
+  options.progress = report_progress;
+  return take(read_scene(arguments.at("path").get<std::string>(), options));
+}
+
+/// {"limits", "preset": whether the scene's is obeyed, "level"?: no lattice above it}. The head is
+/// then in the buffer.
+Json prepare(const Json& arguments) {
+  RenderOptions options;
+  options.progress = report_progress;
+  const Scene& scene = loader().scene.value();
+  if (arguments.at("preset").get<bool>()) options.plan.preset = scene.preset;
+  if (const auto level = arguments.find("level"); level != arguments.end()) {
+    RenderPreset preset = options.plan.preset.value_or(RenderPreset());
+    preset.lattice_level = level->get<int>();
+    options.plan.preset = preset;
+  }
+  PreparedSoup prepared =
+      prepare_soup(loader().soup(), scene.origin, limits_of(arguments.at("limits")), options);
+  loader().prepared = std::move(prepared);
+  buffer() = pack_head(*loader().prepared);
+  Json blobs = Json::array();
+  for (std::size_t i = 0; i < blob_count(*loader().prepared); ++i)
+    blobs.push_back(
+        {{"size", blob_size(*loader().prepared, i)}, {"grain", blob_grain(*loader().prepared, i)}});
+  return blobs;
+}
+
+/// {"blob", "offset", "size"}: the bytes are then in the buffer.
+Json read_block(const Json& arguments) {
+  buffer().resize(arguments.at("size").get<std::size_t>());
+  read_blob(loader().prepared.value(), arguments.at("blob"), arguments.at("offset"), buffer());
+  return nullptr;
+}
+
+/// The highest level of the scene's lattice, or null.
+Json lattice_level(const Json&) {
+  const auto* texture = std::get_if<LatticeTexture>(&loader().soup().appearance);
+  if (!texture) return nullptr;
+  std::uint32_t level = 0;
+  for (const LatticePatch& patch : texture->patches) level = std::max(level, patch.level);
+  return level;
+}
+
+}  // namespace
+
+Commands loader_commands() {
+  return {{"read", read},
+          {"prepare", prepare},
+          {"read_block", read_block},
+          {"lattice_level", lattice_level}};
+}
+
+}  // namespace tureen::web

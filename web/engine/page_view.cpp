@@ -1,0 +1,94 @@
+#include "web/engine/page_view.hpp"
+
+#include "runtime/gl/api.hpp"
+
+namespace tureen::web {
+
+PageView::PageView() : context_(gl::Context::external(nullptr, gl::Api::es)) {}
+
+PageView::Stage PageView::make_stage(Renderer renderer, ShownScene scene) const {
+  renderer.set_background(glm::vec4(background_, 1.0f));
+  CameraControls controls(scene.subject);
+  if (!scene.cameras.empty()) {
+    controls.set_first_view(scene.cameras.front());
+    controls.reset();
+    controls.arrive();
+  }
+  return {std::move(renderer), std::move(scene), controls};
+}
+
+void PageView::show_preview(Renderer renderer, ShownScene scene) {
+  preview_.emplace(make_stage(std::move(renderer), std::move(scene)));
+}
+
+void PageView::show(Renderer renderer, ShownScene scene) {
+  Stage stage = make_stage(std::move(renderer), std::move(scene));
+  if (preview_) stage.controls = preview_->controls;
+  drop_preview();
+  drop_scene();
+  stage_.emplace(std::move(stage));
+}
+
+void PageView::drop_scene() {
+  stage_.reset();
+  inspector_.reset();
+  look_ = Inspection::color;
+}
+
+void PageView::look(Inspection what, const FeatureChoice& features) {
+  if (what != Inspection::color) inspector_.value().show(what, features);
+  look_ = what;
+}
+
+void PageView::set_inspector(Inspector inspector) {
+  inspector_.emplace(std::move(inspector));
+  inspector_->set_background(glm::vec4(background_, 1.0f));
+}
+
+Legend PageView::legend() const { return looks_into() ? inspector_->legend() : Legend{}; }
+
+bool PageView::moving() const { return controls_.moving() || flight_.direction != glm::dvec3(0.0); }
+
+void PageView::set_background(glm::vec3 background) {
+  background_ = background;
+  for (std::optional<Stage>* stage : {&stage_, &preview_})
+    if (*stage) (*stage)->renderer.set_background(glm::vec4(background, 1.0f));
+  if (inspector_) inspector_->set_background(glm::vec4(background, 1.0f));
+}
+
+void PageView::draw(int width, int height, double seconds) {
+  controls().advance(seconds, flight_);
+  if (!shows_scene()) return clear_canvas(width, height);
+  draw_frame(controls().camera(width, height));
+  if (looks_into())
+    inspector_->blit_to(0);
+  else
+    current()->renderer.blit_to(0);
+}
+
+void PageView::draw_frame(const Camera& camera) {
+  if (looks_into())
+    inspector_->draw(camera);
+  else
+    current()->renderer.draw(camera);
+}
+
+void PageView::clear_canvas(int width, int height) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glViewport(0, 0, width, height);
+  glDisable(GL_SCISSOR_TEST);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glClearColor(background_.r, background_.g, background_.b, 1.0f);
+  glClear(GL_COLOR_BUFFER_BIT);
+}
+
+Image8 PageView::picture(int width, int height) {
+  return picture(controls().camera(width, height));
+}
+
+Image8 PageView::picture(const Camera& camera) {
+  draw_frame(camera);
+  return looks_into() ? inspector_->read_color() : current()->renderer.read_color();
+}
+
+}  // namespace tureen::web

@@ -1,0 +1,87 @@
+// What a canvas shows: a scene on the device, controls that move the view, and frames.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/camera_controls.hpp"
+#include "runtime/gl/context.hpp"
+#include "runtime/inspector.hpp"
+#include "runtime/renderer.hpp"
+#include "soup/image.hpp"
+
+namespace tureen::web {
+
+/// What is known of a scene beside what its renderer has.
+struct ShownScene {
+  Subject subject;
+  std::vector<Camera> cameras;
+};
+
+class PageView {
+ public:
+  /// The canvas's context must be current, now and in all calls.
+  PageView();
+
+  const gl::Capabilities& capabilities() const { return context_.capabilities(); }
+  const gl::Context& context() const { return context_; }
+
+  /// A preview is shown over the scene until it is dropped, or until the next scene, which goes on
+  /// with the preview's view.
+  void show_preview(Renderer renderer, ShownScene scene);
+  void drop_preview() { preview_.reset(); }
+  void show(Renderer renderer, ShownScene scene);
+  /// Gives back the device's memory of the scene, but not of the preview.
+  void drop_scene();
+  bool shows_scene() const { return stage_ || preview_; }
+  const Renderer& renderer() const { return current()->renderer; }
+
+  /// Throws UsageError with why_not()'s sentence.
+  void look(Inspection what, const FeatureChoice& features);
+  bool has_inspector() const { return inspector_.has_value(); }
+  void set_inspector(Inspector inspector);
+  Inspection shown_look() const { return look_; }
+  Legend legend() const;
+
+  /// Of what is shown; where nothing is, of nothing in particular.
+  CameraControls& controls() { return shows_scene() ? current()->controls : idle_; }
+  /// Flies on so, each frame, until it is told otherwise.
+  void fly(const Flight& flight) { flight_ = flight; }
+  bool moving();
+
+  void set_background(glm::vec3 background);
+  /// Asserts that there is a scene.
+  const ShownScene& scene() const { return current()->scene; }
+
+  /// Lets time pass, draws, and copies the picture to the canvas, whose drawing buffer has this
+  /// size.
+  void draw(int width, int height, double seconds);
+
+  /// What is shown, at any size that the device draws.
+  Image8 picture(int width, int height);
+  Image8 picture(const Camera& camera);
+
+ private:
+  struct Stage {
+    Renderer renderer;
+    ShownScene scene;
+    CameraControls controls;
+  };
+  Stage make_stage(Renderer renderer, ShownScene scene) const;
+  const Stage* current() const { return preview_ ? &*preview_ : stage_ ? &*stage_ : nullptr; }
+  Stage* current() { return preview_ ? &*preview_ : stage_ ? &*stage_ : nullptr; }
+  bool looks_into() const { return look_ != Inspection::color && !preview_; }
+  void draw_frame(const Camera& camera);
+  void clear_canvas(int width, int height) const;
+
+  gl::Context context_;
+  std::optional<Stage> stage_, preview_;
+  std::optional<Inspector> inspector_;  // of the stage
+  Inspection look_ = Inspection::color;
+  CameraControls idle_;
+  Flight flight_;
+  glm::vec3 background_{0.0f};
+};
+
+}  // namespace tureen::web

@@ -1,0 +1,65 @@
+#include "web/engine/values.hpp"
+
+namespace tureen::web {
+
+Json to_json(const glm::dvec3& value) { return {value.x, value.y, value.z}; }
+
+glm::dvec3 vector_of(const Json& value) {
+  return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>()};
+}
+
+Json to_json(const Camera& camera) {
+  Json matrix = Json::array();
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row) matrix.push_back(camera.view_from_world[column][row]);
+  return {{"name", camera.name}, {"width", camera.width},    {"height", camera.height},
+          {"fx", camera.fx},     {"fy", camera.fy},          {"cx", camera.cx},
+          {"cy", camera.cy},     {"view_from_world", matrix}};
+}
+
+Camera camera_of(const Json& value) {
+  Camera camera;
+  camera.name = value.at("name").get<std::string>();
+  camera.width = value.at("width").get<int>();
+  camera.height = value.at("height").get<int>();
+  camera.fx = value.at("fx").get<double>();
+  camera.fy = value.at("fy").get<double>();
+  camera.cx = value.at("cx").get<double>();
+  camera.cy = value.at("cy").get<double>();
+  for (int i = 0; i < 16; ++i)
+    camera.view_from_world[i / 4][i % 4] = value.at("view_from_world").at(std::size_t(i));
+  return camera;
+}
+
+Json to_json(const DeviceLimits& limits) {
+  return {{"max_texture_size", limits.max_texture_size},
+          {"max_array_layers", limits.max_array_layers},
+          {"clip_control", limits.clip_control},
+          {"half_float_targets", limits.half_float_targets},
+          {"sample_counts", limits.sample_counts},
+          {"compute_shaders", limits.compute_shaders},
+          {"software", limits.software}};
+}
+
+DeviceLimits limits_of(const Json& value) {
+  return {.max_texture_size = value.at("max_texture_size"),
+          .max_array_layers = value.at("max_array_layers"),
+          .clip_control = value.at("clip_control"),
+          .half_float_targets = value.at("half_float_targets"),
+          .sample_counts = value.at("sample_counts").get<std::vector<int>>(),
+          .compute_shaders = value.at("compute_shaders"),
+          .software = value.at("software")};
+}
+
+Json to_json(const Subject& subject) {
+  return {
+      {"low", to_json(subject.low)}, {"high", to_json(subject.high)}, {"up", to_json(subject.up)}};
+}
+
+Subject subject_of(const Json& value) {
+  return {.low = vector_of(value.at("low")),
+          .high = vector_of(value.at("high")),
+          .up = vector_of(value.at("up"))};
+}
+
+}  // namespace tureen::web

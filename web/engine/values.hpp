@@ -1,0 +1,28 @@
+// Between the page's JSON and our types. What is missing or of another type throws UsageError: only
+// our own script speaks here, so it is a sentence for its author.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
+
+#include "runtime/navigation.hpp"
+#include "runtime/plan.hpp"
+#include "soup/camera.hpp"
+
+namespace tureen::web {
+
+using Json = nlohmann::json;
+
+Json to_json(const glm::dvec3& value);
+glm::dvec3 vector_of(const Json& value);
+
+Json to_json(const Camera& camera);
+Camera camera_of(const Json& value);
+
+Json to_json(const DeviceLimits& limits);
+DeviceLimits limits_of(const Json& value);
+
+Json to_json(const Subject& subject);
+Subject subject_of(const Json& value);
+
+}  // namespace tureen::web

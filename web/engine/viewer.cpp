@@ -1,0 +1,273 @@
+// What the page asks of a PageView, command by command.
+#include <cstring>
+#include <filesystem>
+#include <memory>
+
+#include "formats/scene_file.hpp"
+#include "runtime/preset_check.hpp"
+#include "soup/error.hpp"
+#include "web/engine/commands.hpp"
+#include "web/engine/page_view.hpp"
+#include "web/engine/prepared_archive.hpp"
+
+namespace tureen::web {
+
+namespace {
+
+std::unique_ptr<PageView>& view_slot() {
+  static std::unique_ptr<PageView> one;
+  return one;
+}
+
+PageView& view() { return *view_slot(); }
+CameraControls& controls() { return view().controls(); }
+
+Json start(const Json&) {
+  view_slot() = std::make_unique<PageView>();
+  const gl::Capabilities& device = view().capabilities();
+  return {{"renderer", device.renderer},
+          {"limits", to_json(device_limits(device))},
+          {"max_picture_side", device.max_picture_side}};
+}
+
+// -- scenes -------------------------------------------------------------------------------------
+
+/// Heads that wait to be unpacked: with the preset, and without it where that must be compared.
+struct Heads {
+  std::vector<std::byte> faithful, quick;
+};
+Heads& heads() {
+  static Heads both;
+  return both;
+}
+
+/// {"preset"}: the buffer is a head; its blobs are in Module.blobs when it is shown.
+Json take_head(const Json& arguments) {
+  (arguments.at("preset").get<bool>() ? heads().quick : heads().faithful) = std::move(buffer());
+  buffer() = {};
+  return nullptr;
+}
+
+/// Blobs of the scene with the preset follow those of the one without.
+Renderer unpacked(const std::vector<std::byte>& head, std::size_t first_blob) {
+  const BlobReader read = [first_blob](std::size_t blob, std::uint64_t offset,
+                                       std::span<std::byte> out) {
+    pull_block(first_blob + blob, offset, out);
+  };
+  return Renderer(view().context(), unpack(head, read));
+}
+
+ShownScene scene_of(const Json& scene) {
+  ShownScene shown{.subject = subject_of(scene.at("subject")), .cameras = {}};
+  for (const Json& camera : scene.at("cameras")) shown.cameras.push_back(camera_of(camera));
+  return shown;
+}
+
+Json facts(const std::string& preset) {
+  return {{"plan", view().renderer().plan().sentences},
+          {"preset", preset},
+          {"device_bytes", view().renderer().device_bytes()}};
+}
+
+PresetPromise promise_of(const Json& promise) {
+  PresetPromise result{.knobs = promise.at("knobs").get<std::string>()};
+  if (!promise.at("psnr_db").is_null()) result.psnr_db = promise.at("psnr_db").get<double>();
+  for (const Json& view : promise.at("views")) result.views.push_back(camera_of(view));
+  return result;
+}
+
+/// {"scene": what "read" said, "role": "preview" or "scene", "quick_blobs"?: where the blobs with
+/// the preset begin}
+Json show(const Json& arguments) {
+  const Json& scene = arguments.at("scene");
+  const auto quick_blobs = arguments.find("quick_blobs");
+  const Heads taken = std::move(heads());
+  heads() = {};
+  const auto faithful = [&] { return unpacked(taken.faithful, 0); };
+  if (arguments.at("role") == "preview") {
+    view().show_preview(faithful(), scene_of(scene));
+    return facts("");
+  }
+  view().drop_scene();  // or both would have to fit
+  CheckedRenderer checked =
+      quick_blobs == arguments.end()
+          ? CheckedRenderer{faithful(), "", false}
+          : checked_renderer(promise_of(scene.at("promise")),
+                             {.with_preset = [&] { return unpacked(taken.quick, *quick_blobs); },
+                              .without = faithful});
+  view().show(std::move(checked.renderer), scene_of(scene));
+  return facts(checked.sentence);
+}
+
+Json clear(const Json&) {
+  view().drop_preview();
+  view().drop_scene();
+  return nullptr;
+}
+
+Json drop_preview(const Json&) {
+  view().drop_preview();
+  return nullptr;
+}
+
+// -- looking around -----------------------------------------------------------------------------
+
+Json moving() { return view().moving(); }
+
+Json pose() {
+  const Camera camera = controls().camera(1000, 1000);
+  const glm::dvec3 backward = camera.world_from_view_rotation()[2];
+  return {{"eye", to_json(camera.eye())},
+          {"target", to_json(camera.eye() - controls().distance() * backward)},
+          {"up", to_json(camera.world_from_view_rotation()[1])},
+          {"fov", controls().fov()}};
+}
+
+/// {"pose", "glide"}
+Json set_pose(const Json& arguments) {
+  const Json& pose = arguments.at("pose");
+  const glm::dvec3 eye = vector_of(pose.at("eye")), target = vector_of(pose.at("target"));
+  controls().adopt(
+      look_at(eye, target, vector_of(pose.at("up")), pose.at("fov").get<double>(), 1000, 1000));
+  controls().set_target_depth(glm::length(target - eye));
+  if (!arguments.at("glide").get<bool>()) controls().arrive();
+  return nullptr;
+}
+
+NamedView named_view(const std::string& name) {
+  for (const NamedView view : named_views) {
+    std::string known = name_of(view);
+    for (char& c : known) c = c == ' ' ? '-' : c;
+    if (known == name) return view;
+  }
+  throw UsageError("there is no view \"" + name + "\"");
+}
+
+Json show_camera(const Json& index) {
+  if (!view().shows_scene()) return nullptr;
+  const auto& cameras = view().scene().cameras;
+  if (index.get<std::size_t>() >= cameras.size())
+    throw UsageError("there is no camera " + index.dump());
+  controls().adopt(cameras[index.get<std::size_t>()]);
+  return nullptr;
+}
+
+Commands looking_around() {
+  // Most change the view and say whether it moves now.
+  const auto moves = [](auto move) {
+    return [move](const Json& a) {
+      move(a);
+      return moving();
+    };
+  };
+  return {
+      {"viewport", moves([](const Json& a) { controls().set_viewport(a[0], a[1]); })},
+      {"mode", moves([](const Json& a) {
+         controls().set_mode(a == "fly" ? NavigationMode::fly : NavigationMode::orbit);
+       })},
+      {"orbit", moves([](const Json& a) { controls().orbit(a[0], a[1]); })},
+      {"pan", moves([](const Json& a) { controls().pan(a[0], a[1]); })},
+      {"turn_head", moves([](const Json& a) { controls().look(a[0], a[1]); })},
+      {"dolly", moves([](const Json& a) {
+         if (a.size() == 1)
+           controls().dolly(a[0]);
+         else
+           controls().dolly(a[0], {a[1].get<double>(), a[2].get<double>()});
+       })},
+      {"scale_speed", moves([](const Json& a) { controls().scale_speed(a[0]); })},
+      {"fly",
+       moves([](const Json& a) { view().fly({.direction = vector_of(a[0]), .factor = a[1]}); })},
+      {"frame", moves([](const Json&) { controls().frame(); })},
+      {"home", moves([](const Json&) { controls().reset(); })},
+      {"named_view",
+       moves([](const Json& a) { controls().look_from(named_view(a.get<std::string>())); })},
+      {"camera", moves([](const Json& a) { show_camera(a); })},
+      {"up", moves([](const Json& a) { controls().set_up(vector_of(a)); })},
+      {"fov", moves([](const Json& a) { controls().set_fov(a); })},
+      {"gliding", moves([](const Json& a) {
+         controls().set_smoothing(a.get<bool>() ? CameraControls().smoothing() : 0.0);
+       })},
+      {"speed", [](const Json&) { return Json(controls().speed()); }},
+      {"arrive", moves([](const Json&) { controls().arrive(); })},
+      {"set_pose", moves([](const Json& a) { set_pose(a); })},
+      {"pose", [](const Json&) { return pose(); }},
+  };
+}
+
+// -- drawing ------------------------------------------------------------------------------------
+
+/// {"width", "height", "seconds"}; says whether another frame is wanted.
+Json draw(const Json& arguments) {
+  view().draw(arguments.at("width"), arguments.at("height"), arguments.at("seconds"));
+  return moving();
+}
+
+/// The picture's pixels, RGBA, row 0 on top, are then in the buffer.
+void keep_pixels(const Image8& image) {
+  buffer().resize(image.pixels.size() * sizeof image.pixels[0]);
+  std::memcpy(buffer().data(), image.pixels.data(), buffer().size());
+}
+
+/// {"width", "height"} of what is shown, or {"camera"}.
+Json picture(const Json& arguments) {
+  if (!view().shows_scene()) throw UsageError("there is no scene to make a picture of");
+  const auto camera = arguments.find("camera");
+  keep_pixels(camera != arguments.end()
+                  ? view().picture(camera_of(*camera))
+                  : view().picture(arguments.at("width"), arguments.at("height")));
+  return nullptr;
+}
+
+Json background(const Json& color) {
+  view().set_background(glm::vec3(vector_of(color)));
+  return nullptr;
+}
+
+/// {"folder", "path"}: the scene again, for looks that want more of it than the renderer has.
+Json open_inspector(const Json& arguments) {
+  std::filesystem::current_path(arguments.at("folder").get<std::string>());
+  ReadOptions options;
+  options.progress = report_progress;
+  Scene scene = read_scene(arguments.at("path").get<std::string>(), options);
+  opaque_soup(scene);
+  view().set_inspector(
+      Inspector(view().context(), std::get<TriangleSoup>(scene.primitives), scene.origin));
+  return nullptr;
+}
+
+/// {"look", "first"?, "count"?}
+Json look(const Json& arguments) {
+  const auto name = arguments.at("look").get<std::string>();
+  const auto what = inspection_named(name);
+  if (!what) throw UsageError("there is no look \"" + name + "\"");
+  view().look(*what, {.first = arguments.value("first", 0), .count = arguments.value("count", 3)});
+  return nullptr;
+}
+
+Json legend(const Json&) {
+  Json entries = Json::array();
+  for (const LegendEntry& entry : view().legend())
+    entries.push_back({{"color", to_json(glm::dvec3(entry.color) / 255.0)}, {"text", entry.text}});
+  return entries;
+}
+
+}  // namespace
+
+Commands viewer_commands() {
+  Commands commands = looking_around();
+  commands.insert({{"start", start},
+                   {"take_head", take_head},
+                   {"show", show},
+                   {"clear", clear},
+                   {"drop_preview", drop_preview},
+                   {"draw", draw},
+                   {"picture", picture},
+                   {"background", background},
+                   {"has_inspector", [](const Json&) { return Json(view().has_inspector()); }},
+                   {"open_inspector", open_inspector},
+                   {"look", look},
+                   {"legend", legend}});
+  return commands;
+}
+
+}  // namespace tureen::web

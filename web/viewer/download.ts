@@ -1,0 +1,56 @@
+// Bytes of an address as they arrive, in one growing piece of memory.
+
+import { ViewerError } from './types.js';
+
+/** A server need not say how much is to come; more is asked for as it comes. */
+const firstGuess = 1 << 20;
+
+export interface Arrival {
+  /** All that has come so far; a view that the next arrival may leave behind. */
+  readonly bytes: Uint8Array<ArrayBuffer>;
+  /** null where the server does not say. */
+  readonly total: number | null;
+}
+
+/** How many bytes are to come: what was packed for the way says nothing of what comes out of it. */
+function announced(response: Response): number | null {
+  const length = Number(response.headers.get('content-length'));
+  return length > 0 && !response.headers.get('content-encoding') ? length : null;
+}
+
+async function request(url: string): Promise<Response> {
+  let response;
+  try {
+    response = await fetch(url);
+  } catch {
+    throw new ViewerError(`${url} cannot be reached: there is no network, or the server does not let pages ` +
+                          'of other addresses read it (CORS).', 'network');
+  }
+  if (!response.ok)
+    throw new ViewerError(`${url} cannot be had: the server answers ${response.status} ${response.statusText}.`.replace(' .', '.'),
+                          'network');
+  return response;
+}
+
+/** Calls `arrived` with each piece that comes. Rejects with ViewerError. */
+export async function download(url: string, arrived: (arrival: Arrival) => void): Promise<Uint8Array<ArrayBuffer>> {
+  const response = await request(url);
+  const total = announced(response);
+  let memory = new Uint8Array(total ?? firstGuess), size = 0;
+  const reader = response.body!.getReader();
+  for (;;) {
+    const { done, value } = await reader.read().catch(() => {
+      throw new ViewerError(`${url} broke off after ${size.toLocaleString('en')} bytes.`, 'network');
+    });
+    if (done) break;
+    if (size + value.length > memory.length) {
+      const larger = new Uint8Array(Math.max(2 * memory.length, size + value.length));
+      larger.set(memory.subarray(0, size));
+      memory = larger;
+    }
+    memory.set(value, size);
+    size += value.length;
+    arrived({ bytes: memory.subarray(0, size), total });
+  }
+  return memory.subarray(0, size);
+}

@@ -1,0 +1,47 @@
+// What the page and the worker that loads a scene say to each other.
+
+import type { Parcel } from './engine.js';
+import type { LoadProgress, LookChoice, SceneFile, Vec3, ViewerError } from './types.js';
+
+export interface FilesToLoad {
+  readonly files: readonly SceneFile[];
+  readonly name: string;
+}
+
+export type SourceToLoad = { readonly url: string; readonly name: string } | FilesToLoad;
+
+/** A scene as the loader describes it: web/engine/loader.cpp. */
+export interface SceneDescription {
+  readonly name: string;
+  readonly source: string;
+  readonly notes: readonly string[];
+  readonly triangles: number;
+  readonly appearance: string;
+  readonly cameras: readonly { readonly name: string; readonly width: number; readonly height: number }[];
+  readonly background: Vec3;
+  readonly subject: { readonly low: Vec3; readonly high: Vec3; readonly up: Vec3 };
+  readonly up_reason: string;
+  readonly looks: readonly LookChoice[];
+  readonly feature_count: number;
+  readonly promise: { readonly knobs: string } | null;
+}
+
+/** With `quick` where the scene has a preset: then the page looks whether it may be shown. */
+export interface PreparedScene {
+  readonly description: SceneDescription;
+  readonly faithful: Parcel;
+  readonly quick: Parcel | null;
+  /** Set where it is a lower one than the scene's, for want of memory. */
+  readonly level: number | null;
+}
+
+export type ToLoader =
+  | { readonly kind: 'load'; readonly program: WebAssembly.Module; readonly source: SourceToLoad; readonly limits: unknown }
+  /** The device had no memory for it: prepare it with a lower lattice level. */
+  | { readonly kind: 'lower' };
+
+export type FromLoader =
+  | { readonly kind: 'progress'; readonly progress: LoadProgress }
+  | { readonly kind: 'preview'; readonly scene: PreparedScene }
+  | { readonly kind: 'scene'; readonly scene: PreparedScene }
+  | { readonly kind: 'error'; readonly error: { readonly kind: ViewerError['kind']; readonly message: string } };

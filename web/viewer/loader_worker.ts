@@ -1,0 +1,129 @@
+// Loads one scene, in a worker: fetches it, reads it, prepares what the device will hold, and hands
+// that over. All memory that this takes goes with the worker; so cancelling a load is ending it.
+
+import { download } from './download.js';
+import { Engine, type Parcel } from './engine.js';
+import type { FilesToLoad, FromLoader, PreparedScene, SceneDescription, SourceToLoad, ToLoader } from './loader_messages.js';
+import { Preview } from './preview.js';
+import { oneFile, openFiles, readWith, type OpenedFiles } from './scene_files.js';
+import { ViewerError, type LoadStage } from './types.js';
+
+/** At most so much of a blob is in the engine's memory at once. */
+const blockBytes = 1 << 20;
+/** How far the bar is when each stage begins: of files at hand, and of what must be fetched. */
+const starts: Record<'files' | 'url', Record<LoadStage, number>> = {
+  files: { download: 0, read: 0, prepare: 0.8, upload: 0.95 },
+  url: { download: 0, read: 0.6, prepare: 0.9, upload: 0.97 },
+};
+const order: readonly LoadStage[] = ['download', 'read', 'prepare', 'upload'];
+
+class Loader {
+  private description: SceneDescription | null = null;
+  private level: number | null = null;
+  private loaded = 0;
+  private total: number | null = null;
+  private told = { stage: '', permille: -1 };
+
+  constructor(private readonly engine: Engine, private readonly limits: unknown, private readonly from: 'files' | 'url') {}
+
+  async load(source: SourceToLoad): Promise<void> {
+    const files = 'url' in source ? await this.fetched(source.url, source.name) : await this.opened(source);
+    this.engine.onProgress = (fraction) => this.tell('read', fraction);
+    this.description = readWith<SceneDescription>(this.engine, 'read', files);
+    this.send();
+  }
+
+  /** A lattice level less than last time. */
+  lower(): void {
+    const level = this.level ?? this.engine.call<number | null>('lattice_level') ?? 0;
+    if (level === 0)
+      throw new ViewerError('This device has not enough memory for the scene, at no lattice level.', 'device');
+    this.level = level - 1;
+    this.send();
+  }
+
+  private async fetched(url: string, name: string): Promise<OpenedFiles> {
+    const preview = new Preview(this.engine, name);
+    const bytes = await download(url, ({ bytes: prefix, total }) => {
+      this.loaded = prefix.length;
+      this.total = total;
+      this.tell('download', total === null ? null : prefix.length / total);
+      if (prefix.length === total) return;  // a picture of the whole comes as soon
+      const description = preview.read(prefix);
+      if (description) post({ kind: 'preview', scene: this.prepared(description, false) });
+    });
+    return oneFile(name, bytes);
+  }
+
+  private async opened({ files, name }: FilesToLoad): Promise<OpenedFiles> {
+    this.loaded = this.total = files.reduce((sum, { data }) => sum + data.size, 0);
+    return openFiles(files, name);
+  }
+
+  private send(): void {
+    this.engine.onProgress = (fraction) => this.tell('prepare', fraction);
+    const scene = this.prepared(this.description!, this.description!.promise !== null);
+    this.tell('upload', 0);
+    post({ kind: 'scene', scene });
+  }
+
+  private prepared(description: SceneDescription, quick: boolean): PreparedScene {
+    return {
+      description, level: this.level,
+      faithful: this.packed(false),
+      quick: quick ? this.packed(true) : null,
+    };
+  }
+
+  /** The engine's memory grows while it prepares, so its buffer is looked at anew for each block. */
+  private packed(preset: boolean): Parcel {
+    const level = this.level === null ? {} : { level: this.level };
+    const blobs = this.engine.call<{ size: number; grain: number }[]>('prepare', { limits: this.limits, preset, ...level });
+    const head = this.engine.buffer().slice().buffer;
+    return { head, blobs: blobs.map(({ size, grain }, blob) => this.blob(blob, size, grain)) };
+  }
+
+  private blob(blob: number, size: number, grain: number): ArrayBuffer {
+    const bytes = new Uint8Array(size), block = Math.floor(blockBytes / grain) * grain;
+    for (let offset = 0; offset < size; offset += block) {
+      this.engine.call('read_block', { blob, offset, size: Math.min(block, size - offset) });
+      bytes.set(this.engine.buffer(), offset);
+    }
+    return bytes.buffer;
+  }
+
+  /** Progress comes more often than anybody looks. */
+  private tell(stage: LoadStage, part: number | null): void {
+    const begin = starts[this.from], next = order[order.indexOf(stage) + 1];
+    const fraction = part === null ? null : begin[stage] + part * ((next ? begin[next] : 1) - begin[stage]);
+    const permille = fraction === null ? Math.floor(this.loaded / 1e5) : Math.floor(1000 * fraction);
+    if (this.told.stage === stage && this.told.permille === permille) return;
+    this.told = { stage, permille };
+    post({ kind: 'progress', progress: { stage, fraction, loadedBytes: this.loaded, totalBytes: this.total } });
+  }
+}
+
+function post(message: FromLoader): void {
+  const transferred: Transferable[] = [];
+  if (message.kind === 'scene' || message.kind === 'preview')
+    for (const parcel of [message.scene.faithful, message.scene.quick])
+      if (parcel) transferred.push(parcel.head, ...parcel.blobs);
+  self.postMessage(message, { transfer: transferred });
+}
+
+let loader: Loader | null = null;
+
+async function obey(message: ToLoader): Promise<void> {
+  if (message.kind === 'lower') return loader!.lower();
+  const engine = await Engine.create(message.program);
+  loader = new Loader(engine, message.limits, 'url' in message.source ? 'url' : 'files');
+  await loader.load(message.source);
+}
+
+self.onmessage = ({ data }: MessageEvent<ToLoader>) => {
+  obey(data).catch((error: unknown) => {
+    const known = error instanceof ViewerError;
+    post({ kind: 'error', error: { kind: known ? error.kind : 'device',
+                                   message: known ? error.message : `The loader has failed: ${String(error)}` } });
+  });
+};

@@ -1,0 +1,47 @@
+// Files of a scene for an engine to read: one, or several as a folder.
+
+import type { Engine } from './engine.js';
+import type { SceneFile } from './types.js';
+
+/** Where the engine looks for files; errors name them relative to it. */
+const folder = '/scene';
+
+export interface OpenedFiles {
+  readonly bytes: ReadonlyMap<string, Uint8Array>;
+  /** What may be the scene, in this order: a folder of several files, or the one that names others. */
+  readonly paths: readonly [string, ...string[]];
+}
+
+export function oneFile(name: string, bytes: Uint8Array): OpenedFiles {
+  const path = name.replaceAll('/', ' ');
+  return { bytes: new Map([[path, bytes]]), paths: [path] };
+}
+
+export async function openFiles(files: readonly SceneFile[], name: string): Promise<OpenedFiles> {
+  const bytesOf = async ({ data }: SceneFile) => new Uint8Array(await data.arrayBuffer());
+  if (files.length === 1) return oneFile(files[0]!.path, await bytesOf(files[0]!));
+  const whole = name.replaceAll('/', ' '), bytes = new Map<string, Uint8Array>();
+  for (const file of files) bytes.set(`${whole}/${file.path}`, await bytesOf(file));
+  const alone = ['.gltf', '.obj', '.glb', '.off', '.ply']
+    .map((kind) => [...bytes.keys()].filter((path) => path.toLowerCase().endsWith(kind)))
+    .filter((fitting) => fitting.length === 1)
+    .map(([path]) => path!);
+  return { bytes, paths: [whole, ...alone.slice(0, 1)] };
+}
+
+/** Lets a command of the engine read them; they are gone from it afterwards. Throws ViewerError. */
+export function readWith<T>(engine: Engine, command: string, files: OpenedFiles): T {
+  engine.putFiles(folder, files.bytes);
+  const read = (path: string) => engine.call<T>(command, { folder, path });
+  try {
+    const [first, second] = files.paths;
+    if (second === undefined) return read(first);
+    try {
+      return read(first);
+    } catch {
+      return read(second);
+    }
+  } finally {
+    engine.removeFiles(folder, files.bytes.keys());
+  }
+}

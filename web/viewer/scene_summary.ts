@@ -1,0 +1,27 @@
+// What the page is told of a scene, from what the loader and the device said.
+
+import type { PreparedScene } from './loader_messages.js';
+import type { SceneSummary } from './types.js';
+
+/** What showing a scene has told: web/engine/viewer.cpp. */
+export interface ShownFacts {
+  readonly plan: readonly string[];
+  /** What became of the preset; empty where there is none. */
+  readonly preset: string;
+  readonly device_bytes: number;
+}
+
+export function sceneSummary({ description }: PreparedScene, facts: ShownFacts): SceneSummary {
+  const { name, source, notes, triangles, appearance, cameras, background, subject, looks } = description;
+  return {
+    name, source, triangles, appearance, background,
+    notes: facts.preset ? [...notes, facts.preset] : notes,
+    plan: facts.plan,
+    cameras: cameras.map(({ name, width, height }) => ({ name, width, height })),
+    up: subject.up,
+    upReason: description.up_reason,
+    lookChoices: looks,
+    featureCount: description.feature_count,
+    deviceBytes: facts.device_bytes,
+  };
+}

@@ -1,0 +1,24 @@
+// What Emscripten makes of web/engine: only what engine.ts uses of it.
+declare module 'tureen-engine' {
+  export interface TureenModule {
+    HEAPU8: Uint8Array;
+    blobs: readonly ArrayBuffer[];
+    ccall(name: string, result: 'string', kinds: readonly string[], given: readonly unknown[]): string;
+    ccall(name: string, result: 'number', kinds: readonly string[], given: readonly unknown[]): number;
+    FS: {
+      mkdirTree(path: string): void;
+      writeFile(path: string, bytes: Uint8Array, options: { canOwn: boolean }): void;
+      unlink(path: string): void;
+    };
+    GL: {
+      createContext(canvas: HTMLCanvasElement, attributes: Record<string, unknown>): number;
+      makeContextCurrent(context: number): boolean;
+    };
+  }
+  export interface TureenHooks {
+    instantiateWasm(imports: WebAssembly.Imports,
+                    done: (instance: WebAssembly.Instance, module: WebAssembly.Module) => void): object;
+    onProgress(fraction: number): void;
+  }
+  export default function createTureen(hooks: TureenHooks): Promise<TureenModule>;
+}

@@ -1,0 +1,345 @@
+// A viewer of a canvas: scenes that come from loaders, a view that controls move, and a frame
+// whenever something has changed.
+
+import { assetsAt, type Assets } from './assets.js';
+import { attachControls } from './controls.js';
+import { compile, Engine } from './engine.js';
+import { FrameTimes } from './frame_times.js';
+import type { PreparedScene } from './loader_messages.js';
+import { Loading } from './loading.js';
+import { ResolutionKeeper } from './resolution.js';
+import { download } from './download.js';
+import { oneFile, openFiles, readWith } from './scene_files.js';
+import { sceneSummary, type ShownFacts } from './scene_summary.js';
+import {
+  ViewerError, type FrameStats, type LegendEntry, type NamedView, type NavigationMode, type Resolution,
+  type SceneSource, type SceneSummary, type Vec3, type Viewer, type ViewerEvents, type ViewerOptions, type ViewPose,
+} from './types.js';
+
+/** Starts the engine on this canvas. Rejects with ViewerError. */
+export async function createViewer(canvas: HTMLCanvasElement, options: ViewerOptions = {}): Promise<Viewer> {
+  const { assets } = options;
+  const parts = typeof assets === 'object' ? assets : assetsAt(assets);
+  const viewer = new CanvasViewer(canvas, parts, await compile(parts));
+  await viewer.start();
+  if (options.background) viewer.background = options.background;
+  if (options.resolution) viewer.resolution = options.resolution;
+  if (options.controls !== false) viewer.detach = attachControls(canvas, viewer);
+  return viewer;
+}
+
+interface Device {
+  readonly renderer: string;
+  readonly limits: unknown;
+  readonly max_picture_side: number;
+}
+
+/** What has no other end than the viewer's. */
+type Listeners = { [E in keyof ViewerEvents]?: Set<(what: ViewerEvents[E]) => void> };
+
+class CanvasViewer implements Viewer {
+  detach: (() => void) | null = null;
+
+  private engine!: Engine;
+  private device!: Device;
+  private readonly listeners: Listeners = {};
+  private readonly times = new FrameTimes();
+  private readonly resolutionKeeper = new ResolutionKeeper();
+  private readonly observer: ResizeObserver;
+  private readonly ending = new AbortController();
+  private loading: Loading | null = null;
+  private source: SceneSource | null = null;
+  private shown: SceneSummary | null = null;
+  private previewed = false;
+  private look_ = { look: 'color', features: { first: 0, count: 3 } };
+  private navigation: NavigationMode = 'orbit';
+  private background_: Vec3 = [0, 0, 0];
+  private gliding_ = true;
+  private fov_ = 0;
+  private lost = false;
+  private frameAsked = 0;
+  private lastFrame: number | null = null;
+
+  constructor(readonly canvas: HTMLCanvasElement, private readonly assets: Assets,
+              private readonly program: WebAssembly.Module) {
+    this.observer = new ResizeObserver(() => this.ask());
+  }
+
+  async start(): Promise<void> {
+    await this.startEngine();
+    this.observer.observe(this.canvas);
+    const signal = this.ending.signal;
+    this.canvas.addEventListener('webglcontextlost', (event) => {
+      event.preventDefault();  // or it never comes back
+      this.lost = true;
+      this.loading?.cancel();
+      this.emit('context', 'lost');
+    }, { signal });
+    this.canvas.addEventListener('webglcontextrestored', () => void this.restore(), { signal });
+    document.addEventListener('visibilitychange', () => this.ask(), { signal });
+  }
+
+  private async startEngine(): Promise<void> {
+    const engine = await Engine.create(this.program);
+    engine.takeCanvas(this.canvas);
+    this.engine = engine;
+    this.device = engine.call<Device>('start');
+    this.lost = false;
+    engine.call('background', this.background_);
+    engine.call('gliding', this.gliding_);
+    engine.call('mode', this.navigation);
+    this.lay();
+  }
+
+  /** What the old context held is gone, and the old engine's memory with it. */
+  private async restore(): Promise<void> {
+    const view = this.shown ? this.getView() : null, source = this.source, look = this.look_;
+    try {
+      await this.startEngine();
+      this.shown = null;
+      if (source) {
+        await this.load(source);
+        if (view) this.setView(view);
+        if (look.look !== 'color') await this.show(look.look, look.features);
+      }
+      this.emit('context', 'restored');
+    } catch (error) {
+      this.emit('notice', error instanceof Error ? error.message : String(error));
+    }
+    this.ask();
+  }
+
+  // -- scenes -----------------------------------------------------------------------------------
+
+  get scene(): SceneSummary | null { return this.shown; }
+
+  async load(source: SceneSource, options: { readonly signal?: AbortSignal } = {}): Promise<SceneSummary> {
+    this.loading?.cancel();
+    this.previewed = false;
+    const loading = this.loading = new Loading(this.assets, {
+      progress: (progress) => this.emit('progress', progress),
+      preview: (scene) => this.showPreview(scene),
+      scene: (scene) => this.showScene(scene, source),
+    });
+    const cancel = () => loading.cancel();
+    options.signal?.addEventListener('abort', cancel);
+    try {
+      if (options.signal?.aborted) throw new ViewerError('Loading was cancelled.', 'cancelled');
+      await loading.run(this.program, source, this.device.limits);
+    } catch (error) {
+      if (this.previewed && this.loading === loading && !this.lost) this.engine.call('drop_preview');
+      throw error;
+    } finally {
+      options.signal?.removeEventListener('abort', cancel);
+      if (this.loading === loading) this.loading = null;
+      this.ask();
+    }
+    return this.shown!;
+  }
+
+  private showPreview(scene: PreparedScene): void {
+    this.unpack(scene, 'preview');
+    this.previewed = true;
+    this.emit('preview', { triangles: scene.description.triangles });
+  }
+
+  /** False where the device has no memory for it. */
+  private showScene(scene: PreparedScene, source: SceneSource): boolean {
+    let facts;
+    try {
+      facts = this.unpack(scene, 'scene');
+    } catch (error) {
+      if (error instanceof ViewerError && error.kind === 'device' && !this.lost) return false;
+      throw error;
+    }
+    this.source = source;
+    this.look_ = { ...this.look_, look: 'color' };
+    this.shown = sceneSummary(scene, facts);
+    this.emit('scene', this.shown);
+    if (scene.level !== null)
+      this.emit('notice', `This device has not enough memory for the whole scene: it is drawn with lattice level ${scene.level}.`);
+    return true;
+  }
+
+  private unpack(scene: PreparedScene, role: 'preview' | 'scene'): ShownFacts {
+    const { description, faithful, quick } = scene;
+    const take = (head: ArrayBuffer, preset: boolean) => {
+      this.engine.setBuffer(new Uint8Array(head));
+      this.engine.call('take_head', { preset });
+    };
+    take(faithful.head, false);
+    if (quick) take(quick.head, true);
+    this.engine.setBlobs([...faithful.blobs, ...(quick?.blobs ?? [])]);
+    if (role === 'preview' || !this.previewed) this.background = description.background;
+    try {
+      return this.engine.call<ShownFacts>('show', {
+        scene: description, role, ...(quick && { quick_blobs: faithful.blobs.length }),
+      });
+    } finally {
+      this.engine.setBlobs([]);
+      this.engine.call('gliding', this.gliding_);
+      this.engine.call('mode', this.navigation);
+      this.lay();
+      this.ask();
+    }
+  }
+
+  clear(): void {
+    this.loading?.cancel();
+    this.engine.call('clear');
+    this.source = this.shown = null;
+    this.emit('scene', null);
+    this.ask();
+  }
+
+  // -- events -----------------------------------------------------------------------------------
+
+  on<E extends keyof ViewerEvents>(event: E, listener: (what: ViewerEvents[E]) => void): () => void {
+    const those = (this.listeners[event] ??= new Set() as Listeners[E])!;
+    those.add(listener);
+    return () => those.delete(listener);
+  }
+
+  private emit<E extends keyof ViewerEvents>(event: E, what: ViewerEvents[E]): void {
+    this.listeners[event]?.forEach((listener) => listener(what));
+  }
+
+  // -- looking around ---------------------------------------------------------------------------
+
+  private move(name: string, given: unknown = null): void {
+    if (this.lost) return;
+    this.engine.call(name, given);
+    this.ask();
+  }
+
+  get mode(): NavigationMode { return this.navigation; }
+  set mode(mode: NavigationMode) { this.navigation = mode; this.move('mode', mode); }
+  orbit(dx: number, dy: number): void { this.move('orbit', [dx, dy]); }
+  pan(dx: number, dy: number): void { this.move('pan', [dx, dy]); }
+  look(dx: number, dy: number): void { this.move('turn_head', [dx, dy]); }
+  dolly(steps: number, pointer?: readonly [number, number]): void { this.move('dolly', [steps, ...(pointer ?? [])]); }
+  scaleSpeed(steps: number): void { this.move('scale_speed', [steps]); }
+  get speed(): number { return this.engine.call<number>('speed'); }
+  fly(direction: Vec3, factor: number): void { this.move('fly', [direction, factor]); }
+  focus(x: number, y: number): boolean {
+    const found = this.engine.call<boolean>('focus', [x, y]);
+    this.ask();
+    return found;
+  }
+  frame(): void { this.move('frame'); }
+  home(): void { this.move('home'); }
+  showNamedView(view: NamedView): void { this.move('named_view', view); }
+  showCamera(index: number): void { this.move('camera', index); }
+  setUp(axis: Vec3): void { this.move('up', axis); }
+  getView(): ViewPose { return this.engine.call<ViewPose>('pose'); }
+  setView(pose: ViewPose, options: { readonly glide?: boolean } = {}): void {
+    this.move('set_pose', { pose, glide: options.glide ?? false });
+  }
+  get fov(): number { return this.getView().fov; }
+  set fov(fov: number) { this.move('fov', fov); }
+  get gliding(): boolean { return this.gliding_; }
+  set gliding(gliding: boolean) { this.gliding_ = gliding; this.move('gliding', gliding); }
+
+  // -- drawing ----------------------------------------------------------------------------------
+
+  get background(): Vec3 { return this.background_; }
+  set background(color: Vec3) { this.background_ = color; this.move('background', color); }
+
+  get resolution(): Resolution { return this.resolutionKeeper.resolution; }
+  set resolution(resolution: Resolution) { this.resolutionKeeper.resolution = resolution; this.ask(); }
+
+  get shownLook(): string { return this.look_.look; }
+  get legend(): readonly LegendEntry[] { return this.engine.call<LegendEntry[]>('legend'); }
+
+  async show(look: string, features = { first: 0, count: 3 }): Promise<void> {
+    if (look !== 'color' && !this.engine.call<boolean>('has_inspector')) await this.openInspector();
+    this.engine.call('look', { look, ...features });
+    this.look_ = { look, features };
+    this.drawFrame(performance.now());
+  }
+
+  /** Reads the scene again: what a renderer holds is less than what there is to see. */
+  private async openInspector(): Promise<void> {
+    const source = this.source;
+    if (!source) throw new ViewerError('There is no scene to look into.', 'usage');
+    const name = this.shown!.name;
+    const files = 'url' in source ? oneFile(name, await download(new URL(source.url, document.baseURI).href, () => {}))
+                                  : await openFiles(source.files, source.name ?? name);
+    if (this.source !== source) throw new ViewerError('Another scene is shown by now.', 'cancelled');
+    readWith(this.engine, 'open_inspector', files);
+  }
+
+  get stats(): FrameStats {
+    const { width, height } = this.canvas;
+    return {
+      frameMs: this.times.percentile(50), p95Ms: this.times.percentile(95), submitMs: this.times.submitMs,
+      width, height, scale: this.resolutionKeeper.scale, wasmBytes: this.engine.memoryBytes, renderer: this.device.renderer,
+    };
+  }
+
+  draw(): void { this.drawFrame(performance.now()); }
+
+  /** The controls count in CSS pixels. */
+  private lay(): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    if (clientWidth > 0 && clientHeight > 0) this.engine.call('viewport', [clientWidth, clientHeight]);
+  }
+
+  /** A new size empties the canvas, so it comes with a frame. */
+  private fit(): void {
+    const scale = this.resolutionKeeper.scale * devicePixelRatio, most = this.device.max_picture_side;
+    const side = (css: number) => Math.min(Math.max(Math.round(css * scale), 1), most);
+    const width = side(this.canvas.clientWidth), height = side(this.canvas.clientHeight);
+    if (this.canvas.width === width && this.canvas.height === height) return;
+    this.canvas.width = width;
+    this.canvas.height = height;
+    this.lay();
+  }
+
+  private ask(): void {
+    if (this.frameAsked === 0 && !this.ending.signal.aborted)
+      this.frameAsked = requestAnimationFrame((now) => this.drawFrame(now));
+  }
+
+  private drawFrame(now: number): void {
+    cancelAnimationFrame(this.frameAsked);
+    this.frameAsked = 0;
+    if (this.lost || this.ending.signal.aborted) return;
+    this.fit();
+    const seconds = this.lastFrame === null ? 0 : Math.max(now - this.lastFrame, 0) / 1000;
+    const before = performance.now();
+    const goesOn = this.engine.call<boolean>('draw', { width: this.canvas.width, height: this.canvas.height, seconds });
+    this.times.add(now, performance.now() - before);
+    if (this.lastFrame !== null) this.resolutionKeeper.add(now - this.lastFrame);
+    this.emit('frame', this.stats);
+    if (goesOn) {
+      this.lastFrame = now;
+      this.ask();
+    } else {
+      const moved = this.lastFrame !== null;
+      this.lastFrame = null;
+      this.times.stop();
+      if (moved && this.shown) this.emit('view', this.getView());
+    }
+  }
+
+  async screenshot(size?: { readonly width: number; readonly height: number }): Promise<Blob> {
+    this.fit();
+    const { width, height } = size ?? this.canvas;
+    this.engine.call('picture', { width, height });
+    const pixels = new Uint8ClampedArray(this.engine.buffer());
+    this.ask();
+    const canvas = new OffscreenCanvas(width, height);
+    canvas.getContext('2d')!.putImageData(new ImageData(pixels, width, height), 0, 0);
+    return canvas.convertToBlob({ type: 'image/png' });
+  }
+
+  dispose(): void {
+    this.ending.abort();
+    this.detach?.();
+    this.observer.disconnect();
+    this.loading?.cancel();
+    cancelAnimationFrame(this.frameAsked);
+    if (!this.lost) this.engine.call('clear');
+  }
+}
