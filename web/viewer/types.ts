@@ -4,6 +4,8 @@
 // Lengths on the screen are CSS pixels from the canvas's top left corner; angles are radians;
 // colours are display-referred, 0..1; world coordinates are the scene's own.
 
+import type { Assets } from './assets.js';
+
 export type Vec3 = readonly [number, number, number];
 
 /** One file of a scene; `path` is relative to the scene's folder: "mesh.ply", "textures/a.png". */
@@ -42,6 +44,8 @@ export interface SceneSummary {
   /** Why this axis is up: a sentence. */
   readonly upReason: string;
   readonly lookChoices: readonly LookChoice[];
+  /** What the look "features" can choose among; 0 where it has none. */
+  readonly featureCount: number;
   /** Bytes of its buffers and textures on the device. */
   readonly deviceBytes: number;
 }
@@ -164,6 +168,10 @@ export interface Viewer {
   dolly(steps: number, pointer?: readonly [number, number]): void;
   /** The speed of flying, each step 1.2 times. */
   scaleSpeed(steps: number): void;
+  /** World units a second, of fly with factor 1. */
+  readonly speed: number;
+  /** Whether views glide to where they are asked to be; false for who asks for reduced motion. */
+  gliding: boolean;
   /** Flies on until it is told otherwise: in the camera's axes (x right, y up, -z forward). */
   fly(direction: Vec3, factor: number): void;
   /** Brings the point under the pointer to the centre. False where there is only background. */
@@ -198,8 +206,9 @@ export interface Viewer {
 }
 
 export interface ViewerOptions {
-  /** Where tureen.wasm and the loader's worker lie; beside the script where it is not given. */
-  readonly assets?: string;
+  /** Where tureen.wasm and the loader's worker lie; beside the script where it is not given. Or how
+   *  to get them. */
+  readonly assets?: string | Assets;
   /** Whether pointers, wheel and keys on the canvas move the view; true. */
   readonly controls?: boolean;
   readonly background?: Vec3;
