@@ -1,0 +1,157 @@
+// Builds everything that the browser room gives away, from TypeScript and an engine that Emscripten made:
+//
+//   node build.mjs --engine DIR --out DIR
+//
+// DIR of the engine holds tureen.js (an ES module that makes engines) and tureen.wasm. Out comes
+//   site/                 a static site: the page, its worker and engine, gallery, examples
+//   scene_template.html   the page in one file, with an empty place that `tureen convert` fills
+//   npm/                  a package: createViewer as an ES module with its types
+// and a table of sizes. Fails where what a browser has to fetch is larger than the limit.
+
+import { execFileSync } from 'node:child_process';
+import { createHash } from 'node:crypto';
+import { cpSync, existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { dirname, join, resolve } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { parseArgs } from 'node:util';
+import { brotliCompressSync, gzipSync } from 'node:zlib';
+import { build } from 'esbuild';
+
+/** Of engine and scripts together, compressed: a promise of the project. */
+const mostBytes = 400_000;
+/** Where `tureen convert` puts a scene; html_scene of the program looks for exactly this. */
+const emptyScene = '<script type="application/octet-stream;base64" id="scene" data-name=""></script>';
+/** The site's pages beside the examples: HTML and the script that it loads, which is called alike. */
+const pages = [{ html: 'page/index.html', script: 'page/page.ts' }];
+
+const here = dirname(fileURLToPath(import.meta.url));
+const root = dirname(here);
+const from = (path) => join(here, path);
+const text = (path) => readFileSync(path, 'utf8');
+
+class Failure extends Error {}
+const fail = (sentence) => { throw new Failure(sentence); };
+
+function options() {
+  const { values } = parseArgs({ options: { engine: { type: 'string' }, out: { type: 'string' } } });
+  if (!values.engine || !values.out) fail('usage: node build.mjs --engine DIR --out DIR');
+  const engine = resolve(values.engine), out = resolve(values.out);
+  for (const name of ['tureen.js', 'tureen.wasm'])
+    if (!existsSync(join(engine, name))) fail(`${join(engine, name)} is missing: build the engine first.`);
+  return { engine, out };
+}
+
+/** One script with all that it imports. What it has to be is said in `how`, as esbuild's options. */
+async function bundle(entry, engine, how) {
+  const result = await build({
+    entryPoints: [from(entry)], bundle: true, write: false, minify: true, platform: 'browser', target: 'es2022',
+    legalComments: 'none', alias: { 'tureen-engine': join(engine, 'tureen.js') }, logLevel: 'warning', ...how,
+  });
+  return result.outputFiles[0].text;
+}
+
+/** Replaces what stands exactly once. */
+function replaceOnce(whole, part, by) {
+  const pieces = whole.split(part);
+  if (pieces.length !== 2) fail(`“${part.slice(0, 60)}” should stand once in the page, not ${pieces.length - 1} times.`);
+  return pieces.join(by);
+}
+
+function write(folder, name, content) {
+  mkdirSync(dirname(join(folder, name)), { recursive: true });
+  writeFileSync(join(folder, name), content);
+}
+
+/** models.json with the sizes of the files that lie beside it. */
+function gallery(folder) {
+  const models = JSON.parse(text(from('page/models.json')));
+  return JSON.stringify(models.map((model) => ({ ...model, bytes: statSync(join(folder, model.url)).size })), null, 2) + '\n';
+}
+
+async function makeSite(folder, engine, parts) {
+  for (const { html, script } of pages) {
+    const name = script.replace(/.*\//, '').replace('.ts', '.js');
+    cpSync(from(html), join(folder, html.replace(/.*\//, '')));
+    write(folder, name, await bundle(script, engine, { format: 'esm' }));
+  }
+  write(folder, 'style.css', parts.style);
+  write(folder, 'viewer.js', parts.viewer);
+  write(folder, 'loader_worker.js', parts.worker);
+  cpSync(join(engine, 'tureen.wasm'), join(folder, 'tureen.wasm'));
+  cpSync(from('examples'), join(folder, 'examples'), { recursive: true });
+  cpSync(join(root, 'examples/soup.glb'), join(folder, 'soup.glb'));
+  cpSync(join(root, 'docs/images/example.png'), join(folder, 'soup.png'));
+  write(folder, 'models.json', gallery(folder));
+}
+
+/** The page with everything in it. A file has no address that import.meta.url could tell. */
+async function makeTemplate(engine, parts) {
+  const inFile = { format: 'iife', define: { 'import.meta.url': 'self.location.href' } };
+  const script = await bundle('page/single_file.ts', engine, inFile);
+  const worker = await bundle('viewer/loader_worker.ts', engine, inFile);
+  if (/<\/script|<!--/i.test(script)) fail('The script of the single file has what ends a script in HTML.');
+  const part = (id, bytes) =>
+    `<script type="application/octet-stream;base64" id="${id}">${Buffer.from(bytes).toString('base64')}</script>\n`;
+  const hash = createHash('sha256').update(script).digest('base64');
+  const parts64 = part('engine', readFileSync(join(engine, 'tureen.wasm'))) + part('worker', worker);
+
+  let page = text(from('page/index.html'));
+  page = replaceOnce(page, '<link rel="stylesheet" href="style.css">', `<style>\n${parts.style}</style>`);
+  page = replaceOnce(page, '<script type="module" src="page.js"></script>\n', '');
+  page = replaceOnce(page, "script-src 'self' 'wasm-unsafe-eval'; style-src 'self'",
+                     `script-src 'sha256-${hash}' 'wasm-unsafe-eval' blob:; style-src 'unsafe-inline'`);
+  page = replaceOnce(page, '</body>', `${emptyScene}\n${parts64}<script>${script}</script>\n</body>`);
+  replaceOnce(page, emptyScene, '');  // it has to be there once
+  return page;
+}
+
+function makePackage(folder, engine, parts) {
+  const version = /project\(tureen VERSION ([\d.]+)/.exec(text(join(root, 'CMakeLists.txt')))?.[1];
+  if (!version) fail('The version is not where CMakeLists.txt had it.');
+  const { name, ...rest } = JSON.parse(text(from('package/package.json')));
+  write(folder, 'package.json', JSON.stringify({ name, version, ...rest }, null, 2) + '\n');
+  write(folder, 'viewer.js', parts.viewer);
+  write(folder, 'loader_worker.js', parts.worker);
+  cpSync(join(engine, 'tureen.wasm'), join(folder, 'tureen.wasm'));
+  cpSync(from('package/README.md'), join(folder, 'README.md'));
+  cpSync(join(root, 'LICENSE'), join(folder, 'LICENSE'));
+  execFileSync(process.execPath, [from('node_modules/typescript/bin/tsc'), '-p', from('package'), '--outDir', join(folder, 'types')],
+               { stdio: 'inherit' });
+}
+
+/** Prints the sizes of what a browser fetches before the first scene. */
+function weigh(site) {
+  const totals = [0, 0, 0];
+  const row = (name, sizes) => console.log(name.padEnd(18) + sizes.map((size) => size.toLocaleString('en').padStart(12)).join(''));
+  console.log(' '.repeat(18) + ['bytes', 'gzip', 'brotli'].map((name) => name.padStart(12)).join(''));
+  for (const name of ['page.js', 'loader_worker.js', 'tureen.wasm']) {
+    const bytes = readFileSync(join(site, name));
+    const sizes = [bytes.length, gzipSync(bytes, { level: 9 }).length, brotliCompressSync(bytes).length];
+    row(name, sizes);
+    sizes.forEach((size, i) => { totals[i] += size; });
+  }
+  row('together', totals);
+  if (totals[2] > mostBytes)
+    fail(`Engine and scripts are ${totals[2].toLocaleString('en')} bytes by brotli; the limit is ${mostBytes.toLocaleString('en')}.`);
+}
+
+async function main() {
+  const { engine, out } = options();
+  const site = join(out, 'site'), npm = join(out, 'npm');
+  const style = await build({ entryPoints: [from('page/style.css')], bundle: true, write: false, minify: true });
+  const parts = {
+    style: style.outputFiles[0].text,
+    viewer: await bundle('package/index.ts', engine, { format: 'esm' }),
+    worker: await bundle('viewer/loader_worker.ts', engine, { format: 'esm' }),
+  };
+  for (const folder of [site, npm]) rmSync(folder, { recursive: true, force: true });
+  await makeSite(site, engine, parts);
+  write(out, 'scene_template.html', await makeTemplate(engine, parts));
+  makePackage(npm, engine, parts);
+  weigh(site);
+}
+
+main().catch((error) => {
+  console.error(error instanceof Failure ? error.message : error);
+  process.exitCode = 1;
+});

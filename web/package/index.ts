@@ -1,0 +1,7 @@
+// What the package tureen-viewer exports.
+
+export { createViewer } from '../viewer/viewer.js';
+export { attachControls } from '../viewer/controls.js';
+export { namedViews, ViewerError } from '../viewer/types.js';
+export type { Assets } from '../viewer/assets.js';
+export type * from '../viewer/types.js';

@@ -1,0 +1,62 @@
+// The part of a link after '#': a camera and a look, in numbers that can be read and typed.
+//
+//   #eye=4.269,-5.968,3.39&target=0,0,0.7&up=0,0,1&fov=35&look=depth
+//
+// Lengths are the scene's units; `fov` (the vertical angle) and `roll` (left out when 0) are degrees,
+// as `tureen render --eye --target --fov` takes them.
+
+import type { Vec3, ViewPose } from '../viewer/types.js';
+import { degreesPerRadian, plainNumber } from './numbers.js';
+
+export interface LinkedView {
+  readonly pose: ViewPose | null;
+  /** Null for the final colours. */
+  readonly look: string | null;
+  /** Why the camera could not be read, in a sentence; null where it could or there is none. */
+  readonly defect: string | null;
+}
+
+/** As many decimals as keep the eye still to a hundred-thousandth of its distance. */
+function decimalsFor(pose: ViewPose): number {
+  const distance = Math.hypot(...pose.eye.map((value, axis) => value - pose.target[axis]!));
+  return distance > 0 ? Math.ceil(5 - Math.log10(distance)) : 6;
+}
+
+export function writeFragment(pose: ViewPose | null, look: string | null): string {
+  const parts: string[] = [];
+  if (pose) {
+    const decimals = decimalsFor(pose);
+    const list = (vector: Vec3, digits: number) => vector.map((value) => plainNumber(value, digits)).join(',');
+    parts.push(`eye=${list(pose.eye, decimals)}`, `target=${list(pose.target, decimals)}`, `up=${list(pose.up, 6)}`,
+               `fov=${plainNumber(pose.fov * degreesPerRadian, 4)}`);
+    const roll = plainNumber(pose.roll * degreesPerRadian, 4);
+    if (roll !== '0') parts.push(`roll=${roll}`);
+  }
+  if (look && look !== 'color') parts.push(`look=${encodeURIComponent(look)}`);
+  return parts.length ? '#' + parts.join('&') : '';
+}
+
+function readVector(text: string | null): Vec3 | null {
+  const parts = (text ?? '').split(',');
+  const values = parts.map((part) => (part.trim() === '' ? NaN : Number(part)));
+  return values.length === 3 && values.every(Number.isFinite) ? [values[0]!, values[1]!, values[2]!] : null;
+}
+
+export function readFragment(fragment: string): LinkedView {
+  const parts = new URLSearchParams(fragment.replace(/^#/, ''));
+  const look = parts.get('look') || null;
+  if (!parts.has('eye') && !parts.has('target')) return { pose: null, look, defect: null };
+
+  const without = (defect: string): LinkedView => ({ pose: null, look, defect });
+  const eye = readVector(parts.get('eye')), target = readVector(parts.get('target'));
+  if (!eye || !target)
+    return without('The link\'s camera needs eye and target, three numbers each: #eye=4,-6,3&target=0,0,0.');
+  if (eye.every((value, axis) => value === target[axis]))
+    return without('The link\'s camera has its eye where its target is.');
+  const up = parts.has('up') ? readVector(parts.get('up')) : ([0, 1, 0] as const);
+  if (!up || up.every((value) => value === 0)) return without('The link\'s camera has no direction that is up.');
+  const fov = Number(parts.get('fov') ?? 40), roll = Number(parts.get('roll') ?? 0);
+  if (!(fov > 0 && fov < 180)) return without('The link\'s angle, fov, is not between 0 and 180 degrees.');
+  if (!Number.isFinite(roll)) return without('The link\'s roll is no number of degrees.');
+  return { pose: { eye, target, up, fov: fov / degreesPerRadian, roll: roll / degreesPerRadian }, look, defect: null };
+}

@@ -1,0 +1,57 @@
+// The few things that all parts of the page do with elements. The page's markup is index.html;
+// what depends on a scene is made here. Text always becomes a text node: names come from files.
+
+type Attributes = Readonly<Record<string, string | number | boolean | null>>;
+
+/** The element of index.html that has this id and is of this class. Its absence is a mistake of ours. */
+export function byId<T extends Element>(id: string, type: abstract new () => T): T {
+  const found = document.getElementById(id);
+  if (!(found instanceof type)) throw new Error(`index.html has no ${type.name} with the id ${id}.`);
+  return found;
+}
+
+export const button = (id: string) => byId(id, HTMLButtonElement);
+export const input = (id: string) => byId(id, HTMLInputElement);
+export const select = (id: string) => byId(id, HTMLSelectElement);
+export const block = (id: string) => byId(id, HTMLElement);
+
+/** An element with attributes (true: there without a value; false and null: not there) and contents. */
+export function make<K extends keyof HTMLElementTagNameMap>(
+  tag: K, attributes: Attributes = {}, ...contents: (Node | string)[]
+): HTMLElementTagNameMap[K] {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes))
+    if (value !== false && value !== null) made.setAttribute(name, value === true ? '' : String(value));
+  made.append(...contents);
+  return made;
+}
+
+/** One of index.html's symbols. */
+export function icon(name: string): SVGSVGElement {
+  const space = 'http://www.w3.org/2000/svg';
+  const svg = document.createElementNS(space, 'svg');
+  const use = document.createElementNS(space, 'use');
+  use.setAttribute('href', `#icon-${name}`);
+  svg.setAttribute('aria-hidden', 'true');
+  svg.append(use);
+  return svg;
+}
+
+/** Replaces the contents of a list by sentences. */
+export function fillSentences(list: HTMLElement, sentences: readonly string[]): void {
+  list.replaceChildren(...sentences.map((sentence) => make('li', {}, sentence)));
+}
+
+/** Replaces the contents of a dl by names and values; those without a value are left out. */
+export function fillFacts(list: HTMLElement, facts: readonly (readonly [string, string | null])[]): void {
+  list.replaceChildren(
+    ...facts.filter(([, value]) => value).map(([name, value]) =>
+      make('div', {}, make('dt', {}, name), make('dd', {}, value!))));
+}
+
+/** Whether a person types into this. */
+export function takesText(target: EventTarget | null): boolean {
+  if (target instanceof HTMLInputElement)
+    return !['button', 'checkbox', 'color', 'radio', 'range', 'submit'].includes(target.type);
+  return target instanceof HTMLTextAreaElement || (target instanceof HTMLElement && target.isContentEditable);
+}

@@ -1,0 +1,102 @@
+// What an embedding page can call, and the checks on what it hands over. Names, order and meaning
+// are those of Viewer (viewer/types.ts); a property becomes setX.
+
+import {
+  namedViews, ViewerError, type NamedView, type Resolution, type SceneFile, type SceneSource, type Vec3, type Viewer,
+  type ViewerEvents, type ViewPose,
+} from '../viewer/types.js';
+import type { Loading } from './loading.js';
+import { isPose, isVector } from './saved_views.js';
+
+const eventNames: readonly (keyof ViewerEvents)[] = ['progress', 'preview', 'scene', 'notice', 'frame', 'view', 'context'];
+
+function refuse(what: string): never { throw new ViewerError(what, 'usage'); }
+
+const object = (value: unknown): Record<string, unknown> =>
+  typeof value === 'object' && value !== null ? (value as Record<string, unknown>) : {};
+
+function number(value: unknown, name: string): number {
+  return typeof value === 'number' && Number.isFinite(value) ? value : refuse(`${name} is no number.`);
+}
+
+function whole(value: unknown, name: string): number {
+  return Number.isInteger(value) && (value as number) >= 0 ? (value as number) : refuse(`${name} is no whole number from 0 on.`);
+}
+
+function text(value: unknown, name: string): string {
+  return typeof value === 'string' ? value : refuse(`${name} is no text.`);
+}
+
+const vector = (value: unknown, name: string): Vec3 => (isVector(value) ? value : refuse(`${name} is not three numbers.`));
+
+function oneOf<T extends string>(value: unknown, choices: readonly T[], name: string): T {
+  return choices.includes(value as T) ? (value as T) : refuse(`${name} is none of ${choices.join(', ')}.`);
+}
+
+function pose(value: unknown): ViewPose {
+  return isPose(value) ? value : refuse('A view has eye, target and up, three numbers each, and fov and roll in radians.');
+}
+
+function file(value: unknown): SceneFile {
+  const { path, data } = object(value);
+  if (data instanceof ArrayBuffer) return { path: text(path, 'path'), data: new Blob([data]) };
+  return data instanceof Blob ? { path: text(path, 'path'), data } : refuse('A file\'s data is neither a Blob nor an ArrayBuffer.');
+}
+
+function source(value: unknown): SceneSource {
+  const { url, files, name } = object(value);
+  const named = name === undefined ? {} : { name: text(name, 'name') };
+  if (Array.isArray(files)) return { files: files.map(file), ...named };
+  if (typeof url !== 'string') refuse('A scene is {url} or {files: [{path, data}]}.');
+  const address = URL.canParse(url, location.href) ? new URL(url, location.href) : refuse(`“${url}” is no address.`);
+  if (!['http:', 'https:', 'blob:', 'data:'].includes(address.protocol)) refuse('Scenes are fetched by http and https.');
+  return { url: address.href, ...named };
+}
+
+function resolution(value: unknown): Resolution {
+  return typeof value === 'number' ? number(value, 'resolution') : { targetFps: number(object(value).targetFps, 'targetFps') };
+}
+
+type Answer = (given: readonly unknown[]) => unknown;
+
+export function embedCalls(viewer: Viewer, loading: Loading, subscribe: (event: keyof ViewerEvents) => void,
+                           unsubscribe: (event: keyof ViewerEvents) => void): ReadonlyMap<string, Answer> {
+  return new Map<string, Answer>([
+    ['load', ([what]) => loading.attempt(source(what))],
+    ['cancel', () => loading.cancel()],
+    ['clear', () => viewer.clear()],
+    ['scene', () => viewer.scene],
+    ['stats', () => viewer.stats],
+    ['legend', () => viewer.legend],
+    ['getView', () => viewer.getView()],
+    ['setView', ([view, options]) => viewer.setView(pose(view), { glide: object(options).glide === true })],
+    ['showNamedView', ([view]) => viewer.showNamedView(oneOf<NamedView>(view, namedViews, 'The view'))],
+    ['showCamera', ([index]) => {
+      const count = viewer.scene?.cameras.length ?? 0;
+      if (whole(index, 'The camera') >= count) refuse(`The scene has ${count} cameras, counted from 0.`);
+      viewer.showCamera(index as number);
+    }],
+    ['frame', () => viewer.frame()],
+    ['home', () => viewer.home()],
+    ['orbit', ([dx, dy]) => viewer.orbit(number(dx, 'dx'), number(dy, 'dy'))],
+    ['pan', ([dx, dy]) => viewer.pan(number(dx, 'dx'), number(dy, 'dy'))],
+    ['dolly', ([steps]) => viewer.dolly(number(steps, 'steps'))],
+    ['setUp', ([axis]) => viewer.setUp(vector(axis, 'The axis'))],
+    ['setMode', ([mode]) => { viewer.mode = oneOf(mode, ['orbit', 'fly'], 'The mode'); }],
+    ['setFov', ([fov]) => { viewer.fov = number(fov, 'fov'); }],
+    ['setBackground', ([color]) => { viewer.background = vector(color, 'The colour'); }],
+    ['setResolution', ([value]) => { viewer.resolution = resolution(value); }],
+    ['show', ([look, features]) => {
+      if (features === undefined) return viewer.show(text(look, 'look'));
+      const { first, count } = object(features);
+      return viewer.show(text(look, 'look'), { first: whole(first, 'first'), count: whole(count, 'count') });
+    }],
+    ['screenshot', ([size]) => {
+      if (size === undefined) return viewer.screenshot();
+      const { width, height } = object(size);
+      return viewer.screenshot({ width: whole(width, 'width'), height: whole(height, 'height') });
+    }],
+    ['subscribe', ([event]) => subscribe(oneOf(event, eventNames, 'The event'))],
+    ['unsubscribe', ([event]) => unsubscribe(oneOf(event, eventNames, 'The event'))],
+  ]);
+}

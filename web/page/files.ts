@@ -1,0 +1,70 @@
+// What a person drops or picks, as the files of one scene: paths are relative to its folder, with
+// the folder's own name left out.
+
+import { ViewerError, type SceneFile, type SceneSource } from '../viewer/types.js';
+
+/** More than any scene has; a home folder that was dropped by mistake has more. */
+const mostFiles = 10_000;
+
+function tooMany(): ViewerError {
+  return new ViewerError(`There are more than ${mostFiles.toLocaleString('en')} files; drop the scene's own folder.`, 'input');
+}
+
+/** A file is named by itself, a folder by its name, loose files by the first. */
+function sourceOf(files: readonly SceneFile[], folder: string | null): SceneSource {
+  if (files.length === 0) throw new ViewerError(folder ? `The folder ${folder} is empty.` : 'There is no file to open.', 'input');
+  return { files, name: folder ?? files[0]!.path };
+}
+
+/** Of <input type=file>, with or without webkitdirectory. */
+export function sourceOfPicked(list: FileList): SceneSource {
+  if (list.length > mostFiles) throw tooMany();
+  const first = list[0]?.webkitRelativePath ?? '';
+  const folder = first.includes('/') ? first.slice(0, first.indexOf('/')) : null;
+  const path = (file: File) => folder === null ? file.name : file.webkitRelativePath.slice(folder.length + 1);
+  return sourceOf([...list].map((file) => ({ path: path(file), data: file })), folder);
+}
+
+const fileOf = (entry: FileSystemFileEntry) =>
+  new Promise<File>((resolve, reject) => entry.file(resolve, reject));
+
+/** A reader gives at most 100 entries a call, and none when it has given all. */
+async function entriesOf(folder: FileSystemDirectoryEntry): Promise<FileSystemEntry[]> {
+  const reader = folder.createReader();
+  const all: FileSystemEntry[] = [];
+  for (;;) {
+    const some = await new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
+    if (some.length === 0) return all;
+    all.push(...some);
+  }
+}
+
+async function collect(folder: FileSystemDirectoryEntry, path: string, files: SceneFile[]): Promise<void> {
+  for (const entry of await entriesOf(folder)) {
+    if (files.length >= mostFiles) throw tooMany();
+    const inner = path + entry.name;
+    if (entry.isDirectory) await collect(entry as FileSystemDirectoryEntry, `${inner}/`, files);
+    else files.push({ path: inner, data: await fileOf(entry as FileSystemFileEntry) });
+  }
+}
+
+/** Of a drop. To be called within the event: what was dropped is gone after it. */
+export function sourceOfDropped(transfer: DataTransfer): Promise<SceneSource> {
+  // A page from the disk gets dropped files themselves, but may be refused those of their entries.
+  const items = [...transfer.items].filter((item) => item.kind === 'file')
+    .map((item) => ({ entry: item.webkitGetAsEntry?.() ?? null, file: item.getAsFile() }));
+  return (async () => {
+    const files: SceneFile[] = [];
+    const alone = items.length === 1 && items[0]!.entry?.isDirectory ? items[0]!.entry.name : null;
+    try {
+      for (const { entry, file } of items)
+        if (entry?.isDirectory)
+          await collect(entry as FileSystemDirectoryEntry, alone === null ? `${entry.name}/` : '', files);
+        else if (file) files.push({ path: file.name, data: file });
+    } catch (error) {
+      if (error instanceof ViewerError) throw error;
+      throw new ViewerError('The browser could not read the folder that was dropped; choose it with the button instead.', 'input');
+    }
+    return sourceOf(files, alone);
+  })();
+}

@@ -1,0 +1,49 @@
+// The gallery: what models.json, beside the page, lists. Addresses in it are relative to it.
+//
+//   [{"name": "Tureen", "url": "soup.glb", "picture": "soup.jpg", "triangles": 7000, "bytes": 2227760}]
+
+import { block, make } from './dom.js';
+import { bytesText, trianglesText } from './numbers.js';
+
+interface Model {
+  readonly name: string;
+  readonly url: string;
+  readonly picture: string | null;
+  readonly triangles: number | null;
+  readonly bytes: number | null;
+}
+
+const count = (value: unknown) => (typeof value === 'number' && Number.isFinite(value) && value >= 0 ? value : null);
+
+/** Null where the entry has no name or no address. */
+function readModel(entry: unknown): Model | null {
+  const { name, url, picture, triangles, bytes } = (entry ?? {}) as Record<string, unknown>;
+  if (typeof name !== 'string' || typeof url !== 'string' || !url) return null;
+  return { name, url, picture: typeof picture === 'string' ? picture : null, triangles: count(triangles), bytes: count(bytes) };
+}
+
+function card(model: Model, choose: (address: string) => void): HTMLElement {
+  const facts = [model.triangles === null ? '' : trianglesText(model.triangles), model.bytes === null ? '' : bytesText(model.bytes)];
+  const picture = model.picture === null ? make('span', { class: 'no-picture' }) :
+    make('img', { src: model.picture, alt: '', loading: 'lazy', width: 320, height: 200 });
+  const button = make('button', { type: 'button', class: 'card' }, picture,
+                      make('strong', {}, model.name), make('small', {}, facts.filter(Boolean).join(' · ')));
+  button.addEventListener('click', () => choose(model.url));
+  return make('li', {}, button);
+}
+
+/** Fills the gallery, where there is one. A site without models.json has none; that is no error. */
+export async function fillGallery(choose: (address: string) => void): Promise<void> {
+  if (location.protocol === 'file:') return;  // nothing can be fetched there
+  let entries: unknown;
+  try {
+    const answer = await fetch('models.json');
+    if (!answer.ok) return;
+    entries = await answer.json();
+  } catch {
+    return;
+  }
+  const models = Array.isArray(entries) ? entries.map(readModel).filter((model) => model !== null) : [];
+  block('gallery-list').replaceChildren(...models.map((model) => card(model, choose)));
+  block('gallery').hidden = models.length === 0;
+}

@@ -1,0 +1,91 @@
+// Opening a scene: its progress, in words and as a bar, the button that stops it, and the sentence
+// when it fails. A new load takes the place of the one before.
+
+import type { LoadProgress, LoadStage, SceneSource, SceneSummary, Viewer } from '../viewer/types.js';
+import { block, button } from './dom.js';
+import type { Messages } from './messages.js';
+import { bytesText, trianglesText } from './numbers.js';
+
+const stageText: Readonly<Record<LoadStage, string>> = {
+  download: 'downloading', read: 'reading', prepare: 'preparing', upload: 'handing over to the graphics device',
+};
+
+/** The last part of an address or the name of what was picked. */
+export function nameOf(source: SceneSource): string {
+  if (source.name) return source.name;
+  if ('files' in source) return source.files[0]?.path ?? 'the scene';
+  const path = source.url.replace(/[?#].*$/s, '').replace(/\/+$/, '');
+  try {
+    return decodeURIComponent(path.slice(path.lastIndexOf('/') + 1)) || source.url;
+  } catch {
+    return path.slice(path.lastIndexOf('/') + 1);
+  }
+}
+
+export class Loading {
+  private readonly card = block('loading');
+  private readonly name = block('loading-name');
+  private readonly what = block('loading-what');
+  private readonly progress = block('progress');
+  private readonly bar = block('progress-bar');
+  private current: AbortController | null = null;
+  private preview = '';
+
+  constructor(private readonly viewer: Viewer, private readonly messages: Messages) {
+    button('cancel').addEventListener('click', () => this.cancel());
+    viewer.on('progress', (progress) => this.show(progress));
+    viewer.on('preview', ({ triangles }) => {
+      this.preview = `; a first picture of ${trianglesText(triangles)} stands`;
+    });
+  }
+
+  get busy(): boolean { return this.current !== null; }
+
+  cancel(): void { this.current?.abort(); }
+
+  /** The scene, or null where it failed (which has been said then) or was cancelled. */
+  async load(source: SceneSource): Promise<SceneSummary | null> {
+    try {
+      return await this.attempt(source);
+    } catch (error) {
+      this.messages.thrown(error);
+      return null;
+    }
+  }
+
+  /** The same for a caller who tells of errors. */
+  async attempt(source: SceneSource): Promise<SceneSummary> {
+    const mine = this.begin(nameOf(source));
+    try {
+      return await this.viewer.load(source, { signal: mine.signal });
+    } finally {
+      if (this.current === mine) {
+        this.current = null;
+        this.card.hidden = true;
+      }
+    }
+  }
+
+  private begin(name: string): AbortController {
+    this.current = new AbortController();
+    this.preview = '';
+    this.messages.clearErrors();
+    this.name.textContent = name;
+    this.show({ stage: 'download', fraction: null, loadedBytes: 0, totalBytes: null });
+    this.card.hidden = false;
+    return this.current;
+  }
+
+  private show(progress: LoadProgress): void {
+    const { stage, fraction, loadedBytes, totalBytes } = progress;
+    const bytes = stage !== 'download' || loadedBytes === 0 ? '' :
+      totalBytes ? `, ${bytesText(loadedBytes)} of ${bytesText(totalBytes)}` : `, ${bytesText(loadedBytes)}`;
+    const text = `${stageText[stage]}${bytes}${this.preview}`;
+    this.what.textContent = text;
+    this.progress.setAttribute('aria-valuetext', text);
+    this.progress.classList.toggle('unknown', fraction === null);
+    if (fraction === null) this.progress.removeAttribute('aria-valuenow');
+    else this.progress.setAttribute('aria-valuenow', String(Math.round(fraction * 100)));
+    this.bar.style.width = fraction === null ? '' : `${fraction * 100}%`;
+  }
+}

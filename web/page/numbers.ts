@@ -1,0 +1,47 @@
+// Numbers as people read them, and colours as forms have them.
+
+import type { Vec3 } from '../viewer/types.js';
+
+export const degreesPerRadian = 180 / Math.PI;
+
+const counts = new Intl.NumberFormat('en');
+
+/** "15,000" */
+export const countText = (count: number) => counts.format(count);
+
+/** "15,000 triangles", "1 triangle" */
+export const trianglesText = (count: number) => `${countText(count)} ${count === 1 ? 'triangle' : 'triangles'}`;
+
+/** "640 bytes", "9.4 MB": powers of 1000, as networks and disks are measured. */
+export function bytesText(bytes: number): string {
+  if (bytes < 1000) return `${bytes}\u00a0bytes`;
+  const units = ['kB', 'MB', 'GB'];
+  let value = bytes / 1000, unit = 0;
+  while (value >= 999.5 && unit < units.length - 1) {
+    value /= 1000;
+    ++unit;
+  }
+  return `${value < 9.95 ? value.toFixed(1) : Math.round(value)}\u00a0${units[unit]}`;
+}
+
+/** "4.27 ms", "157 ms" */
+export const millisecondsText = (ms: number) => `${ms < 9.95 ? ms.toFixed(2) : ms < 99.5 ? ms.toFixed(1) : ms.toFixed(0)} ms`;
+
+/** Without zeros at the end and without exponent: "0.25", "12". */
+export function plainNumber(value: number, decimals: number): string {
+  const text = value.toFixed(Math.min(Math.max(decimals, 0), 20));
+  const short = text.includes('.') ? text.replace(/\.?0+$/, '') : text;
+  return short === '-0' ? '0' : short;
+}
+
+/** "#20242e" for colours of 0..1. */
+export function hexColor(color: Vec3): string {
+  return '#' + color.map((part) => Math.round(Math.min(Math.max(part, 0), 1) * 255).toString(16).padStart(2, '0')).join('');
+}
+
+/** Null where the text is no "#20242e". */
+export function colorFromHex(text: string): Vec3 | null {
+  const parts = /^#([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})$/i.exec(text);
+  if (!parts) return null;
+  return [parseInt(parts[1]!, 16) / 255, parseInt(parts[2]!, 16) / 255, parseInt(parts[3]!, 16) / 255];
+}

@@ -1,0 +1,170 @@
+// The page: makes a viewer of the canvas and puts everything around it.
+
+import type { Assets } from '../viewer/assets.js';
+import { namedViews, ViewerError, type SceneSource, type Viewer } from '../viewer/types.js';
+import { createViewer } from '../viewer/viewer.js';
+import { AddressBar } from './address_bar.js';
+import { block, byId, make } from './dom.js';
+import { answerEmbedder } from './embed.js';
+import { FullScreen } from './full_screen.js';
+import { Loading } from './loading.js';
+import { Messages } from './messages.js';
+import { Openings } from './openings.js';
+import { Panel } from './panel.js';
+import { CamerasSection } from './sections/cameras.js';
+import { DrawingSection } from './sections/drawing.js';
+import { LinkSection } from './sections/link.js';
+import { LookSection } from './sections/look.js';
+import { PictureSection } from './sections/picture.js';
+import { SavedSection } from './sections/saved.js';
+import { SceneSection } from './sections/scene.js';
+import { TimesSection } from './sections/times.js';
+import { ViewsSection } from './sections/views.js';
+import { Shortcuts } from './shortcuts.js';
+import { Start } from './start.js';
+
+export interface RoomOptions {
+  /** Beside the script where they are not given. */
+  readonly assets?: Assets;
+  /** A scene that is part of the page. */
+  readonly scene?: SceneSource | null;
+}
+
+/** Says in place of the picture why there is none. */
+function explain(error: unknown): void {
+  const missing = error instanceof ViewerError && error.kind === 'no-webgl2';
+  const why = error instanceof Error ? error.message : String(error);
+  block('stage').replaceChildren(make('div', { class: 'no-picture-at-all', role: 'alert' },
+    make('h2', {}, missing ? 'This browser has no WebGL2' : 'The viewer did not start'),
+    make('p', {}, why),
+    make('p', {}, missing ?
+      'Tureen draws with WebGL2. A current Firefox, Chrome, Edge or Safari has it; where it is one of them already, ' +
+      'look whether graphics acceleration is switched off in its settings.' :
+      'Reload the page; if that does not help, the folder that it is served from may not be whole.')));
+  document.body.classList.add('without-viewer');
+  block('panel').hidden = true;
+}
+
+/** Moves views at once for who asked for less motion, now or later. */
+function obeyReducedMotion(viewer: Viewer): void {
+  const reduced = matchMedia('(prefers-reduced-motion: reduce)');
+  const obey = () => { viewer.gliding = !reduced.matches; };
+  reduced.addEventListener('change', obey);
+  obey();
+}
+
+/** Without a scene, whole or at its first picture, there is nothing to set. */
+function markEmpty(viewer: Viewer): void {
+  viewer.on('preview', () => document.body.classList.remove('empty'));
+  viewer.on('scene', (scene) => document.body.classList.toggle('empty', scene === null));
+}
+
+function tellOfContext(viewer: Viewer, messages: Messages): void {
+  const lost = 'The browser took the graphics device away. The scene comes back as soon as the device does.';
+  let takeAway = () => {};
+  viewer.on('context', (what) => {
+    takeAway();
+    if (what === 'lost') takeAway = messages.error(lost);
+    else messages.notice('The graphics device is back, and so is the scene.');
+  });
+}
+
+/** Everything around the picture but opening. */
+function furnish(viewer: Viewer, messages: Messages, openings: Openings, bar: AddressBar, start: Start): void {
+  const tell = (sentence: string) => messages.notice(sentence);
+  const failed = (what: unknown) => messages.thrown(what);
+  const sceneKey = () => {
+    const origin = openings.origin;
+    return origin?.kind === 'address' ? origin.address : `${viewer.scene?.name}:${viewer.scene?.triangles}`;
+  };
+
+  const panel = new Panel(), fullScreen = new FullScreen();
+  new SceneSection(viewer);
+  const views = new ViewsSection(viewer, tell), cameras = new CamerasSection(viewer, tell);
+  const saved = new SavedSection(viewer, tell);
+  new DrawingSection(viewer);
+  const picture = new PictureSection(viewer, tell, failed);
+  const link = new LinkSection(viewer, bar, openings, tell);
+  const follow = () => {
+    if (viewer.scene) bar.showView(viewer.getView(), viewer.shownLook);
+    link.update();
+  };
+  const look = new LookSection(viewer, failed, follow);
+  new TimesSection(viewer);
+  viewer.on('view', follow);
+  openings.onOpened(() => {
+    saved.follow(sceneKey());
+    look.update();
+    follow();
+  });
+
+  new Shortcuts(viewer.canvas, [
+    { key: 'f', meaning: 'all of the scene in the picture', run: () => views.frame() },
+    { key: 'r', meaning: 'back to the first view', run: () => views.first() },
+    { key: 'm', meaning: 'a drag turns the scene, or the head', run: () => views.changeMode() },
+    { key: 'u', meaning: 'another axis is up', run: () => views.nextUp() },
+    { key: '[', meaning: 'the recorded camera before', run: () => cameras.step(-1) },
+    { key: ']', meaning: 'the next recorded camera', run: () => cameras.step(1) },
+    { key: 'k', meaning: 'keeps this view', run: () => saved.save() },
+    { key: 'v', meaning: 'the next thing to look at', run: () => look.next() },
+    { key: 'p', meaning: 'saves the picture', run: () => void picture.save() },
+    { key: 'l', meaning: 'copies a link to this view', run: () => void link.copy() },
+    { key: 'o', meaning: 'opens a scene', run: () => start.toggle() },
+    { key: 'h', meaning: 'hides or shows the panel', run: () => panel.toggle() },
+    { key: 'x', meaning: 'the whole screen, or not', run: () => fullScreen.toggle() },
+    { key: '?', meaning: 'this list', run: () => byId('open-help', HTMLButtonElement).click() },
+    ...namedViews.map((view, index) =>
+      ({ key: String(index + 1), meaning: null, run: () => views.lookFrom(view) })),
+  ]);
+}
+
+/** Opens what the page's address asks for, now and when a person goes back or forward. */
+function followAddress(viewer: Viewer, openings: Openings, bar: AddressBar, start: Start): void {
+  bar.onChange(() => {
+    const wanted = bar.scene();
+    const shown = openings.origin;
+    const same = shown?.kind === 'address' ? shown.address === wanted : wanted === null;
+    if (same) return void openings.look(bar.view());
+    if (wanted === null) {
+      viewer.clear();
+      start.update();
+    } else {
+      void openings.openAddress(wanted, bar.view());
+    }
+  });
+}
+
+export async function openRoom(options: RoomOptions = {}): Promise<void> {
+  const embedded = new URLSearchParams(location.search).has('embed');
+  document.documentElement.classList.toggle('embed', embedded);
+  const messages = new Messages();
+  window.addEventListener('error', (event) => messages.thrown(event.error ?? event.message));
+  window.addEventListener('unhandledrejection', (event) => messages.thrown(event.reason));
+
+  let viewer: Viewer;
+  try {
+    viewer = await createViewer(byId('canvas', HTMLCanvasElement), options.assets ? { assets: options.assets } : {});
+  } catch (error) {
+    return explain(error);
+  }
+  obeyReducedMotion(viewer);
+  markEmpty(viewer);
+  tellOfContext(viewer, messages);
+  viewer.on('notice', (sentence) => messages.notice(sentence));
+
+  const bar = new AddressBar(embedded);
+  const loading = new Loading(viewer, messages);
+  const openings = new Openings(viewer, loading, messages, bar);
+  const wanted = bar.scene();
+  const start = embedded ? null : new Start(viewer, openings, loading, messages);
+  if (!start) {
+    answerEmbedder(viewer, loading);
+  } else {
+    start.attachDrop();
+    furnish(viewer, messages, openings, bar, start);
+    followAddress(viewer, openings, bar, start);
+  }
+  if (wanted) await openings.openAddress(wanted, bar.view());
+  else if (options.scene) await openings.openPart(options.scene, bar.view());
+  start?.update();
+}

@@ -1,0 +1,52 @@
+// How the scene is drawn: background, resolution, and the plan's sentences.
+
+import type { Resolution, Viewer } from '../../viewer/types.js';
+import { block, button, fillSentences, input, make, select } from '../dom.js';
+import { recall, remember } from '../memory.js';
+import { colorFromHex, hexColor } from '../numbers.js';
+
+const resolutions: readonly { readonly key: string; readonly text: string; readonly value: Resolution }[] = [
+  { key: '0.25', text: 'a quarter of the screen\'s', value: 0.25 },
+  { key: '0.5', text: 'half of the screen\'s', value: 0.5 },
+  { key: '0.75', text: 'three quarters of the screen\'s', value: 0.75 },
+  { key: '1', text: 'the screen\'s own', value: 1 },
+  { key: '2', text: 'four samples a pixel', value: 2 },
+  { key: '30fps', text: 'what holds 30 frames a second', value: { targetFps: 30 } },
+  { key: '60fps', text: 'what holds 60 frames a second', value: { targetFps: 60 } },
+];
+
+const keyOf = (resolution: Resolution) =>
+  typeof resolution === 'number' ? String(resolution) : `${resolution.targetFps}fps`;
+
+export class DrawingSection {
+  private readonly background = input('background');
+  private readonly resolution = select('resolution');
+
+  constructor(private readonly viewer: Viewer) {
+    this.resolution.append(...resolutions.map(({ key, text }) => make('option', { value: key }, text)));
+    const kept = resolutions.find(({ key }) => key === recall('resolution'));
+    if (kept) viewer.resolution = kept.value;
+    this.resolution.addEventListener('change', () => {
+      const chosen = resolutions.find(({ key }) => key === this.resolution.value);
+      if (chosen) viewer.resolution = chosen.value;
+      remember('resolution', this.resolution.value);
+    });
+    this.background.addEventListener('input', () => {
+      viewer.background = colorFromHex(this.background.value) ?? viewer.background;
+    });
+    button('own-background').addEventListener('click', () => {
+      if (viewer.scene) viewer.background = viewer.scene.background;
+      this.update();
+    });
+    viewer.on('scene', () => this.update());
+    this.update();
+  }
+
+  private update(): void {
+    this.background.value = hexColor(this.viewer.background);
+    this.resolution.value = keyOf(this.viewer.resolution);
+    const plan = this.viewer.scene?.plan ?? [];
+    fillSentences(block('plan'), plan);
+    block('plan-part').hidden = plan.length === 0;
+  }
+}

@@ -1,0 +1,71 @@
+// What is shown instead of the final colours, and what its colours mean.
+
+import type { Viewer } from '../../viewer/types.js';
+import { block, fillSentences, input, make, select } from '../dom.js';
+import { hexColor } from '../numbers.js';
+
+export class LookSection {
+  private readonly list = select('look');
+  private readonly first = input('feature-first');
+  private readonly count = input('feature-count');
+
+  constructor(private readonly viewer: Viewer, private readonly failed: (what: unknown) => void,
+              private readonly shown: () => void) {
+    this.list.addEventListener('change', () => void this.show(this.list.value));
+    for (const number of [this.first, this.count])
+      number.addEventListener('change', () => void this.show('features'));
+    viewer.on('scene', () => this.fill());
+    viewer.on('view', () => this.update());  // the legend of depth follows the view
+    this.fill();
+  }
+
+  async show(look: string): Promise<void> {
+    const features = { first: this.first.valueAsNumber || 0, count: this.count.valueAsNumber || 1 };
+    try {
+      await (look === 'features' ? this.viewer.show(look, features) : this.viewer.show(look));
+    } catch (error) {
+      this.failed(error);
+    }
+    this.update();
+    this.shown();
+  }
+
+  /** The next one that the scene has. */
+  next(): void {
+    const there = (this.viewer.scene?.lookChoices ?? []).filter((choice) => choice.missing === null);
+    if (there.length === 0) return;
+    const now = there.findIndex((choice) => choice.look === this.viewer.shownLook);
+    void this.show(there[(now + 1) % there.length]!.look);
+  }
+
+  update(): void {
+    const look = this.viewer.shownLook;
+    this.list.value = look;
+    const choice = this.viewer.scene?.lookChoices.find((one) => one.look === look);
+    block('look-meaning').textContent = choice?.meaning ?? '';
+    const features = this.viewer.scene?.featureCount ?? 0;
+    block('features').hidden = look !== 'features' || features < 2;
+    this.first.max = String(Math.max(features - 1, 0));
+    this.count.max = String(Math.min(features, 3));
+    this.fillLegend(choice?.title ?? '');
+  }
+
+  private fill(): void {
+    const choices = this.viewer.scene?.lookChoices ?? [];
+    this.list.disabled = choices.length === 0;
+    this.list.replaceChildren(...choices.map(({ look, title, missing }) =>
+      make('option', { value: look, disabled: missing !== null }, title)));
+    fillSentences(block('missing-looks'), choices.map(({ missing }) => missing).filter((sentence) => sentence !== null));
+    this.update();
+  }
+
+  private fillLegend(title: string): void {
+    const legend = block('legend'), entries = this.viewer.legend;
+    legend.hidden = entries.length === 0;
+    legend.replaceChildren(make('strong', {}, title), make('ul', {}, ...entries.map(({ color, text }) => {
+      const patch = make('span', { class: 'patch' });
+      patch.style.backgroundColor = hexColor(color);
+      return make('li', {}, patch, text);
+    })));
+  }
+}

@@ -1,0 +1,40 @@
+// What the scene is: facts and notes.
+
+import type { SceneSummary, Viewer } from '../../viewer/types.js';
+import { block, fillFacts, fillSentences } from '../dom.js';
+import { bytesText, trianglesText } from '../numbers.js';
+
+export class SceneSection {
+  private notices: string[] = [];
+
+  constructor(private readonly viewer: Viewer) {
+    viewer.on('scene', (scene) => this.show(scene));
+    viewer.on('notice', (sentence) => {
+      this.notices.push(sentence);
+      this.showNotes();
+    });
+    viewer.on('progress', ({ loadedBytes, stage }) => {
+      if (stage === 'download' && loadedBytes === 0) this.notices = [];  // they were the scene's before
+    });
+    this.show(viewer.scene);
+  }
+
+  private show(scene: SceneSummary | null): void {
+    block('scene-title').textContent = scene?.name ?? '';
+    document.title = scene ? `${scene.name} · Tureen` : 'Tureen';
+    fillFacts(block('facts'), scene ? [
+      ['File', scene.name],
+      ['From', scene.source || null],
+      ['Size', trianglesText(scene.triangles)],
+      ['Appearance', scene.appearance],
+      ['On the device', bytesText(scene.deviceBytes)],
+    ] : [['File', 'none is open']]);
+    this.showNotes();
+  }
+
+  private showNotes(): void {
+    const notes = [...(this.viewer.scene?.notes ?? []), ...this.notices];
+    fillSentences(block('notes'), [...new Set(notes)]);
+    block('notes-part').hidden = notes.length === 0;
+  }
+}

@@ -1,0 +1,57 @@
+// What a frame takes, in the panel and over the picture. At rest nothing is drawn, and it says so.
+
+import type { FrameStats, Viewer } from '../../viewer/types.js';
+import { block, fillFacts, input } from '../dom.js';
+import { recall, remember } from '../memory.js';
+import { bytesText, millisecondsText } from '../numbers.js';
+
+/** Quick enough to follow, slow enough to read. */
+const everyMs = 250;
+
+export class TimesSection {
+  private readonly readout = block('readout');
+  private readonly shown = input('show-readout');
+  private waiting = false;
+
+  constructor(private readonly viewer: Viewer) {
+    this.shown.checked = recall('readout') !== false;
+    this.shown.addEventListener('change', () => {
+      remember('readout', this.shown.checked);
+      this.update();
+    });
+    viewer.on('frame', () => this.updateSoon());
+    viewer.on('scene', () => this.update());
+    this.update();
+  }
+
+  private updateSoon(): void {
+    if (this.waiting) return;
+    this.waiting = true;
+    setTimeout(() => {
+      this.waiting = false;
+      this.update();
+      if (this.viewer.stats.frameMs !== null) this.updateSoon();  // until it has come to rest
+    }, everyMs);
+  }
+
+  private update(): void {
+    const stats = this.viewer.stats;
+    const { frameMs, p95Ms, submitMs, width, height, scale } = stats;
+    const size = `${width} × ${height}`;
+    fillFacts(block('times-facts'), [
+      ['Between frames', frameMs === null ? 'at rest' : `${millisecondsText(frameMs)}, ${(1000 / frameMs).toFixed(0)} a second`],
+      ['Slowest 5 %', p95Ms === null ? null : `over ${millisecondsText(p95Ms)}`],
+      ['To ask for one', submitMs === null ? null : millisecondsText(submitMs)],
+      ['Drawn at', `${size}, ${scale.toFixed(2)} of the screen's`],
+      ['WebAssembly', bytesText(stats.wasmBytes)],
+      ['Drawn by', stats.renderer],
+    ]);
+    block('resolution-now').textContent = `Drawn at ${size}.`;
+    this.readout.hidden = !this.shown.checked || !this.viewer.scene;
+    this.readout.textContent = this.short(stats, size);
+  }
+
+  private short({ frameMs }: FrameStats, size: string): string {
+    return `${frameMs === null ? 'at rest' : millisecondsText(frameMs)} · ${size}`;
+  }
+}

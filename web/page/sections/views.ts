@@ -1,0 +1,106 @@
+// Where the scene is looked at from: what a drag does, the named views, which way is up, the angle.
+
+import { namedViews, type NamedView, type NavigationMode, type Vec3, type Viewer } from '../../viewer/types.js';
+import { block, button, input, make, select } from '../dom.js';
+import { degreesPerRadian } from '../numbers.js';
+
+const viewTitles: Readonly<Record<NamedView, string>> = {
+  front: 'Front', back: 'Back', left: 'Left', right: 'Right', top: 'Top', bottom: 'Bottom',
+  'three-quarter': 'Corner', 'three-quarter-left': 'Corner left', 'three-quarter-back': 'Corner back',
+};
+
+/** In the order in which the key goes through them: the likelier first. */
+const axes: readonly { readonly name: string; readonly axis: Vec3 }[] = [
+  { name: 'y', axis: [0, 1, 0] }, { name: 'z', axis: [0, 0, 1] }, { name: 'x', axis: [1, 0, 0] },
+  { name: '-y', axis: [0, -1, 0] }, { name: '-z', axis: [0, 0, -1] }, { name: '-x', axis: [-1, 0, 0] },
+];
+
+/** Whether a direction is that axis to 2.6 degrees: an up that was taken from cameras is off by a little. */
+const isAxis = (direction: Vec3, axis: Vec3) =>
+  direction[0] * axis[0] + direction[1] * axis[1] + direction[2] * axis[2] > 0.999 * Math.hypot(...direction);
+
+export class ViewsSection {
+  private readonly modes = [...document.querySelectorAll<HTMLInputElement>('input[name=mode]')];
+  private readonly up = select('up');
+  private readonly fov = input('fov');
+
+  constructor(private readonly viewer: Viewer, private readonly tell: (sentence: string) => void) {
+    for (const mode of this.modes)
+      mode.addEventListener('change', () => this.setMode(mode.value as NavigationMode));
+    block('named-views').append(...namedViews.map((view, index) => {
+      const look = make('button', { type: 'button', title: `${viewTitles[view]} (${index + 1})` }, viewTitles[view]);
+      look.addEventListener('click', () => this.lookFrom(view));
+      return look;
+    }));
+    button('frame').addEventListener('click', () => this.frame());
+    button('home').addEventListener('click', () => this.first());
+    this.up.append(...axes.map(({ name }, index) => make('option', { value: index }, name)),
+                   make('option', { value: 'own', hidden: true }, 'as the cameras were held'));
+    this.up.addEventListener('change', () => {
+      const chosen = axes[Number(this.up.value)];
+      if (chosen) viewer.setUp(chosen.axis);
+    });
+    this.fov.addEventListener('input', () => {
+      viewer.fov = this.fov.valueAsNumber / degreesPerRadian;
+      this.update();
+    });
+    viewer.on('scene', (scene) => {
+      block('up-reason').textContent = scene?.upReason ?? '';
+      this.update();
+    });
+    viewer.on('view', () => this.update());
+    viewer.on('frame', () => this.showMode());  // keys change it, too
+    this.update();
+  }
+
+  setMode(mode: NavigationMode): void {
+    this.viewer.mode = mode;
+    this.showMode();
+  }
+
+  changeMode(): void { this.setMode(this.viewer.mode === 'orbit' ? 'fly' : 'orbit'); }
+
+  lookFrom(view: NamedView): void {
+    this.setMode('orbit');
+    this.viewer.showNamedView(view);
+  }
+
+  frame(): void {
+    this.setMode('orbit');
+    this.viewer.frame();
+  }
+
+  first(): void {
+    this.setMode('orbit');
+    this.viewer.home();
+  }
+
+  nextUp(): void {
+    const next = axes[(this.upIndex() + 1) % axes.length]!;
+    this.viewer.setUp(next.axis);
+    this.update();
+    this.tell(`Up is now ${next.name}.`);
+  }
+
+  private upIndex(): number {
+    const up = this.viewer.getView().up;
+    return axes.findIndex(({ axis }) => isAxis(up, axis));
+  }
+
+  private update(): void {
+    const index = this.upIndex();
+    this.up.value = index < 0 ? 'own' : String(index);
+    const degrees = this.viewer.fov * degreesPerRadian;
+    this.fov.value = String(degrees);
+    block('fov-text').textContent = `${degrees.toFixed(0)}°`;
+    this.showMode();
+  }
+
+  private showMode(): void {
+    const now = this.viewer.mode;
+    for (const mode of this.modes) mode.checked = mode.value === now;
+    const speed = now === 'fly' ? `Flies ${this.viewer.speed.toPrecision(3)} units a second; the wheel changes that.` : '';
+    const hint = block('speed');
+    if (hint.textContent !== speed) hint.textContent = speed;
+  }
+}

@@ -1,0 +1,115 @@
+// The card that opens scenes: from files, a folder, an address or the gallery. It lies over the
+// picture as long as there is none, and when it is asked for.
+
+import type { Viewer } from '../viewer/types.js';
+import { block, byId, button, input } from './dom.js';
+import { sourceOfDropped, sourceOfPicked } from './files.js';
+import { fillGallery } from './gallery.js';
+import type { Loading } from './loading.js';
+import type { Messages } from './messages.js';
+import type { Openings } from './openings.js';
+
+export class Start {
+  private readonly card = block('start');
+  private readonly opener = button('open-start');
+  private readonly closer = button('close-start');
+
+  constructor(private readonly viewer: Viewer, private readonly openings: Openings,
+              private readonly loading: Loading, private readonly messages: Messages) {
+    this.opener.addEventListener('click', () => this.toggle());
+    this.closer.addEventListener('click', () => this.close());
+    window.addEventListener('keydown', (event) => {
+      if (event.key === 'Escape' && !event.defaultPrevented && !document.querySelector('dialog[open]')) this.close();
+    });
+    this.attachPicker('choose-files', 'files');
+    this.attachPicker('choose-folder', 'folder');
+    if (!('webkitdirectory' in input('folder'))) button('choose-folder').hidden = true;
+    byId('address-form', HTMLFormElement).addEventListener('submit', (event) => {
+      event.preventDefault();
+      const address = input('address').value.trim();
+      if (address) void this.leaveFor(this.openings.openAddress(address));
+    });
+    void fillGallery((address) => void this.leaveFor(this.openings.openAddress(address)));
+    viewer.on('preview', () => this.show(false));
+    viewer.on('scene', () => this.update());
+  }
+
+  /** Opens or closes the card, with the focus. */
+  toggle(): void {
+    if (!this.card.hidden) return this.close();
+    this.show(true);
+    block('start-title').focus();
+  }
+
+  /** Without a scene it stays open. */
+  close(): void {
+    if (this.card.hidden || !this.viewer.scene) return;
+    this.show(false);
+    this.opener.focus();
+  }
+
+  /** Where nothing is shown and nothing is on its way, the card is there. */
+  update(): void { this.show(!this.viewer.scene && !this.loading.busy); }
+
+  private show(open: boolean): void {
+    this.card.hidden = !open;
+    this.closer.hidden = !this.viewer.scene;
+    this.opener.setAttribute('aria-expanded', String(open));
+  }
+
+  private attachPicker(buttonId: string, inputId: string): void {
+    const picker = input(inputId);
+    button(buttonId).addEventListener('click', () => picker.click());
+    picker.addEventListener('change', () => {
+      const picked = picker.files;
+      if (picked?.length) void this.leaveFor(this.pick(picked));
+      picker.value = '';  // so that the same file can be picked again
+    });
+  }
+
+  private async pick(list: FileList): Promise<boolean> {
+    try {
+      return await this.openings.openFiles(sourceOfPicked(list));
+    } catch (error) {
+      this.messages.thrown(error);
+      return false;
+    }
+  }
+
+  /** The card makes way; where nothing came of it, it is back. */
+  private async leaveFor(opening: Promise<boolean>): Promise<void> {
+    const held = this.card.contains(document.activeElement);
+    this.show(false);
+    if (held) this.viewer.canvas.focus();
+    if (!(await opening)) this.update();
+  }
+
+  /** Takes what is dropped anywhere on the page. */
+  attachDrop(): void {
+    const sign = block('drop-here');
+    const carriesFiles = (event: DragEvent) => event.dataTransfer?.types.includes('Files') ?? false;
+    let depth = 0;  // elements that the pointer has entered and not left
+    const over = (change: number) => {
+      depth = Math.max(depth + change, 0);
+      sign.hidden = depth === 0;
+    };
+    window.addEventListener('dragenter', (event) => { if (carriesFiles(event)) over(1); });
+    window.addEventListener('dragleave', (event) => { if (carriesFiles(event)) over(-1); });
+    window.addEventListener('dragover', (event) => { if (carriesFiles(event)) event.preventDefault(); });
+    window.addEventListener('drop', (event) => {
+      if (!carriesFiles(event) || !event.dataTransfer) return;
+      event.preventDefault();
+      over(-depth);
+      void this.leaveFor(this.drop(event.dataTransfer));
+    });
+  }
+
+  private async drop(transfer: DataTransfer): Promise<boolean> {
+    try {
+      return await this.openings.openFiles(await sourceOfDropped(transfer));
+    } catch (error) {
+      this.messages.thrown(error);
+      return false;
+    }
+  }
+}
