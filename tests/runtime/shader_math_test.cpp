@@ -141,8 +141,7 @@ TEST_P(ShaderMath, TexelStoresFindEveryTexelAcrossRowsAndLayers) {
   TexelLayout layout{.row_bits = 2, .layer_bits = 1, .max_layers = 8};
   std::vector<float> values(37);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = float(i) + 0.25f;
-  const TexelStore store =
-      TexelStore::from(layout, texel_formats::r32f, std::span<const float>(values), "test values");
+  const TexelStore store(layout, TexelSource::of(texel_formats::r32f, values, "test values"));
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_2D_ARRAY, store.texture());
   const Probe probe(

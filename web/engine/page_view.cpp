@@ -47,7 +47,7 @@ void PageView::set_inspector(Inspector inspector) {
 
 Legend PageView::legend() const { return looks_into() ? inspector_->legend() : Legend{}; }
 
-bool PageView::moving() const { return controls_.moving() || flight_.direction != glm::dvec3(0.0); }
+bool PageView::moving() { return controls().moving() || flight_.direction != glm::dvec3(0.0); }
 
 void PageView::set_background(glm::vec3 background) {
   background_ = background;

@@ -5,6 +5,7 @@
 
 #include "formats/scene_file.hpp"
 #include "runtime/preset_check.hpp"
+#include "runtime/view_state.hpp"
 #include "soup/error.hpp"
 #include "web/engine/commands.hpp"
 #include "web/engine/page_view.hpp"
@@ -114,22 +115,30 @@ Json drop_preview(const Json&) {
 
 Json moving() { return view().moving(); }
 
+/// What is shown, at no size in particular.
+constexpr int any_side = 1000;
+
 Json pose() {
-  const Camera camera = controls().camera(1000, 1000);
-  const glm::dvec3 backward = camera.world_from_view_rotation()[2];
+  const Camera camera = controls().camera(any_side, any_side);
+  const ViewState state = state_of(camera, controls().up(), controls().distance());
   return {{"eye", to_json(camera.eye())},
-          {"target", to_json(camera.eye() - controls().distance() * backward)},
-          {"up", to_json(camera.world_from_view_rotation()[1])},
-          {"fov", controls().fov()}};
+          {"target", to_json(state.target)},
+          {"up", to_json(state.up)},
+          {"fov", controls().fov()},
+          {"roll", state.roll}};
 }
 
 /// {"pose", "glide"}
 Json set_pose(const Json& arguments) {
   const Json& pose = arguments.at("pose");
   const glm::dvec3 eye = vector_of(pose.at("eye")), target = vector_of(pose.at("target"));
-  controls().adopt(
-      look_at(eye, target, vector_of(pose.at("up")), pose.at("fov").get<double>(), 1000, 1000));
-  controls().set_target_depth(glm::length(target - eye));
+  const glm::dvec3 up = vector_of(pose.at("up"));
+  const double distance = glm::length(target - eye), fov = pose.at("fov");
+  ViewState state =
+      state_of(look_at(eye, target, up, fov, any_side, any_side), glm::normalize(up), distance);
+  state.roll += pose.at("roll").get<double>();
+  controls().adopt(camera_of(state, any_side, any_side));
+  controls().set_target_depth(distance);
   if (!arguments.at("glide").get<bool>()) controls().arrive();
   return nullptr;
 }

@@ -2,7 +2,8 @@
 // A page has one that draws; each load has another, in a worker, that is gone with what it has used.
 
 import createTureen, { type TureenModule } from 'tureen-engine';
-import { ViewerError, type Assets } from './types.js';
+import type { Assets } from './assets.js';
+import { ViewerError } from './types.js';
 
 type Failure = { readonly kind: ViewerError['kind'] | 'memory'; readonly message: string };
 
@@ -16,9 +17,9 @@ let compiled: Promise<WebAssembly.Module> | null = null;
 
 /** The program, compiled once for all instances. */
 export function compile(assets: Assets): Promise<WebAssembly.Module> {
-  compiled ??= assets.wasm().then((bytes) => WebAssembly.compile(bytes));
-  compiled.catch(() => { compiled = null; });  // the next viewer may have better luck
-  return compiled;
+  const program = compiled ??= assets.wasm().then((bytes) => WebAssembly.compile(bytes));
+  program.catch(() => { compiled = null; });  // the next viewer may have better luck
+  return program;
 }
 
 export class Engine {

@@ -91,10 +91,11 @@ export type NamedView = (typeof namedViews)[number];
 export interface ViewPose {
   readonly eye: Vec3;
   readonly target: Vec3;
-  /** Of the picture, which is the scene's own axis only where the camera is level. */
   readonly up: Vec3;
   /** The full vertical angle. */
   readonly fov: number;
+  /** Of the camera's head to its left; 0 but for recorded cameras. */
+  readonly roll: number;
 }
 
 /** Resolution of the picture: a factor of the screen's own pixels, 0.25..1 and 2 for four samples a

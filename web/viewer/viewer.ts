@@ -55,7 +55,6 @@ class CanvasViewer implements Viewer {
   private navigation: NavigationMode = 'orbit';
   private background_: Vec3 = [0, 0, 0];
   private gliding_ = true;
-  private fov_ = 0;
   private lost = false;
   private frameAsked = 0;
   private lastFrame: number | null = null;
