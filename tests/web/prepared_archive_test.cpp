@@ -1,0 +1,129 @@
+// A soup that was packed where scenes are read and unpacked where they are drawn gives the very
+// same picture and plan as one that never travelled, whatever its appearance.
+#include "web/engine/prepared_archive.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "runtime/navigation.hpp"
+#include "runtime/renderer.hpp"
+#include "support/contexts.hpp"
+#include "support/random_soups.hpp"
+#include "support/trait_soups.hpp"
+
+namespace tureen::web {
+namespace {
+
+using Blobs = std::vector<std::vector<std::byte>>;
+
+/// In blocks of a few grains, as a worker hands them over.
+Blobs all_blobs(const PreparedSoup& prepared) {
+  Blobs blobs(blob_count(prepared));
+  for (std::size_t blob = 0; blob < blobs.size(); ++blob) {
+    blobs[blob].resize(blob_size(prepared, blob));
+    const std::size_t block = 7 * blob_grain(prepared, blob);
+    for (std::size_t offset = 0; offset < blobs[blob].size(); offset += block)
+      read_blob(
+          prepared, blob, offset,
+          std::span(blobs[blob]).subspan(offset, std::min(block, blobs[blob].size() - offset)));
+  }
+  return blobs;
+}
+
+Camera camera_of(const TriangleSoup& soup) {
+  const Bounds box = bounds(soup);
+  return frame({.low = box.low, .high = box.high}, three_quarter_view, {320, 240});
+}
+
+class PreparedArchive : public testing::TestWithParam<test::Kind> {
+ protected:
+  static const gl::Context& context() {
+    static const gl::Context one = gl::Context::create(test::osmesa);
+    return one;
+  }
+
+  /// Both ways; expects equal bytes.
+  static void expect_same(const TriangleSoup& soup, const RenderOptions& options) {
+    const Camera camera = camera_of(soup);
+    Renderer here(context(), soup, glm::dvec3(0.0), options);
+    here.draw(camera);
+    const Image8 expected = here.read_color();
+
+    std::vector<std::byte> head;
+    Blobs blobs;
+    {
+      const TriangleSoup gone = soup;  // and all that was prepared with it
+      const PreparedSoup prepared =
+          prepare_soup(gone, glm::dvec3(0.0), device_limits(context().capabilities()), options);
+      head = pack_head(prepared);
+      blobs = all_blobs(prepared);
+    }
+    const BlobReader read = [&](std::size_t blob, std::uint64_t offset, std::span<std::byte> out) {
+      ASSERT_LE(offset + out.size(), blobs[blob].size());
+      std::copy_n(blobs[blob].begin() + std::ptrdiff_t(offset), out.size(), out.begin());
+    };
+    Renderer there(context(), unpack(head, read), options);
+    there.draw(camera);
+    EXPECT_EQ(there.read_color().pixels, expected.pixels);
+    EXPECT_EQ(there.read_faces(), here.read_faces());
+    EXPECT_EQ(there.plan().sentences, here.plan().sentences);
+    EXPECT_EQ(there.device_bytes(), here.device_bytes());
+  }
+};
+
+TEST_P(PreparedArchive, DrawsAsIfItHadNotTravelled) {
+  expect_same(test::random_soup(81, {.kind = GetParam(), .faces = 300, .degree = 2}), {});
+}
+
+TEST_P(PreparedArchive, NorWithNothingLeftOut) {
+  RenderOptions options;
+  options.plan.specialise = false;
+  expect_same(test::random_soup(82, {.kind = GetParam(), .faces = 100, .degree = 2}), options);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, PreparedArchive, testing::ValuesIn(test::all_kinds),
+                         [](const auto& each) { return test::to_string(each.param); });
+
+TEST(PreparedArchiveOfTurnedKnobs, KeepsTheSoupThatThePresetMade) {
+  const gl::Context context = gl::Context::create(test::osmesa);
+  const TriangleSoup soup =
+      test::random_soup(83, {.kind = test::Kind::lattice_mlp, .faces = 200, .level = 3});
+  RenderOptions options;
+  options.plan.preset = RenderPreset{.lattice_level = 1};
+  const PreparedSoup prepared =
+      prepare_soup(soup, glm::dvec3(0.0), device_limits(context.capabilities()), options);
+  ASSERT_NE(prepared.turned, nullptr);
+  Renderer renderer(context, soup, glm::dvec3(0.0), options);
+  std::uint64_t bytes = 0;
+  for (std::size_t blob = 0; blob < blob_count(prepared); ++blob)
+    bytes += blob_size(prepared, blob);
+  // Rows of textures are filled up; a level more would be four times as much.
+  EXPECT_NEAR(double(bytes), double(renderer.device_bytes()), 0.5 * double(bytes));
+}
+
+// What leaves out rims of faces has more geometry than corners.
+TEST(PreparedArchiveOfParts, KeepsWhereTheirCornersLie) {
+  const gl::Context context = gl::Context::create(test::osmesa);
+  TriangleSoup soup = test::random_soup(
+      84, {.kind = test::kind_of_trait(LeaveOut::transparent_rims), .faces = 100, .level = 3});
+  test::give_trait(LeaveOut::transparent_rims, soup);
+  const PreparedSoup prepared =
+      prepare_soup(soup, glm::dvec3(0.0), device_limits(context.capabilities()), RenderOptions{});
+  ASSERT_FALSE(prepared.plan.parts.empty());
+  const Blobs blobs = all_blobs(prepared);
+  const BlobReader read = [&](std::size_t blob, std::uint64_t offset, std::span<std::byte> out) {
+    std::copy_n(blobs[blob].begin() + std::ptrdiff_t(offset), out.size(), out.begin());
+  };
+  const PreparedSoup unpacked = unpack(pack_head(prepared), read);
+  EXPECT_EQ(unpacked.geometry.part_barycentrics, prepared.geometry.part_barycentrics);
+  Renderer here(context, soup, glm::dvec3(0.0)), there(context, unpacked);
+  const Camera camera = camera_of(soup);
+  here.draw(camera);
+  const Image8 expected = here.read_color();
+  there.draw(camera);
+  EXPECT_EQ(there.read_color().pixels, expected.pixels);
+}
+
+}  // namespace
+}  // namespace tureen::web
