@@ -18,4 +18,11 @@ ClipRange clip_range(const Bounds& bounds, glm::dvec3 eye, DepthStorage storage)
   return {std::max(0.95 * (distance - radius), least * radius), 1.05 * (distance + radius)};
 }
 
+std::optional<double> distance_of(double stored, const ClipRange& range, DepthStorage storage) {
+  if (storage == DepthStorage::reversed_float)
+    return stored > 0 ? std::optional(range.near / stored) : std::nullopt;
+  if (stored >= 1) return std::nullopt;
+  return range.near * range.far / (range.far - stored * (range.far - range.near));
+}
+
 }  // namespace tureen

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include "soup/triangle_soup.hpp"
 
@@ -22,5 +23,9 @@ enum class DepthStorage {
 /// `eye` is relative to the soup's origin. 0 < near < far for every finite input. What lies nearer
 /// than `near` is clipped; seen from outside the bounds, nothing does.
 ClipRange clip_range(const Bounds& bounds, glm::dvec3 eye, DepthStorage storage);
+
+/// How far along the viewing axis a stored depth lies, the inverse of clip_from_view and
+/// clip_from_view_reversed (soup/camera.hpp); nothing for that of the background.
+std::optional<double> distance_of(double stored, const ClipRange& range, DepthStorage storage);
 
 }  // namespace tureen

@@ -41,6 +41,9 @@ class Pipeline {
   /// The framebuffer with (slot, barycentrics) as RG32UI, or 0 where the pipeline has none; of
   /// sample_size().
   virtual GLuint visibility_framebuffer() const { return 0; }
+  /// The depth of the last frame, a GL_TEXTURE_2D of sample_size(), or 0 where it cannot be
+  /// sampled.
+  virtual GLuint depth_texture() const { return 0; }
   /// How many samples wide and high the geometry is drawn: the picture's own size but for pipelines
   /// that resample.
   virtual glm::ivec2 sample_size() const = 0;

@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "runtime/clip_range.hpp"
+#include "runtime/depth_probe.hpp"
 #include "runtime/gl/state.hpp"
 #include "runtime/pipeline.hpp"
 #include "runtime/resampled_pipeline.hpp"
@@ -20,6 +21,9 @@ struct Renderer::State {
   std::unique_ptr<Pipeline> pipeline;
   int max_side = 0;
   int width = 0, height = 0;
+  FrameCamera last_frame;
+  gl::Api api = gl::Api::desktop;
+  std::optional<DepthProbe> probe;
   std::optional<StageChoice> told_choice;  // by the last of the plan's sentences
 
   /// What the frame has measured becomes a sentence of the plan.
@@ -77,6 +81,7 @@ Renderer::Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dv
   state_->origin = origin;
   state_->background = options.background;
   state_->max_side = capabilities.max_picture_side;
+  state_->api = capabilities.api;
   gl::use_plain_pixel_transfer();
   state_->pipeline = resampled(make_published_pipeline(capabilities, limits, soup, state_->plan),
                                state_->plan, capabilities);
@@ -91,6 +96,7 @@ Renderer::Renderer(const gl::Context& context, PreparedSoup prepared, const Rend
   state_->origin = prepared.origin;
   state_->background = options.background;
   state_->max_side = capabilities.max_picture_side;
+  state_->api = capabilities.api;
   gl::use_plain_pixel_transfer();
   state_->pipeline =
       resampled(make_tureen_pipeline(capabilities, limits, std::move(prepared.appearance),
@@ -118,8 +124,8 @@ void Renderer::draw(const Camera& camera) {
   const glm::dvec3 eye = camera.eye() - state_->origin;
   const DepthStorage storage =
       state_->plan.reversed_depth ? DepthStorage::reversed_float : DepthStorage::fixed_24;
-  state_->pipeline->draw({camera, eye, clip_range(state_->bounds, eye, storage)},
-                         state_->background);
+  state_->last_frame = {camera, eye, clip_range(state_->bounds, eye, storage)};
+  state_->pipeline->draw(state_->last_frame, state_->background);
   state_->tell_choice();
 }
 
@@ -140,12 +146,31 @@ std::vector<std::uint32_t> Renderer::read_faces() const {
   return read_visible_faces(framebuffer, sample_size(), state_->plan.faces);
 }
 
+std::optional<glm::dvec3> Renderer::point_at(glm::dvec2 place) {
+  const GLuint texture = state_->pipeline->depth_texture();
+  const glm::dvec2 picture(state_->width, state_->height), part = place / picture;
+  if (!texture || !(part.x >= 0 && part.x < 1 && part.y >= 0 && part.y < 1)) return {};
+  const glm::dvec2 samples(sample_size());
+  const glm::ivec2 sample(part.x * samples.x, (1 - part.y) * samples.y);
+  if (!state_->probe) state_->probe.emplace(state_->api);
+  const double stored =
+      state_->probe->read(texture, glm::min(sample, sample_size() - glm::ivec2(1)));
+  const auto depth = distance_of(
+      stored, state_->last_frame.range,
+      state_->plan.reversed_depth ? DepthStorage::reversed_float : DepthStorage::fixed_24);
+  if (!depth) return {};
+  const Camera& camera = state_->last_frame.camera;
+  const glm::dvec3 ray((place.x - camera.cx) / camera.fx, (camera.cy - place.y) / camera.fy, -1.0);
+  return camera.eye() + camera.world_from_view_rotation() * (*depth * ray);
+}
+
 void Renderer::blit_to(unsigned framebuffer) const {
   blit_color(state_->pipeline->color_framebuffer(), framebuffer, state_->width, state_->height);
 }
 
 void Renderer::leave_context() {
   state_->pipeline->leave_context();
+  state_->probe.reset();
   state_->width = state_->height = 0;
   finish();
 }

@@ -14,6 +14,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "runtime/gl/context.hpp"
@@ -79,6 +80,12 @@ class Renderer {
   /// The face that each sample of the last frame shows, sample_size() of them, row 0 on top,
   /// no_face where none does. Empty when the plan shades forward or stores features.
   std::vector<std::uint32_t> read_faces() const;
+
+  /// The point, in world coordinates, that the last frame shows at a place of its picture, from the
+  /// top left corner in pixels; nothing where it shows the background, and where depth cannot be
+  /// read: alpha to coverage, the published pipeline. As exact as the depth buffer. Waits for the
+  /// device.
+  std::optional<glm::dvec3> point_at(glm::dvec2 place);
 
   /// Copies the last frame into a framebuffer of the same size (0 is the window).
   void blit_to(unsigned framebuffer) const;

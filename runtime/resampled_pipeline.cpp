@@ -62,6 +62,7 @@ class ResampledPipeline : public Pipeline {
   GLuint color_framebuffer() const final { return color_framebuffer_.id(); }
   GLuint color_texture() const final { return color_.id(); }
   GLuint visibility_framebuffer() const final { return pipeline_->visibility_framebuffer(); }
+  GLuint depth_texture() const final { return pipeline_->depth_texture(); }
   glm::ivec2 sample_size() const final { return pipeline_->sample_size(); }
   std::size_t device_bytes() const final { return pipeline_->device_bytes(); }
   std::optional<StageChoice> shading_choice() const final { return pipeline_->shading_choice(); }

@@ -102,6 +102,7 @@ class TureenPipeline final : public Pipeline {
   }
   GLuint color_framebuffer() const override { return color_framebuffer_.id(); }
   GLuint color_texture() const override { return color_.id(); }
+  GLuint depth_texture() const override { return depth_.id(); }
   glm::ivec2 sample_size() const override { return {width_, height_}; }
   GLuint visibility_framebuffer() const override { return store_.visibility_framebuffer(); }
   std::optional<StageChoice> shading_choice() const override {

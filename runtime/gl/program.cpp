@@ -80,6 +80,9 @@ void Program::link() const {
 
 void Program::set(const char* name, int value) const { glUniform1i(location(name), value); }
 void Program::set(const char* name, float value) const { glUniform1f(location(name), value); }
+void Program::set(const char* name, const glm::ivec2& value) const {
+  glUniform2iv(location(name), 1, glm::value_ptr(value));
+}
 void Program::set(const char* name, const glm::vec2& value) const {
   glUniform2fv(location(name), 1, glm::value_ptr(value));
 }

@@ -27,6 +27,7 @@ class Program {
   // Uniforms of the program in use; a name that the linker has removed is ignored.
   void set(const char* name, int value) const;
   void set(const char* name, float value) const;
+  void set(const char* name, const glm::ivec2& value) const;
   void set(const char* name, const glm::vec2& value) const;
   void set(const char* name, const glm::vec3& value) const;
   void set(const char* name, const glm::vec4& value) const;

@@ -199,6 +199,37 @@ TEST(Renderer, NamesTheSameFacesOnEs) {
   EXPECT_NE(std::count(faces[0].begin(), faces[0].end(), no_face), std::ptrdiff_t(64 * 48));
 }
 
+/// A slanted face, z = x / 2 + 0.3, seen from (0.5, 0.2, 4).
+TEST(Renderer, TellsThePointThatAPixelShows) {
+  TriangleSoup soup;
+  soup.positions = {{-1, -1, -0.2f}, {1, -1, 0.8f}, {0, 1, 0.3f}};
+  soup.triangles = {{0, 1, 2}};
+  soup.appearance = FaceColors{{glm::vec4(1.0f)}};
+  const glm::dvec3 origin(10, -20, 5);
+  const Camera camera = look_at(origin + glm::dvec3(0.5, 0.2, 4), origin, {0, 1, 0}, 0.8, 160, 120);
+  for (const NamedContext& named : every_context)
+    for (const double scale : {1.0, 0.5}) {
+      SCOPED_TRACE(named.name);
+      const gl::Context context = gl::Context::create(named.request);
+      RenderOptions options;
+      options.plan.preset = RenderPreset{.resolution_scale = scale};
+      Renderer renderer(context, soup, origin, options);
+      renderer.draw(camera);
+      EXPECT_EQ(renderer.point_at({1, 1}), std::nullopt) << "background";
+      EXPECT_EQ(renderer.point_at({-1, 60}), std::nullopt) << "beside the picture";
+      // At a sample's centre, which is a pixel's corner where there are half as many.
+      const glm::dvec2 place = scale == 1 ? glm::dvec2(84.5, 66.5) : glm::dvec2(85, 67);
+      const auto point = renderer.point_at(place);
+      ASSERT_TRUE(point);
+      const glm::dvec3 local = *point - origin;
+      // 24 bits of depth between about 3 and 5.5: some 1e-6; floats of the corners likewise.
+      EXPECT_NEAR(local.z, 0.5 * local.x + 0.3, 1e-5);
+      const glm::dvec4 seen = camera.view_from_world * glm::dvec4(*point, 1.0);
+      EXPECT_NEAR(camera.cx - camera.fx * seen.x / seen.z, place.x, 1e-6);
+      EXPECT_NEAR(camera.cy + camera.fy * seen.y / seen.z, place.y, 1e-6);
+    }
+}
+
 // A device with small textures needs more layers; nothing else may change.
 TEST(Renderer, SmallTexturesHoldTheSameScene) {
   const gl::Context context = gl::Context::create(osmesa);

@@ -49,6 +49,17 @@ Legend PageView::legend() const { return looks_into() ? inspector_->legend() : L
 
 bool PageView::moving() { return controls().moving() || flight_.direction != glm::dvec3(0.0); }
 
+bool PageView::focus(glm::dvec2 place, glm::dvec2 viewport) {
+  if (!shows_scene()) return false;
+  // A small picture would do, but this one's depth is what the person sees.
+  Stage& stage = *current();
+  const glm::ivec2 size(viewport);
+  stage.renderer.draw(stage.controls.camera(size.x, size.y));
+  const std::optional<glm::dvec3> point = stage.renderer.point_at(place);
+  if (point) stage.controls.focus(*point);
+  return point.has_value();
+}
+
 void PageView::set_background(glm::vec3 background) {
   background_ = background;
   for (std::optional<Stage>* stage : {&stage_, &preview_})

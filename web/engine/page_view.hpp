@@ -50,6 +50,10 @@ class PageView {
   void fly(const Flight& flight) { flight_ = flight; }
   bool moving();
 
+  /// Brings what is shown there, in the unit of the viewport, to the centre. False where that is
+  /// the background.
+  bool focus(glm::dvec2 place, glm::dvec2 viewport);
+
   void set_background(glm::vec3 background);
   /// Asserts that there is a scene.
   const ShownScene& scene() const { return current()->scene; }

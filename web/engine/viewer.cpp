@@ -199,6 +199,11 @@ Commands looking_around() {
       {"speed", [](const Json&) { return Json(controls().speed()); }},
       {"arrive", moves([](const Json&) { controls().arrive(); })},
       {"set_pose", moves([](const Json& a) { set_pose(a); })},
+      {"focus",
+       [](const Json& a) {
+         return Json(view().focus({a.at(0).get<double>(), a.at(1).get<double>()},
+                                  {a.at(2).get<double>(), a.at(3).get<double>()}));
+       }},
       {"pose", [](const Json&) { return pose(); }},
   };
 }

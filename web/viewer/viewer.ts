@@ -221,7 +221,7 @@ class CanvasViewer implements Viewer {
   get speed(): number { return this.engine.call<number>('speed'); }
   fly(direction: Vec3, factor: number): void { this.move('fly', [direction, factor]); }
   focus(x: number, y: number): boolean {
-    const found = this.engine.call<boolean>('focus', [x, y]);
+    const found = this.engine.call<boolean>('focus', [x, y, this.canvas.clientWidth, this.canvas.clientHeight]);
     this.ask();
     return found;
   }
