@@ -1,16 +1,21 @@
 // `tureen convert`: a scene in another format.
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "cli/commands.hpp"
 #include "cli/convert_slim.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
+#include "cli/scene_page.hpp"
+#include "cli/scratch.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 struct Options {
   SceneArgument scene;
@@ -20,33 +25,59 @@ struct Options {
   SlimArguments slim;
 };
 
-ExitCode convert_scene(const Options& options) {
-  const std::filesystem::path output = options.output;
+/// Before the scene is read, which may take a while.
+void check_output(const Options& options) {
+  const fs::path output = options.output;
   std::error_code error;
-  // Before the scene is read, which may take a while.
-  if (std::filesystem::exists(output, error)) {
-    if (std::filesystem::equivalent(output, options.scene.path, error))
+  if (fs::exists(output, error)) {
+    if (fs::equivalent(output, options.scene.path, error))
       throw UsageError(options.output + " is the scene itself; choose another name");
     if (!options.force) throw UsageError(options.output + " exists already; --force replaces it");
   }
   check_slim(options.slim, output);
-  Scene scene = read(options.scene);
-  if (options.slim.slim) {
-    say_list("Reading " + options.scene.path + ":", scene.info.notes);
-    const Json json = convert_slim(std::move(scene), options.slim, output);
-    if (options.json) print_json(json);
-    return ExitCode::done;
-  }
-  const std::vector<std::string> lost = write_scene(scene, output);
-  const std::uint64_t bytes = bytes_on_disk(output);
-  say_list("Reading " + options.scene.path + ":", scene.info.notes);
+}
+
+/// Writes `file`, in the format that its name says. Says what that lost, and returns it.
+Json write(Scene scene, const Options& options, const fs::path& file) {
+  if (options.slim.slim) return convert_slim(std::move(scene), options.slim, file);
+  const std::vector<std::string> lost = write_scene(scene, file);
   say_list("Lost in " + options.output + ":", lost);
+  return {{"notes", scene.info.notes}, {"lost", lost}};
+}
+
+/// Whether a page may hold the bytes of the scene's own file.
+bool is_page_of_file(const Options& options) {
+  return !options.slim.slim && options.scene.up.empty() && is_our_glb(options.scene.path);
+}
+
+Json write_page(const ScenePageTemplate& page, Scene scene, const Options& options) {
+  const fs::path output = options.output;
+  const std::string name = scene.info.name.empty() ? output.stem().string() : scene.info.name;
+  if (is_page_of_file(options)) {
+    page.write(options.scene.path, name, output);
+    return {{"notes", scene.info.notes}, {"lost", Json::array()}};
+  }
+  const Scratch glb(options.output + ".glb", "the scene that the page will hold");
+  Json figures = write(std::move(scene), options, glb.path());
+  page.write(glb.path(), name, output);
+  return figures;
+}
+
+ExitCode convert_scene(const Options& options) {
+  check_output(options);
+  std::optional<ScenePageTemplate> page;
+  if (is_scene_page(options.output)) page = ScenePageTemplate::find();
+  Scene scene = read(options.scene);
+  say_list("Reading " + options.scene.path + ":", scene.info.notes);
+  const Json figures = page ? write_page(*page, std::move(scene), options)
+                            : write(std::move(scene), options, options.output);
+  const std::uint64_t bytes = bytes_on_disk(options.output);
   say("wrote " + options.output + ", " + bytes_text(bytes));
-  if (options.json)
-    print_json({{"output", options.output},
-                {"bytes_on_disk", bytes},
-                {"notes", scene.info.notes},
-                {"lost", lost}});
+  if (options.json) {
+    Json json = {{"output", options.output}, {"bytes_on_disk", bytes}};
+    json.update(figures);
+    print_json(json);
+  }
   return ExitCode::done;
 }
 
@@ -62,7 +93,9 @@ std::string written_formats() {
     extensions.resize(std::max<std::size_t>(extensions.size() + 1, 16), ' ');
     text += "  " + extensions + format.name + ": " + format.description + "\n";
   }
-  return text;
+  return text +
+         "  .html          one page that opens by double-click: our GLB, and the viewer of ./dev "
+         "web\n";
 }
 
 }  // namespace
@@ -78,6 +111,7 @@ Examples:
   tureen convert soup.glb soup.off --force    replaces soup.off
   tureen convert soup.glb small.glb --slim --photographs lego --scale 0.5
                                               loses 0.1 dB against lego, no more
+  tureen convert soup.glb soup.html           a page to send to somebody
   tureen convert foreign.glb soup.glb --vertex-colors srgb --up 0,0,1)");
   add_scene_argument(*command, options->scene, "IN");
   command->add_option("OUT", options->output, "the file (or folder) to write")

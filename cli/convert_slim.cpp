@@ -6,6 +6,8 @@
 
 #include "cli/progress.hpp"
 #include "cli/scene_argument.hpp"
+#include "cli/scene_page.hpp"
+#include "cli/scratch.hpp"
 #include "cli/slim.hpp"
 #include "formats/diffsoup_export.hpp"
 #include "soup/error.hpp"
@@ -16,31 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that is gone when this is.
-class ScratchFolder {
- public:
-  explicit ScratchFolder(fs::path path) : path_(std::move(path)) {}
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-/// Bytes of the scene as DiffSoup publishes it: two PNGs, a PLY and JSON, written beside `output`
-/// and removed again. None where it cannot be written so.
-std::optional<std::uint64_t> published_bytes(const Scene& scene, const fs::path& output) {
-  const ScratchFolder folder(output.string() + ".export");
-  std::error_code error;
-  if (fs::exists(folder.path(), error))
-    throw UsageError(folder.path().string() +
-                     " is in the way: the export to compare with goes "
-                     "there for a moment");
+/// Bytes of the scene as DiffSoup publishes it: two PNGs, a PLY and JSON, written beside `glb` and
+/// removed again. None where it cannot be written so.
+std::optional<std::uint64_t> published_bytes(const Scene& scene, const fs::path& glb) {
+  const Scratch folder(glb.string() + ".export", "the export to compare with");
   try {
     write_diffsoup_export(scene, folder.path());
   } catch (const UsageError&) {
@@ -100,18 +81,18 @@ void add_slim_arguments(CLI::App& command, SlimArguments& arguments) {
 }
 
 void check_slim(const SlimArguments& arguments, const fs::path& output) {
-  if (arguments.slim && output.extension() != ".glb")
-    throw UsageError("--slim writes .glb files, not " + output.string());
+  if (arguments.slim && output.extension() != ".glb" && !is_scene_page(output))
+    throw UsageError("--slim writes .glb files and .html pages of them, not " + output.string());
 }
 
-Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& output) {
+Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& glb) {
   SlimRequest request{.max_loss_db = arguments.max_error_db, .keep_unseen = arguments.keep_unseen};
   if (!arguments.photographs.path.empty()) {
     request.photographs = read(arguments.photographs, DatasetPart::test).test;
     if (request.photographs.empty())
       throw InputError({arguments.photographs.path, {}, {}}, "it holds no test photographs");
   }
-  const std::optional<std::uint64_t> published = published_bytes(scene, output);
+  const std::optional<std::uint64_t> published = published_bytes(scene, glb);
   SlimResult result;
   {
     Progress progress("slimming");
@@ -132,13 +113,13 @@ Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& o
     lost.push_back(fmt::format("Slim: of {} recorded cameras only the first is kept.", cameras));
   }
   scene.info.notes.insert(scene.info.notes.end(), lost.begin(), lost.end());
-  for (std::string& sentence : write_slim_glb(scene, result.soup, output))
+  for (std::string& sentence : write_slim_glb(scene, result.soup, glb))
     lost.push_back(std::move(sentence));
 
-  const std::uint64_t bytes = bytes_on_disk(output);
-  say_list("Lost in " + output.string() + ":", lost);
+  const std::uint64_t bytes = bytes_on_disk(glb);
+  say_list("Lost by --slim:", lost);
   const auto faces = std::get<TriangleSoup>(scene.primitives).triangles.size();
-  say(fmt::format("wrote {}, {}: positions {}, texels {}, {:.1f} bytes a triangle", output.string(),
+  say(fmt::format("the scene takes {}: positions {}, texels {}, {:.1f} bytes a triangle",
                   bytes_text(bytes), bytes_text(result.soup.geometry.size()),
                   bytes_text(result.soup.texels.size()),
                   double(bytes) / double(std::max<std::size_t>(faces, 1))));
@@ -147,8 +128,7 @@ Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& o
         fmt::format("{:.2f} times smaller than the published export of the same soup ({}: two "
                     "PNGs, PLY and JSON)",
                     double(*published) / double(bytes), bytes_text(*published)));
-  Json json = {{"output", output.string()},
-               {"bytes_on_disk", bytes},
+  Json json = {{"scene_bytes", bytes},
                {"geometry_bytes", result.soup.geometry.size()},
                {"texel_bytes", result.soup.texels.size()},
                {"position_bits", result.position_bits},

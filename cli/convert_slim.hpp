@@ -27,9 +27,9 @@ void add_slim_arguments(CLI::App& command, SlimArguments& arguments);
 /// Throws UsageError for what can be known to be wrong before the scene is read.
 void check_slim(const SlimArguments& arguments, const std::filesystem::path& output);
 
-/// Writes the slim file; says in full what was lost, and how small it is beside the published
+/// Writes the slim file `glb`; says in full what was lost, and how small it is beside the published
 /// export of the same soup. Returns the same as JSON. Throws what slim() and write_slim_glb()
 /// throw, and Interrupted.
-Json convert_slim(Scene scene, const SlimArguments& arguments, const std::filesystem::path& output);
+Json convert_slim(Scene scene, const SlimArguments& arguments, const std::filesystem::path& glb);
 
 }  // namespace tureen::cli

@@ -3,6 +3,8 @@
 #include <cassert>
 #include <cstdint>
 
+#include "cli/base64.hpp"
+
 namespace tureen::cli {
 
 namespace {
@@ -47,20 +49,6 @@ std::size_t character_length(const std::string& text, std::size_t at) {
   const bool allowed = code >= least[length] && (code < 0xd800 || code > 0xdfff) &&
                        code != 0xfffe && code != 0xffff && code <= 0x10ffff;
   return allowed ? length : 0;
-}
-
-std::string base64(std::span<const std::byte> bytes) {
-  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    const std::size_t count = bytes.size() - i < 3 ? bytes.size() - i : 3;
-    for (std::size_t j = 0; j < 3; ++j)
-      three = three << 8 | (j < count ? std::to_integer<std::uint32_t>(bytes[i + j]) : 0u);
-    for (std::size_t j = 0; j < 4; ++j)
-      text += j <= count ? digits[three >> (18 - 6 * j) & 63] : '=';
-  }
-  return text;
 }
 
 std::string element(const char* name, const std::string& text) {

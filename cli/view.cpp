@@ -12,6 +12,7 @@
 #endif
 
 #include "cli/commands.hpp"
+#include "cli/program_folder.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {
@@ -22,11 +23,9 @@ constexpr const char* window_program = "tureen-view";
 
 /// Beside this program, or wherever PATH has it.
 std::string find_window_program() {
-  std::error_code failed;
-  const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe", failed);
-  if (!failed)
-    if (const auto beside = own.parent_path() / window_program;
-        std::filesystem::exists(beside, failed))
+  std::error_code ignored;
+  if (const auto folder = program_folder())
+    if (const auto beside = *folder / window_program; std::filesystem::exists(beside, ignored))
       return beside.string();
   return window_program;
 }

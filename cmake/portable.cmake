@@ -14,6 +14,9 @@ install(RUNTIME_DEPENDENCY_SET tureen_libraries
   DESTINATION .)
 install(FILES LICENSE README.md DESTINATION .)
 install(DIRECTORY examples DESTINATION . FILES_MATCHING PATTERN "*.glb")
+# Where ./dev web has made it, what `tureen convert SCENE OUT.html` puts scenes into.
+install(FILES "${PROJECT_BINARY_DIR}/share/tureen/scene_template.html" DESTINATION share/tureen
+  OPTIONAL)
 
 set(CPACK_GENERATOR TGZ)
 set(CPACK_STRIP_FILES ON)

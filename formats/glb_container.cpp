@@ -1,6 +1,5 @@
 #include "formats/glb_container.hpp"
 
-#include <array>
 #include <bit>
 #include <optional>
 #include <string_view>
@@ -17,6 +16,66 @@ constexpr std::uint32_t magic = 0x46546C67;       // "glTF"
 constexpr std::uint32_t json_chunk = 0x4E4F534A;  // "JSON"
 constexpr std::uint32_t bin_chunk = 0x004E4942;   // "BIN\0"
 
+constexpr std::uint64_t header_bytes = 12, chunk_header_bytes = 8;
+
+constexpr char trailing_bytes[] = "bytes trail the file: its header says ";
+
+std::string lengths(std::uint64_t length, const Input& input) {
+  return std::to_string(length) + " bytes, it has " + std::to_string(input.size());
+}
+
+/// From the start of the input; returns the length of the file that the header says.
+std::uint64_t read_header(Input& input) {
+  input.seek(0);
+  if (input.read_value<std::uint32_t>("the GLB header") != magic)
+    input.fail_at(0, "not a GLB file: it does not begin with \"glTF\"");
+  const auto version = input.read_value<std::uint32_t>("the GLB header");
+  if (version != 2) input.fail_at(4, "GLB version " + std::to_string(version) + ", only 2 is read");
+  return input.read_value<std::uint32_t>("the GLB header");
+}
+
+struct Chunk {
+  std::uint64_t header = 0;  // where it begins
+  std::uint64_t start = 0;   // of its bytes
+  std::uint32_t size = 0;
+  std::uint32_t type = 0;
+};
+
+/// The chunk that begins here, number `index` of a file of `length` bytes.
+Chunk read_chunk_header(Input& input, int index, std::uint64_t length) {
+  Chunk chunk;
+  chunk.header = input.position();
+  chunk.size = input.read_value<std::uint32_t>("a GLB chunk header");
+  chunk.type = input.read_value<std::uint32_t>("a GLB chunk header");
+  chunk.start = input.position();
+  const auto fail = [&](const std::string& reason) { input.fail_at(chunk.header, reason); };
+  const std::string size = "a GLB chunk of " + std::to_string(chunk.size) + " bytes, ";
+  if (chunk.size > length - chunk.start)
+    fail(size + "but " + std::to_string(length - chunk.start) + " are left");
+  if (chunk.size % 4 != 0) fail(size + "which is no multiple of 4");
+  if ((chunk.type == json_chunk) != (index == 0))
+    fail(index == 0 ? "the first GLB chunk is not JSON" : "a second JSON chunk in the GLB file");
+  return chunk;
+}
+
+/// Reads the JSON, or notes where the binary chunk lies.
+void take(Input& input, const Chunk& chunk, int index, GlbContainer& glb) {
+  if (chunk.type == json_chunk) {
+    const auto text = input.read_values<char>(chunk.size, "the JSON chunk");
+    glb.json = parse_json(std::string_view(text.data(), text.size()), input.name(), chunk.start);
+  } else if (chunk.type == bin_chunk) {
+    if (index != 1)
+      input.fail_at(chunk.header, glb.binary_offset != 0 ? "a second binary chunk in the GLB file"
+                                                         : "the binary chunk is not the second");
+    glb.binary_offset = chunk.start;
+    glb.binary_size = chunk.size;
+  }
+}
+
+void require_json(const Input& input, const GlbContainer& glb) {
+  if (glb.json.is_null()) input.fail("the GLB file has no JSON chunk");
+}
+
 }  // namespace
 
 bool is_glb(Input& input) {
@@ -28,47 +87,35 @@ bool is_glb(Input& input) {
 }
 
 GlbContainer read_glb_container(Input& input) {
-  input.seek(0);
-  if (input.read_value<std::uint32_t>("the GLB header") != magic)
-    input.fail_at(0, "not a GLB file: it does not begin with \"glTF\"");
-  const auto version = input.read_value<std::uint32_t>("the GLB header");
-  if (version != 2) input.fail_at(4, "GLB version " + std::to_string(version) + ", only 2 is read");
-  const auto length = input.read_value<std::uint32_t>("the GLB header");
+  const std::uint64_t length = read_header(input);
   if (length != input.size())
-    input.fail_at(8, (length > input.size() ? "the file is cut short: its header says "
-                                            : "bytes trail the file: its header says ") +
-                         std::to_string(length) + " bytes, it has " + std::to_string(input.size()));
-
+    input.fail_at(
+        8, (length > input.size() ? "the file is cut short: its header says " : trailing_bytes) +
+               lengths(length, input));
   GlbContainer glb;
   for (int index = 0; input.remaining() > 0; ++index) {
-    const std::uint64_t header = input.position();
-    const auto size = input.read_value<std::uint32_t>("a GLB chunk header");
-    const auto type = input.read_value<std::uint32_t>("a GLB chunk header");
-    if (size > input.remaining())
-      input.fail_at(header, "a GLB chunk of " + std::to_string(size) + " bytes, but " +
-                                std::to_string(input.remaining()) + " are left");
-    if (size % 4 != 0)
-      input.fail_at(header,
-                    "a GLB chunk of " + std::to_string(size) + " bytes, which is no multiple of 4");
-    if ((type == json_chunk) != (index == 0))
-      input.fail_at(header, index == 0 ? "the first GLB chunk is not JSON"
-                                       : "a second JSON chunk in the GLB file");
-    if (type == json_chunk) {
-      const std::uint64_t start = input.position();
-      const auto text = input.read_values<char>(size, "the JSON chunk");
-      glb.json = parse_json(std::string_view(text.data(), text.size()), input.name(), start);
-      continue;
-    }
-    if (type == bin_chunk) {
-      if (index != 1)
-        input.fail_at(header, glb.binary_offset != 0 ? "a second binary chunk in the GLB file"
-                                                     : "the binary chunk is not the second");
-      glb.binary_offset = input.position();
-      glb.binary_size = size;
-    }
-    input.seek(input.position() + size);
+    const Chunk chunk = read_chunk_header(input, index, length);
+    take(input, chunk, index, glb);
+    input.seek(chunk.start + chunk.size);
   }
-  if (glb.json.is_null()) input.fail("the GLB file has no JSON chunk");
+  require_json(input, glb);
+  return glb;
+}
+
+std::optional<GlbContainer> read_glb_beginning(Input& input) {
+  if (input.size() < header_bytes) return std::nullopt;
+  const std::uint64_t length = read_header(input);
+  if (length < input.size()) input.fail_at(8, trailing_bytes + lengths(length, input));
+  GlbContainer glb;
+  // The binary chunk is the second or there is none.
+  for (int index = 0; index < 2 && input.position() < length; ++index) {
+    const std::uint64_t to_come = length - input.size();
+    if (input.remaining() < chunk_header_bytes && to_come > 0) return std::nullopt;
+    const Chunk chunk = read_chunk_header(input, index, length);
+    if (chunk.type == json_chunk && chunk.size > input.remaining()) return std::nullopt;
+    take(input, chunk, index, glb);
+  }
+  require_json(input, glb);
   return glb;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "formats/input.hpp"
 
@@ -21,5 +22,10 @@ bool is_glb(Input& input);
 /// Reads the frame from the start of the input and checks it whole: lengths, order and alignment of
 /// the chunks. Chunks of unknown type are skipped. Throws InputError.
 GlbContainer read_glb_container(Input& input);
+
+/// The same from the first bytes of a file that is still arriving: nothing until the JSON chunk and
+/// the header of the one behind it are there. What the header says of bytes to come is checked
+/// against the length of the file that it says, and believed. Throws InputError.
+std::optional<GlbContainer> read_glb_beginning(Input& input);
 
 }  // namespace tureen

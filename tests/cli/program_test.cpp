@@ -224,7 +224,7 @@ TEST_F(Program, ConvertSlimIsSmallAndSaysWhatItLost) {
   EXPECT_THAT(run({"info", "slim.glb"}).err, HasSubstr("Slim: coded with a loss of"));
 
   EXPECT_THAT(run({"convert", "part.glb", "slim.ply", "--slim"}).err,
-              HasSubstr("--slim writes .glb files, not slim.ply"));
+              HasSubstr("--slim writes .glb files and .html pages of them, not slim.ply"));
   EXPECT_EQ(run({"convert", "part.glb", "other.glb", "--max-error", "1"}).exit_code, 2);
 }
 

@@ -5,14 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <limits>
-#include <nlohmann/json.hpp>
 
-#include "formats/random_scene.hpp"
 #include "formats/truncation.hpp"
+#include "formats/tureen_glb_kinds.hpp"
 #include "soup/mean_color.hpp"
 #include "soup/srgb.hpp"
 #include "support/schema.hpp"
@@ -20,150 +17,37 @@
 namespace tureen {
 namespace {
 
+using testing::fill_soup;
 using ::testing::HasSubstr;
 using testing::RandomScene;
-
-struct Kind {
-  const char* name;
-  std::function<void(RandomScene&, Scene&, std::size_t faces)> fill;
-};
-
-void fill_soup(Scene& scene, TriangleSoup soup, Appearance appearance) {
-  soup.appearance = std::move(appearance);
-  scene.primitives = std::move(soup);
-}
-
-/// A colour appearance of each kind, on shared and unshared vertices.
-std::vector<Kind> kinds() {
-  std::vector<Kind> all;
-  for (const bool shared : {false, true}) {
-    const auto add = [&](const char* name, auto appearance) {
-      all.push_back({name, [=](RandomScene& random, Scene& scene, std::size_t faces) {
-                       TriangleSoup soup = random.geometry(faces, shared);
-                       Appearance made = appearance(random, soup);
-                       fill_soup(scene, std::move(soup), std::move(made));
-                     }});
-    };
-    add(shared ? "face_bytes_shared" : "face_bytes", [](RandomScene& r, const TriangleSoup& s) {
-      return FaceColors{r.colors(s.triangles.size(), true)};
-    });
-    add(shared ? "face_floats_shared" : "face_floats", [](RandomScene& r, const TriangleSoup& s) {
-      return FaceColors{r.colors(s.triangles.size(), false)};
-    });
-    add(shared ? "vertex_bytes_shared" : "vertex_bytes", [](RandomScene& r, const TriangleSoup& s) {
-      return VertexColors{r.colors(s.positions.size(), true)};
-    });
-    add(shared ? "vertex_floats_shared" : "vertex_floats",
-        [](RandomScene& r, const TriangleSoup& s) {
-          return VertexColors{r.colors(s.positions.size(), false)};
-        });
-    add(shared ? "face_harmonics_shared" : "face_harmonics",
-        [](RandomScene& r, const TriangleSoup& s) {
-          return r.harmonics(s.triangles.size(), Harmonics::Domain::face, 3);
-        });
-    add(shared ? "vertex_harmonics_shared" : "vertex_harmonics",
-        [](RandomScene& r, const TriangleSoup& s) {
-          return r.harmonics(s.positions.size(), Harmonics::Domain::vertex, 4);
-        });
-    add(shared ? "lattice_bytes_mlp_shared" : "lattice_bytes_mlp",
-        [](RandomScene& r, const TriangleSoup& s) {
-          LatticeTexture texture = r.lattice_texture(s.triangles.size(), 2, false);
-          texture.mlp = r.diffsoup_mlp();
-          return texture;
-        });
-    add(shared ? "lattice_bytes_mixed_levels_shared" : "lattice_bytes_mixed_levels",
-        [](RandomScene& r, const TriangleSoup& s) {
-          return r.lattice_texture(s.triangles.size(), {}, false);
-        });
-    add(shared ? "lattice_floats_shared" : "lattice_floats",
-        [](RandomScene& r, const TriangleSoup& s) {
-          LatticeTexture texture = r.lattice_texture(s.triangles.size(), {}, true);
-          texture.mlp = r.mlp({7, 5, 3}, DirectionEncoding::none, {});
-          return texture;
-        });
-    add(shared ? "uv_shared" : "uv",
-        [](RandomScene& r, const TriangleSoup& s) { return r.uv_textures(s, false); });
-    add(shared ? "uv_mlp_shared" : "uv_mlp",
-        [](RandomScene& r, const TriangleSoup& s) { return r.uv_textures(s, true); });
-  }
-  all.push_back({"soft_triangles", [](RandomScene& random, Scene& scene, std::size_t faces) {
-                   scene.primitives = random.soft_triangles(faces, 3);
-                 }});
-  return all;
-}
-
-Scene make(const Kind& kind, unsigned seed, std::size_t faces) {
-  RandomScene random(seed);
-  Scene scene = random.scene();
-  kind.fill(random, scene, faces);
-  return scene;
-}
-
-std::filesystem::path temporary(const std::string& name) {
-  return std::filesystem::path(::testing::TempDir()) / ("tureen_glb_" + name + ".glb");
-}
-
-std::vector<std::byte> written(const Scene& scene, const std::string& name) {
-  const auto path = temporary(name);
-  EXPECT_THAT(write_tureen_glb(scene, path), ::testing::IsEmpty());
-  Input input = Input::open(path);
-  std::vector<std::byte> bytes = input.read_rest();
-  std::filesystem::remove(path);
-  return bytes;
-}
 
 Scene read_back(std::span<const std::byte> bytes) {
   Input input = Input::memory("memory.glb", bytes);
   return read_tureen_glb(input);
 }
 
-nlohmann::json json_of(std::span<const std::byte> bytes) {
-  std::uint32_t size = 0;
-  std::memcpy(&size, bytes.data() + 12, 4);
-  const char* text = reinterpret_cast<const char*>(bytes.data()) + 20;
-  return nlohmann::json::parse(text, text + size);
-}
-
-/// The same file with its JSON exchanged.
-std::vector<std::byte> with_json(std::span<const std::byte> bytes, const nlohmann::json& json) {
-  std::uint32_t old_size = 0;
-  std::memcpy(&old_size, bytes.data() + 12, 4);
-  std::string text = json.dump();
-  text.append((4 - text.size() % 4) % 4, ' ');
-  const auto size = std::uint32_t(text.size());
-  const auto tail = bytes.subspan(20 + old_size);
-  std::vector<std::byte> result(20 + size + tail.size());
-  std::memcpy(result.data(), bytes.data(), 20);
-  std::memcpy(result.data() + 20, text.data(), size);
-  std::memcpy(result.data() + 20 + size, tail.data(), tail.size());
-  const auto length = std::uint32_t(result.size());
-  std::memcpy(result.data() + 8, &length, 4);
-  std::memcpy(result.data() + 12, &size, 4);
-  return result;
-}
-
-class TureenGlb : public ::testing::TestWithParam<Kind> {};
+class TureenGlb : public ::testing::TestWithParam<testing::GlbKind> {};
 
 TEST_P(TureenGlb, ComesBackToTheBit) {
   for (const unsigned seed : {1u, 2u, 3u})
     for (const std::size_t faces : {std::size_t(1), std::size_t(17)}) {
       SCOPED_TRACE("seed " + std::to_string(seed) + ", faces " + std::to_string(faces));
-      const Scene scene = make(GetParam(), seed, faces);
-      const Scene back = read_back(written(scene, GetParam().name));
+      const Scene scene = testing::random_scene(GetParam(), seed, faces);
+      const Scene back = read_back(testing::glb_bytes(scene, GetParam().name));
       EXPECT_EQ(testing::difference(scene, back), "");
     }
 }
 
 TEST_P(TureenGlb, EmptyComesBackToo) {
-  const Scene scene = make(GetParam(), 4, 0);
-  EXPECT_EQ(testing::difference(scene, read_back(written(scene, GetParam().name))), "");
+  const Scene scene = testing::random_scene(GetParam(), 4, 0);
+  EXPECT_EQ(testing::difference(scene, read_back(testing::glb_bytes(scene, GetParam().name))), "");
 }
 
 TEST_P(TureenGlb, SurvivesTruncationAndDamage) {
   RandomScene random(5);
   Scene scene;
   GetParam().fill(random, scene, 1);
-  const auto bytes = written(scene, GetParam().name);
+  const auto bytes = testing::glb_bytes(scene, GetParam().name);
   const auto read = [](std::span<const std::byte> damaged) {
     const Scene back = read_back(damaged);
     if (const auto* soup = std::get_if<TriangleSoup>(&back.primitives)) {
@@ -188,13 +72,13 @@ TEST_P(TureenGlb, SurvivesTruncationAndDamage) {
 }
 
 TEST_P(TureenGlb, DrawsTheMeanColoursAsLinear16Bit) {
-  const Scene scene = make(GetParam(), 6, 9);
+  const Scene scene = testing::random_scene(GetParam(), 6, 9);
   // Soft triangles show the mean of their harmonics, however transparent they are.
   const auto* soft = std::get_if<SoftTriangles>(&scene.primitives);
   const TriangleSoup soup =
       soft ? to_opaque(*soft, 0.0f).soup : std::get<TriangleSoup>(scene.primitives);
-  const auto bytes = written(scene, GetParam().name);
-  const auto json = json_of(bytes);
+  const auto bytes = testing::glb_bytes(scene, GetParam().name);
+  const auto json = testing::glb_json(bytes);
   const auto& primitive = json["meshes"][0]["primitives"][0];
   const auto& position = json["accessors"][primitive["attributes"]["POSITION"].get<int>()];
   const auto& color = json["accessors"][primitive["attributes"]["COLOR_0"].get<int>()];
@@ -229,7 +113,7 @@ TEST_P(TureenGlb, DrawsTheMeanColoursAsLinear16Bit) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Appearance, TureenGlb, ::testing::ValuesIn(kinds()),
+INSTANTIATE_TEST_SUITE_P(Appearance, TureenGlb, ::testing::ValuesIn(testing::glb_kinds()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(TureenGlbFile, KeepsNanPositionsAndHugeValues) {
@@ -239,7 +123,7 @@ TEST(TureenGlbFile, KeepsNanPositionsAndHugeValues) {
   soup.positions[1].y = std::numeric_limits<float>::quiet_NaN();
   soup.positions[4].x = -std::numeric_limits<float>::infinity();
   fill_soup(scene, std::move(soup), FaceColors{{{-0.0f, 2.0f, 0.5f, 1.0f}, {0, 0, 0, 1}}});
-  EXPECT_EQ(testing::difference(scene, read_back(written(scene, "nan"))), "");
+  EXPECT_EQ(testing::difference(scene, read_back(testing::glb_bytes(scene, "nan"))), "");
 }
 
 TEST(TureenGlbFile, SplitsManyTexelsIntoStrips) {
@@ -247,8 +131,9 @@ TEST(TureenGlbFile, SplitsManyTexelsIntoStrips) {
   Scene scene = random.scene();
   // 130 faces of level 7 are 1,090,050 texels: a full strip of 2^20 and a partial one.
   fill_soup(scene, random.geometry(130, false), random.lattice_texture(130, 7, false));
-  const auto bytes = written(scene, "strips");
-  EXPECT_EQ(json_of(bytes)["extensions"][tureen_extension]["appearance"]["strips"].size(), 2u);
+  const auto bytes = testing::glb_bytes(scene, "strips");
+  EXPECT_EQ(testing::glb_json(bytes)["extensions"][tureen_extension]["appearance"]["strips"].size(),
+            2u);
   EXPECT_EQ(testing::difference(scene, read_back(bytes)), "");
 }
 
@@ -256,7 +141,7 @@ TEST(TureenGlbFile, StoresColoursThatAreBytesAsBytes) {
   RandomScene random(9);
   Scene scene;
   fill_soup(scene, random.geometry(3, false), FaceColors{random.colors(3, true)});
-  const auto json = json_of(written(scene, "bytes"));
+  const auto json = testing::glb_json(testing::glb_bytes(scene, "bytes"));
   const int rgba = json["extensions"][tureen_extension]["appearance"]["rgba"];
   EXPECT_EQ(json["accessors"][rgba]["componentType"], 5121);
 }
@@ -265,13 +150,13 @@ TEST(TureenGlbFile, RefusesWhatItCannotHoldOrKnow) {
   RandomScene random(10);
   Scene scene = random.scene();
   fill_soup(scene, random.geometry(2, false), FaceColors{random.colors(2, true)});
-  const auto bytes = written(scene, "refused");
+  const auto bytes = testing::glb_bytes(scene, "refused");
   const auto expect_refusal = [&](const std::function<void(nlohmann::json&)>& change,
                                   const std::string& reason) {
-    auto json = json_of(bytes);
+    auto json = testing::glb_json(bytes);
     change(json);
     try {
-      read_back(with_json(bytes, json));
+      read_back(testing::with_glb_json(bytes, json));
       ADD_FAILURE() << "accepted; expected: " << reason;
     } catch (const InputError& error) {
       EXPECT_THAT(error.reason(), HasSubstr(reason));
@@ -304,14 +189,14 @@ TEST(TureenGlbFile, RefusesWhatItCannotHoldOrKnow) {
   // What is not read is not written.
   const Scene good = scene;
   scene.cameras[0].width = 65537;
-  EXPECT_THROW(write_tureen_glb(scene, temporary("never")), UsageError);
+  EXPECT_THROW(write_tureen_glb(scene, testing::temporary_glb("never")), UsageError);
   scene = good;
   scene.info.up = glm::vec3(0);
-  EXPECT_THROW(write_tureen_glb(scene, temporary("never")), UsageError);
+  EXPECT_THROW(write_tureen_glb(scene, testing::temporary_glb("never")), UsageError);
   scene = good;
   scene.cameras[0].fx = std::numeric_limits<double>::infinity();
-  EXPECT_THROW(write_tureen_glb(scene, temporary("never")), UsageError);
-  EXPECT_FALSE(std::filesystem::exists(temporary("never")));
+  EXPECT_THROW(write_tureen_glb(scene, testing::temporary_glb("never")), UsageError);
+  EXPECT_FALSE(std::filesystem::exists(testing::temporary_glb("never")));
 }
 
 // -- presets --------------------------------------------------------------------------------------
@@ -349,18 +234,20 @@ TEST(TureenGlbPreset, ComesBack) {
   for (const Preset& preset : presets) {
     SCOPED_TRACE(describe(preset));
     const Scene scene = scene_with(preset);
-    EXPECT_EQ(testing::difference(scene, read_back(written(scene, "preset"))), "");
+    EXPECT_EQ(testing::difference(scene, read_back(testing::glb_bytes(scene, "preset"))), "");
   }
   Scene none = scene_with({});
   none.preset.reset();
-  EXPECT_FALSE(json_of(written(none, "preset"))["extensions"][tureen_extension].contains("preset"));
+  EXPECT_FALSE(testing::glb_json(testing::glb_bytes(none, "preset"))["extensions"][tureen_extension]
+                   .contains("preset"));
 }
 
 TEST(TureenGlbPreset, TheSchemaKnowsIt) {
   const char* schema = "TUREEN_triangle_soup.schema.json";
   for (const Preset& preset : presets) {
     SCOPED_TRACE(describe(preset));
-    auto extension = json_of(written(scene_with(preset), "preset"))["extensions"][tureen_extension];
+    auto extension = testing::glb_json(
+        testing::glb_bytes(scene_with(preset), "preset"))["extensions"][tureen_extension];
     EXPECT_EQ(test::schema_violations(extension, schema), "");
     extension["preset"]["texel_bits"] = 12;
     EXPECT_NE(test::schema_violations(extension, schema), "");
@@ -369,23 +256,23 @@ TEST(TureenGlbPreset, TheSchemaKnowsIt) {
 
 TEST(TureenGlbPreset, WhatIsUnknownIsIgnored) {
   const Scene scene = scene_with(presets[1]);
-  const auto bytes = written(scene, "preset");
-  auto json = json_of(bytes);
+  const auto bytes = testing::glb_bytes(scene, "preset");
+  auto json = testing::glb_json(bytes);
   json["extensions"][tureen_extension]["preset"]["colour_of_the_frame"] = {"red", 1};
-  EXPECT_EQ(testing::difference(scene, read_back(with_json(bytes, json))), "");
+  EXPECT_EQ(testing::difference(scene, read_back(testing::with_glb_json(bytes, json))), "");
 }
 
 TEST(TureenGlbPreset, BadValuesAreRefusedWithTheirPlace) {
-  const auto bytes = written(scene_with(presets[1]), "preset");
+  const auto bytes = testing::glb_bytes(scene_with(presets[1]), "preset");
   const auto refusal = [&](const char* key, const nlohmann::json& value) -> std::string {
-    auto json = json_of(bytes);
+    auto json = testing::glb_json(bytes);
     auto& preset = json["extensions"][tureen_extension]["preset"];
     if (key)
       preset[key] = value;
     else
       preset = value;
     try {
-      read_back(with_json(bytes, json));
+      read_back(testing::with_glb_json(bytes, json));
       return "accepted";
     } catch (const InputError& error) {
       EXPECT_EQ(error.place().file, "memory.glb");
@@ -412,19 +299,19 @@ TEST(TureenGlbPreset, BadValuesAreRefusedWithTheirPlace) {
 
 TEST(TureenGlbPreset, WhatIsNotReadIsNotWritten) {
   Scene scene = scene_with({.texel_bits = 5});
-  EXPECT_THROW(write_tureen_glb(scene, temporary("never")), UsageError);
+  EXPECT_THROW(write_tureen_glb(scene, testing::temporary_glb("never")), UsageError);
   scene = scene_with({.triangle_fraction = 0.5, .keeps_face = {1, 0}});
-  EXPECT_THROW(write_tureen_glb(scene, temporary("never")), UsageError);
+  EXPECT_THROW(write_tureen_glb(scene, testing::temporary_glb("never")), UsageError);
   scene = scene_with({});
   auto& texture = std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance);
   texture.harmonics =
       LatticeHarmonics{.degree = 1, .coefficients = std::vector<float>(9 * texture.texel_count())};
-  EXPECT_THROW(write_tureen_glb(scene, temporary("never")), UsageError);
-  EXPECT_FALSE(std::filesystem::exists(temporary("never")));
+  EXPECT_THROW(write_tureen_glb(scene, testing::temporary_glb("never")), UsageError);
+  EXPECT_FALSE(std::filesystem::exists(testing::temporary_glb("never")));
 }
 
 TEST(TureenGlbPreset, SurvivesTruncationAndDamage) {
-  const auto bytes = written(scene_with(presets[1]), "preset");
+  const auto bytes = testing::glb_bytes(scene_with(presets[1]), "preset");
   const auto read = [](std::span<const std::byte> damaged) {
     const Scene back = read_back(damaged);
     if (back.preset) {
@@ -453,11 +340,11 @@ TEST(TureenGlbFile, RefusesImagesNamedTwice) {
   TriangleSoup soup = random.geometry(2, false);
   UvTextures textures = random.uv_textures(soup, false);
   fill_soup(scene, std::move(soup), std::move(textures));
-  const auto bytes = written(scene, "twice");
-  auto json = json_of(bytes);
+  const auto bytes = testing::glb_bytes(scene, "twice");
+  auto json = testing::glb_json(bytes);
   json["extensions"][tureen_extension]["appearance"]["images"] = {0, 0, 1};
   try {
-    read_back(with_json(bytes, json));
+    read_back(testing::with_glb_json(bytes, json));
     ADD_FAILURE() << "accepted";
   } catch (const InputError& error) {
     EXPECT_THAT(error.reason(), HasSubstr("before the end of the image before it"));
@@ -467,7 +354,7 @@ TEST(TureenGlbFile, RefusesImagesNamedTwice) {
 TEST(TureenGlbFile, SaysWhenATextIsNotUtf8) {
   Scene scene;
   scene.info.name = "caf\xE9";
-  const auto path = temporary("latin");
+  const auto path = testing::temporary_glb("latin");
   const auto losses = write_tureen_glb(scene, path);
   ASSERT_EQ(losses.size(), 1u);
   EXPECT_THAT(losses[0], HasSubstr("UTF-8"));
@@ -480,7 +367,7 @@ TEST(TureenGlbFile, ReportsProgressUpToOne) {
   RandomScene random(12);
   Scene scene;
   fill_soup(scene, random.geometry(5, true), FaceColors{random.colors(5, false)});
-  const auto bytes = written(scene, "progress");
+  const auto bytes = testing::glb_bytes(scene, "progress");
   std::vector<double> seen;
   Input input = Input::memory("memory.glb", bytes);
   read_tureen_glb(input, {.progress = [&](double fraction) { seen.push_back(fraction); }});

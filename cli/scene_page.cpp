@@ -1,0 +1,105 @@
+#include "cli/scene_page.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdlib>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "cli/base64.hpp"
+#include "cli/html_page.hpp"
+#include "cli/program_folder.hpp"
+#include "formats/glb_container.hpp"
+#include "formats/input.hpp"
+#include "formats/output.hpp"
+#include "formats/tureen_glb.hpp"
+#include "soup/error.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* template_variable = "TUREEN_WEB_TEMPLATE";
+
+std::optional<fs::path> template_of_program() {
+  const std::optional<fs::path> folder = program_folder();
+  if (!folder) return std::nullopt;
+  std::error_code ignored;
+  // Beside bin/, as builds and installations have it, or beside the program in a portable folder.
+  for (const fs::path& place : {folder->parent_path(), *folder})
+    if (const fs::path file = place / "share/tureen/scene_template.html"; fs::exists(file, ignored))
+      return file;
+  return std::nullopt;
+}
+
+ScenePageTemplate read_template(const fs::path& path) {
+  const std::vector<std::byte> bytes = Input::open(path).read_rest();
+  return ScenePageTemplate({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
+                           path.string());
+}
+
+}  // namespace
+
+bool is_scene_page(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".html";
+}
+
+bool is_our_glb(const fs::path& path) {
+  if (!fs::is_regular_file(path)) return false;
+  Input input = Input::open(path);
+  return is_glb(input) && is_tureen_glb(read_glb_container(input));
+}
+
+ScenePageTemplate ScenePageTemplate::find() {
+  const char* named = std::getenv(template_variable);
+  if (named && *named) return read_template(named);
+  if (const std::optional<fs::path> file = template_of_program()) return read_template(*file);
+  throw UsageError(std::string("a page needs the viewer that goes into it, "
+                               "share/tureen/scene_template.html, which is not there: ./dev web "
+                               "makes it; ") +
+                   template_variable + " names one that lies elsewhere");
+}
+
+ScenePageTemplate::ScenePageTemplate(std::string text, const std::string& file)
+    : text_(std::move(text)), element_(text_.find(scene_element)) {
+  if (element_ == std::string::npos)
+    throw InputError({file, {}, {}},
+                     std::string("no template for a scene: it lacks ") + scene_element);
+  if (const std::size_t second = text_.find(scene_element, element_ + 1);
+      second != std::string::npos)
+    throw InputError({file, second, {}},
+                     std::string("no template for a scene: it has a second ") + scene_element);
+}
+
+void ScenePageTemplate::write(const fs::path& glb, const std::string& name,
+                              const fs::path& page) const {
+  Input scene = Input::open(glb);
+  if (scene.size() > max_scene_page_bytes)
+    throw UsageError("the scene takes " + std::to_string(scene.size()) +
+                     " bytes, and a page that a browser opens holds at most " +
+                     std::to_string(max_scene_page_bytes) +
+                     "; --slim makes it smaller, and a .glb beside the viewer may have any size");
+  const std::string_view text = text_, element = scene_element;
+  const std::string_view name_at = R"(data-name=")", digits_at = R"(">)";
+  const std::size_t name_begin = element_ + element.find(name_at) + name_at.size();
+  const std::size_t digits_begin = name_begin + digits_at.size();
+
+  Output output(page);
+  output.write(text.substr(0, name_begin));
+  output.write(html_escaped(name));
+  output.write(digits_at);
+  std::array<std::byte, 3 * 16384> piece;
+  while (const std::size_t count = scene.read_some(piece))
+    output.write(base64(std::span(piece).first(count)));
+  output.write(text.substr(digits_begin));
+  output.commit();
+}
+
+}  // namespace tureen::cli

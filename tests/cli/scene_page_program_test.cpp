@@ -1,0 +1,201 @@
+// `tureen convert SCENE OUT.html`: the scene comes out of the page as it went in.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <set>
+
+#include "cli/program_fixture.hpp"
+#include "formats/scene_file.hpp"
+#include "formats/uri.hpp"
+
+namespace tureen {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Child;
+using test::ChildResult;
+using testing::HasSubstr;
+
+constexpr const char* element =
+    R"(<script type="application/octet-stream;base64" id="scene" data-name=""></script>)";
+
+class ScenePage : public test::Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    write("template.html",
+          std::string("<!doctype html>\n<p>before</p>\n") + element + "\n<p>after");
+    ::setenv("TUREEN_WEB_TEMPLATE", "template.html", 1);
+  }
+  void TearDown() override {
+    ::unsetenv("TUREEN_WEB_TEMPLATE");
+    Program::TearDown();
+  }
+
+  std::string text_of(const std::string& name) const {
+    std::ifstream stream(folder / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+  /// The scene in the page, as bytes in a string; fails the test where anything around it differs
+  /// from the template.
+  std::string scene_in(const std::string& page, const std::string& escaped_name) const {
+    const std::string text = text_of(page);
+    const std::string before =
+        "<!doctype html>\n<p>before</p>\n"
+        R"(<script type="application/octet-stream;base64" id="scene" data-name=")" +
+        escaped_name + "\">";
+    const std::string after = "</script>\n<p>after";
+    EXPECT_EQ(text.substr(0, before.size()), before);
+    const std::size_t end = text.find('<', before.size());
+    EXPECT_EQ(text.substr(std::min(end, text.size())), after);
+    const auto bytes =
+        decode_data_uri("data:;base64," + text.substr(before.size(), end - before.size()));
+    return {reinterpret_cast<const char*>(bytes->data()), bytes->size()};
+  }
+
+  /// A part of the example that is quickly slimmed, under a name that must be escaped.
+  void write_part() const {
+    Scene scene = read_scene(std::string(TUREEN_SOURCE_DIR) + "/examples/soup.glb");
+    auto& soup = std::get<TriangleSoup>(scene.primitives);
+    soup.triangles.resize(400);
+    std::get<LatticeTexture>(soup.appearance).patches.resize(400);
+    scene.cameras.resize(1);
+    scene.cameras[0] = resized(scene.cameras[0], 160, 120);
+    scene.info.name = R"(<a> & "b")";
+    ASSERT_TRUE(tureen::write_scene(scene, folder / "part.glb").empty());
+  }
+};
+
+constexpr const char* part_name = "&lt;a&gt; &amp; &quot;b&quot;";
+
+TEST_F(ScenePage, HoldsAFileOfOursAsItIs) {
+  write_part();
+  const ChildResult result = run({"convert", "part.glb", "part.html", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(scene_in("part.html", part_name) == text_of("part.glb"));
+  EXPECT_THAT(result.err, HasSubstr("wrote part.html"));
+  const auto json = nlohmann::ordered_json::parse(result.out);
+  EXPECT_THAT(keys(json), testing::ElementsAre("output", "bytes_on_disk", "notes", "lost"));
+  EXPECT_EQ(json["output"], "part.html");
+  EXPECT_EQ(json["bytes_on_disk"], fs::file_size(folder / "part.html"));
+}
+
+TEST_F(ScenePage, HoldsOtherScenesAsTheGlbThatConvertMakes) {
+  write_scene();
+  ASSERT_EQ(run({"convert", "scene.off", "scene.glb"}).exit_code, 0);
+  const ChildResult result = run({"convert", "scene.off", "Scene.HTML"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(scene_in("Scene.HTML", "scene") == text_of("scene.glb"));
+  EXPECT_FALSE(exists("Scene.HTML.glb"));
+  // Turned, a file of ours is written anew.
+  ASSERT_EQ(run({"convert", "scene.glb", "turned.glb", "--up", "1,0,0"}).exit_code, 0);
+  ASSERT_EQ(run({"convert", "scene.glb", "turned.html", "--up", "1,0,0"}).exit_code, 0);
+  EXPECT_TRUE(scene_in("turned.html", "scene") == text_of("turned.glb"));
+  EXPECT_FALSE(text_of("turned.glb") == text_of("scene.glb"));
+}
+
+TEST_F(ScenePage, MayBeSlim) {
+  write_part();
+  const std::vector<std::string> slim{"--slim", "--max-error", "0.3"};
+  const auto convert = [&](const std::string& in, const std::string& out, bool with_slim) {
+    std::vector<std::string> arguments{"convert", in, out};
+    if (with_slim) arguments.insert(arguments.end(), slim.begin(), slim.end());
+    const ChildResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result;
+  };
+  convert("part.glb", "slim.glb", true);
+  EXPECT_THAT(convert("part.glb", "slim.html", true).err, HasSubstr("Lost by --slim:"));
+  EXPECT_TRUE(scene_in("slim.html", part_name) == text_of("slim.glb"));
+  EXPECT_FALSE(exists("slim.html.glb"));
+  EXPECT_FALSE(exists("slim.html.glb.export"));
+  // What is slim stays so.
+  convert("slim.glb", "again.html", false);
+  EXPECT_TRUE(scene_in("again.html", part_name) == text_of("slim.glb"));
+}
+
+TEST_F(ScenePage, SpansManyPiecesAndLengths) {
+  // Scenes beyond the pieces that go through at a time, of lengths that leave 0, 1 and 2 bytes.
+  std::set<std::size_t> remainders;
+  for (const int faces : {4000, 4001, 4002, 4003, 4004, 4005}) {
+    std::string off = "COFF\n3 " + std::to_string(faces) + " 0\n0 0 0\n1 0 0\n0 1 0\n";
+    for (int t = 0; t < faces; ++t) off += "3 0 1 2 " + std::to_string(t % 256) + " 0 9\n";
+    write("many.off", off);
+    ASSERT_EQ(run({"convert", "many.off", "many.glb", "--force"}).exit_code, 0);
+    ASSERT_EQ(run({"convert", "many.glb", "many.html", "--force"}).exit_code, 0);
+    const std::string glb = text_of("many.glb");
+    EXPECT_GT(glb.size(), 2u * 3 * 16384);
+    remainders.insert(glb.size() % 3);
+    EXPECT_TRUE(scene_in("many.html", "many") == glb);
+  }
+  EXPECT_EQ(remainders.size(), 3u);
+}
+
+TEST_F(ScenePage, NeverOverwritesSilently) {
+  write_scene();
+  write("page.html", "precious");
+  const ChildResult refused = run({"convert", "scene.off", "page.html"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("page.html exists already; --force replaces it"));
+  EXPECT_EQ(text_of("page.html"), "precious");
+  EXPECT_EQ(run({"convert", "scene.off", "page.html", "--force"}).exit_code, 0);
+  EXPECT_NE(text_of("page.html"), "precious");
+
+  write("other.html.glb", "precious");
+  const ChildResult in_the_way = run({"convert", "scene.off", "other.html"});
+  EXPECT_EQ(in_the_way.exit_code, 2);
+  EXPECT_THAT(in_the_way.err, HasSubstr("other.html.glb is in the way"));
+  EXPECT_EQ(text_of("other.html.glb"), "precious");
+}
+
+TEST_F(ScenePage, WantsATemplateWithOnePlaceBeforeTheSceneIsRead) {
+  const auto expect = [&](int exit_code, const std::string& words) {
+    const ChildResult result = run({"convert", "nowhere.off", "page.html"});
+    EXPECT_EQ(result.exit_code, exit_code);
+    EXPECT_THAT(result.err, HasSubstr(words));
+    EXPECT_FALSE(exists("page.html"));
+  };
+  expect(3, "nowhere.off");
+  write("template.html", "<p>no place</p>");
+  expect(3, std::string("template.html: no template for a scene: it lacks ") + element);
+  write("template.html", std::string(element) + element);
+  expect(3, "no template for a scene: it has a second");
+  ::setenv("TUREEN_WEB_TEMPLATE", "gone.html", 1);
+  expect(3, "gone.html: no such file");
+}
+
+TEST_F(ScenePage, FindsTheTemplateNearTheProgram) {
+  ::unsetenv("TUREEN_WEB_TEMPLATE");
+  write_scene();
+  const fs::path program = folder / "installed/bin/tureen";
+  fs::create_directories(program.parent_path());
+  fs::copy_file(TUREEN_PROGRAM, program);
+  const auto convert = [&] {
+    return Child({"convert", "scene.off", "page.html", "--force"}, folder, program.string()).wait();
+  };
+  const ChildResult none = convert();
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(
+      none.err,
+      HasSubstr("share/tureen/scene_template.html, which is not there: ./dev web makes it"));
+  EXPECT_FALSE(exists("page.html"));
+  for (const char* place : {"installed/bin/share/tureen", "installed/share/tureen"}) {
+    fs::create_directories(folder / place);
+    write(std::string(place) + "/scene_template.html", std::string(place) + element);
+    const ChildResult result = convert();
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(text_of("page.html"), testing::StartsWith(std::string(place) + "<script"))
+        << "the folder above goes first";
+  }
+}
+
+TEST_F(ScenePage, IsInTheHelp) {
+  const std::string help = run({"convert", "--help"}).out;
+  EXPECT_THAT(help, HasSubstr("  .html          "));
+  EXPECT_THAT(help, HasSubstr("tureen convert soup.glb soup.html"));
+}
+
+}  // namespace
+}  // namespace tureen

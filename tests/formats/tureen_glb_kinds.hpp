@@ -1,0 +1,139 @@
+// Scenes of every kind that our GLB holds, the bytes of their files, and their JSON to tamper with.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "formats/input.hpp"
+#include "formats/random_scene.hpp"
+#include "formats/tureen_glb.hpp"
+
+namespace tureen::testing {
+
+struct GlbKind {
+  const char* name;
+  std::function<void(RandomScene&, Scene&, std::size_t faces)> fill;
+};
+
+inline void fill_soup(Scene& scene, TriangleSoup soup, Appearance appearance) {
+  soup.appearance = std::move(appearance);
+  scene.primitives = std::move(soup);
+}
+
+/// A colour appearance of each kind, on shared and unshared vertices.
+inline std::vector<GlbKind> glb_kinds() {
+  std::vector<GlbKind> all;
+  for (const bool shared : {false, true}) {
+    const auto add = [&](const char* name, auto appearance) {
+      all.push_back({name, [=](RandomScene& random, Scene& scene, std::size_t faces) {
+                       TriangleSoup soup = random.geometry(faces, shared);
+                       Appearance made = appearance(random, soup);
+                       fill_soup(scene, std::move(soup), std::move(made));
+                     }});
+    };
+    add(shared ? "face_bytes_shared" : "face_bytes", [](RandomScene& r, const TriangleSoup& s) {
+      return FaceColors{r.colors(s.triangles.size(), true)};
+    });
+    add(shared ? "face_floats_shared" : "face_floats", [](RandomScene& r, const TriangleSoup& s) {
+      return FaceColors{r.colors(s.triangles.size(), false)};
+    });
+    add(shared ? "vertex_bytes_shared" : "vertex_bytes", [](RandomScene& r, const TriangleSoup& s) {
+      return VertexColors{r.colors(s.positions.size(), true)};
+    });
+    add(shared ? "vertex_floats_shared" : "vertex_floats",
+        [](RandomScene& r, const TriangleSoup& s) {
+          return VertexColors{r.colors(s.positions.size(), false)};
+        });
+    add(shared ? "face_harmonics_shared" : "face_harmonics",
+        [](RandomScene& r, const TriangleSoup& s) {
+          return r.harmonics(s.triangles.size(), Harmonics::Domain::face, 3);
+        });
+    add(shared ? "vertex_harmonics_shared" : "vertex_harmonics",
+        [](RandomScene& r, const TriangleSoup& s) {
+          return r.harmonics(s.positions.size(), Harmonics::Domain::vertex, 4);
+        });
+    add(shared ? "lattice_bytes_mlp_shared" : "lattice_bytes_mlp",
+        [](RandomScene& r, const TriangleSoup& s) {
+          LatticeTexture texture = r.lattice_texture(s.triangles.size(), 2, false);
+          texture.mlp = r.diffsoup_mlp();
+          return texture;
+        });
+    add(shared ? "lattice_bytes_mixed_levels_shared" : "lattice_bytes_mixed_levels",
+        [](RandomScene& r, const TriangleSoup& s) {
+          return r.lattice_texture(s.triangles.size(), {}, false);
+        });
+    add(shared ? "lattice_floats_shared" : "lattice_floats",
+        [](RandomScene& r, const TriangleSoup& s) {
+          LatticeTexture texture = r.lattice_texture(s.triangles.size(), {}, true);
+          texture.mlp = r.mlp({7, 5, 3}, DirectionEncoding::none, {});
+          return texture;
+        });
+    add(shared ? "uv_shared" : "uv",
+        [](RandomScene& r, const TriangleSoup& s) { return r.uv_textures(s, false); });
+    add(shared ? "uv_mlp_shared" : "uv_mlp",
+        [](RandomScene& r, const TriangleSoup& s) { return r.uv_textures(s, true); });
+  }
+  all.push_back({"soft_triangles", [](RandomScene& random, Scene& scene, std::size_t faces) {
+                   scene.primitives = random.soft_triangles(faces, 3);
+                 }});
+  return all;
+}
+
+inline Scene random_scene(const GlbKind& kind, unsigned seed, std::size_t faces) {
+  RandomScene random(seed);
+  Scene scene = random.scene();
+  kind.fill(random, scene, faces);
+  return scene;
+}
+
+/// For this process alone.
+inline std::filesystem::path temporary_glb(const std::string& name) {
+  return std::filesystem::path(::testing::TempDir()) /
+         ("tureen_glb_" + name + std::to_string(getpid()) + ".glb");
+}
+
+inline std::vector<std::byte> glb_bytes(const Scene& scene, const std::string& name) {
+  const auto path = temporary_glb(name);
+  EXPECT_THAT(write_tureen_glb(scene, path), ::testing::IsEmpty());
+  Input input = Input::open(path);
+  std::vector<std::byte> bytes = input.read_rest();
+  std::filesystem::remove(path);
+  return bytes;
+}
+
+inline nlohmann::json glb_json(std::span<const std::byte> bytes) {
+  std::uint32_t size = 0;
+  std::memcpy(&size, bytes.data() + 12, 4);
+  const char* text = reinterpret_cast<const char*>(bytes.data()) + 20;
+  return nlohmann::json::parse(text, text + size);
+}
+
+/// The same file with its JSON exchanged.
+inline std::vector<std::byte> with_glb_json(std::span<const std::byte> bytes,
+                                            const nlohmann::json& json) {
+  std::uint32_t old_size = 0;
+  std::memcpy(&old_size, bytes.data() + 12, 4);
+  std::string text = json.dump();
+  text.append((4 - text.size() % 4) % 4, ' ');
+  const auto size = std::uint32_t(text.size());
+  const auto tail = bytes.subspan(20 + old_size);
+  std::vector<std::byte> result(20 + size + tail.size());
+  std::memcpy(result.data(), bytes.data(), 20);
+  std::memcpy(result.data() + 20, text.data(), size);
+  std::memcpy(result.data() + 20 + size, tail.data(), tail.size());
+  const auto length = std::uint32_t(result.size());
+  std::memcpy(result.data() + 8, &length, 4);
+  std::memcpy(result.data() + 12, &size, 4);
+  return result;
+}
+
+}  // namespace tureen::testing

@@ -1,0 +1,265 @@
+// A scene from the first bytes of its file: what it shows is what the whole file says.
+#include "formats/tureen_glb_preview.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <stdexcept>
+
+#include "formats/truncation.hpp"
+#include "formats/tureen_glb_kinds.hpp"
+#include "formats/tureen_glb_slim.hpp"
+#include "soup/mean_color.hpp"
+
+namespace tureen {
+namespace {
+
+using testing::fill_soup;
+using ::testing::HasSubstr;
+using testing::RandomScene;
+using Bytes = std::span<const std::byte>;
+
+/// Half a step of 16 bits in linear light, and a hundredth for the arithmetic, where the transfer
+/// function is steepest: 12.92 near black.
+constexpr float color_tolerance = 12.92f * 0.51f / 65535.0f;
+
+std::optional<std::uint64_t> size_of(Bytes prefix) {
+  return tureen_glb_preview_size(prefix, "arriving.glb");
+}
+
+std::optional<Scene> preview_of(Bytes prefix) {
+  return read_tureen_glb_preview(prefix, "arriving.glb");
+}
+
+/// Of the JSON chunk and the header behind it: from here on it is known what a preview takes.
+std::size_t beginning_of(Bytes bytes) {
+  std::uint32_t json_size = 0;
+  std::memcpy(&json_size, &bytes[12], 4);
+  return std::min<std::size_t>(20 + json_size + 8, bytes.size());
+}
+
+TriangleSoup soup_of(const Scene& scene) {
+  // Soft triangles show as hard ones, however transparent they are.
+  const auto* soft = std::get_if<SoftTriangles>(&scene.primitives);
+  return soft ? to_opaque(*soft, 0.0f).soup : std::get<TriangleSoup>(scene.primitives);
+}
+
+class GlbPreview : public ::testing::TestWithParam<testing::GlbKind> {};
+
+TEST_P(GlbPreview, ShowsWhatTheWholeFileSays) {
+  for (const unsigned seed : {1u, 2u}) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Scene whole = testing::random_scene(GetParam(), seed, 23);
+    const TriangleSoup soup = soup_of(whole);
+    const std::vector<std::byte> bytes = testing::glb_bytes(whole, GetParam().name);
+    const auto size = size_of(bytes);
+    ASSERT_TRUE(size && *size > beginning_of(bytes) && *size < bytes.size());
+    EXPECT_EQ(size_of(Bytes(bytes).first(std::size_t(*size))), size);
+    EXPECT_FALSE(preview_of(Bytes(bytes).first(std::size_t(*size) - 1)));
+    std::optional<Scene> preview = preview_of(Bytes(bytes).first(std::size_t(*size)));
+    ASSERT_TRUE(preview);
+    const TriangleSoup shown = std::get<TriangleSoup>(preview->primitives);
+    EXPECT_FALSE(defect(shown));
+    EXPECT_TRUE(testing::same_bits(shown.positions, soup.positions));
+    EXPECT_TRUE(testing::same_bits(shown.triangles, soup.triangles));
+    preview->primitives = whole.primitives;
+    EXPECT_EQ(testing::difference(*preview, whole), "") << "beside the primitives";
+
+    const auto expect_color = [](const glm::vec4& color, const glm::vec3& wanted) {
+      for (int k = 0; k < 3; ++k) EXPECT_NEAR(color[k], wanted[k], color_tolerance);
+      EXPECT_EQ(color.w, 1.0f);
+    };
+    if (const auto* wanted = std::get_if<VertexColors>(&soup.appearance)) {
+      const auto& rgba = std::get<VertexColors>(shown.appearance).rgba;
+      ASSERT_EQ(rgba.size(), wanted->rgba.size());
+      for (std::size_t i = 0; i < rgba.size(); ++i)
+        expect_color(rgba[i], glm::vec3(wanted->rgba[i]));
+    } else {
+      const std::vector<glm::vec3> means = mean_colors(soup);
+      const auto& rgba = std::get<FaceColors>(shown.appearance).rgba;
+      ASSERT_EQ(rgba.size(), means.size());
+      for (std::size_t t = 0; t < rgba.size(); ++t) expect_color(rgba[t], means[t]);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Appearance, GlbPreview, ::testing::ValuesIn(testing::glb_kinds()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+/// The ways in which a mesh lies in a file: with triangles of its own or none, as a copy beside the
+/// soup's vertices, of vertices that have a colour each.
+std::vector<testing::GlbKind> mesh_kinds() {
+  std::vector<testing::GlbKind> kinds = testing::glb_kinds();
+  const auto is_other = [](const testing::GlbKind& kind) {
+    const std::string name = kind.name;
+    return name != "face_bytes" && name != "lattice_bytes_mlp_shared" &&
+           name != "vertex_bytes_shared";
+  };
+  kinds.erase(std::remove_if(kinds.begin(), kinds.end(), is_other), kinds.end());
+  if (kinds.size() != 3) throw std::logic_error("a kind of scene has another name");
+  return kinds;
+}
+
+class GlbPreviewMesh : public GlbPreview {};
+
+TEST_P(GlbPreviewMesh, AsksForMoreAtEveryLengthThatIsTooShort) {
+  const Scene whole = testing::random_scene(GetParam(), 3, 1);
+  const std::vector<std::byte> bytes = testing::glb_bytes(whole, GetParam().name);
+  const std::uint64_t size = size_of(bytes).value();
+  const std::size_t beginning = beginning_of(bytes);
+  for (std::size_t length = 0; length < bytes.size(); ++length) {
+    // A copy of exactly this size, so that a sanitizer sees a read past the end.
+    const std::vector<std::byte> prefix(bytes.begin(), bytes.begin() + std::ptrdiff_t(length));
+    const auto known = size_of(prefix);
+    ASSERT_EQ(known.has_value(), length >= beginning) << length;
+    if (known) {
+      ASSERT_EQ(*known, size) << length;
+    }
+    ASSERT_EQ(preview_of(prefix).has_value(), length >= size) << length;
+  }
+}
+
+TEST_P(GlbPreviewMesh, SurvivesDamage) {
+  RandomScene random(4);
+  Scene scene;
+  GetParam().fill(random, scene, 1);
+  const std::vector<std::byte> bytes = testing::glb_bytes(scene, GetParam().name);
+  const std::size_t size = std::size_t(size_of(bytes).value());
+  std::size_t shown = 0;
+  const auto read = [&](Bytes damaged) {
+    const std::optional<Scene> preview = preview_of(damaged);
+    if (!preview) return;
+    ++shown;
+    EXPECT_FALSE(defect(std::get<TriangleSoup>(preview->primitives)));
+  };
+  const testing::Survival survival = testing::survive_damage(Bytes(bytes).first(size), read);
+  EXPECT_GT(survival.refused, size);
+  EXPECT_GT(shown, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kind, GlbPreviewMesh, ::testing::ValuesIn(mesh_kinds()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+// -- Files that have none -------------------------------------------------------------------------
+
+TEST(GlbPreviewFile, OtherFilesHaveNone) {
+  Scene scene;
+  RandomScene random(5);
+  fill_soup(scene, random.geometry(3, false), FaceColors{random.colors(3, true)});
+  const std::vector<std::byte> bytes = testing::glb_bytes(scene, "foreign");
+  auto json = testing::glb_json(bytes);
+  json.erase("extensions");
+  const std::vector<std::byte> foreign = testing::with_glb_json(bytes, json);
+  EXPECT_EQ(size_of(foreign), 0u);
+  EXPECT_FALSE(preview_of(foreign));
+
+  const std::string off = "COFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const Bytes text = std::as_bytes(std::span(off));
+  EXPECT_EQ(size_of(text.first(3)), std::nullopt) << "it may be a GLB still";
+  EXPECT_EQ(size_of(text.first(4)), 0u);
+  EXPECT_FALSE(preview_of(text));
+}
+
+TEST(GlbPreviewFile, SlimFilesAndEmptySoupsHaveNone) {
+  RandomScene random(6);
+  Scene scene = random.scene();
+  TriangleSoup soup = random.geometry(4, true);
+  soup.appearance = random.lattice_texture(4, 1, false);
+  scene.primitives = soup;
+  const auto path = testing::temporary_glb("slim_preview");
+  write_slim_glb(scene, encode_slim(soup, {}), path);
+  const std::vector<std::byte> slim = Input::open(path).read_rest();
+  std::filesystem::remove(path);
+  EXPECT_EQ(size_of(slim), 0u);
+  EXPECT_FALSE(preview_of(slim));
+
+  fill_soup(scene, {}, FaceColors{});
+  const std::vector<std::byte> empty = testing::glb_bytes(scene, "empty_preview");
+  EXPECT_EQ(size_of(empty), 0u);
+  EXPECT_FALSE(preview_of(empty));
+}
+
+// -- Files that are wrong -------------------------------------------------------------------------
+
+TEST(GlbPreviewFile, RefusesWhatIsWrongAlready) {
+  RandomScene random(7);
+  Scene scene = random.scene();
+  TriangleSoup lattice = random.geometry(5, true);
+  lattice.appearance = random.lattice_texture(5, 2, false);
+  scene.primitives = std::move(lattice);
+  const std::vector<std::byte> bytes = testing::glb_bytes(scene, "wrong_preview");
+  const auto expect_refusal = [](Bytes damaged, const std::string& reason) {
+    try {
+      // All but the last byte: the file is still arriving.
+      preview_of(damaged.first(damaged.size() - 1));
+      ADD_FAILURE() << "accepted; expected: " << reason;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.reason(), HasSubstr(reason));
+      EXPECT_EQ(error.place().file, "arriving.glb");
+    }
+  };
+  const auto expect_refused_json = [&](const std::function<void(nlohmann::json&)>& change,
+                                       const std::string& reason) {
+    auto json = testing::glb_json(bytes);
+    change(json);
+    expect_refusal(testing::with_glb_json(bytes, json), reason);
+  };
+  const auto expect_refused_word = [&](std::size_t offset, std::uint32_t value,
+                                       const std::string& reason) {
+    std::vector<std::byte> damaged(bytes);
+    std::memcpy(&damaged[offset], &value, 4);
+    expect_refusal(damaged, reason);
+  };
+  const char* x = tureen_extension;
+  const auto color = [](nlohmann::json& j) -> nlohmann::json& {
+    const std::size_t index = j["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"];
+    return j["accessors"][index];
+  };
+  const auto triangles = [&](nlohmann::json& j) -> nlohmann::json& {
+    const std::size_t index = j["extensions"][x]["triangles"];
+    return j["accessors"][index];
+  };
+  expect_refused_json([&](auto& j) { j["extensions"][x]["version"] = 3; },
+                      "only versions 1 to 2 are read");
+  expect_refused_json([&](auto& j) { color(j)["count"] = 14; },
+                      "COLOR_0: its accessor has 14 elements, expected 15");
+  expect_refused_json([&](auto& j) { color(j)["componentType"] = 5126; }, "expected 5123");
+  expect_refused_json([&](auto& j) { color(j)["count"] = 4000000000u; },
+                      "elements of 8 bytes do not fit");
+  expect_refused_json([&](auto& j) { j["extensions"][x]["face_count"] = 1u << 30; },
+                      "its accessor has 15 elements, expected 3221225472");
+  expect_refused_json(
+      [&](auto& j) {
+        // Bytes of colours taken for indices: they name vertices that there are not.
+        triangles(j)["bufferView"] = color(j)["bufferView"];
+      },
+      "names vertex");
+  expect_refused_word(4, 3, "GLB version 3");
+  expect_refused_word(8, 40, "bytes trail the file: its header says 40 bytes, it has");
+  expect_refused_word(12, 0xfffffff0u, "a GLB chunk of 4294967280 bytes, but");
+  expect_refused_word(16, 0, "the first GLB chunk is not JSON");
+
+  // A file that cannot hold a chunk is refused though nothing of one is there.
+  std::vector<std::byte> header(bytes.begin(), bytes.begin() + 16);
+  const std::uint32_t length = 16;
+  std::memcpy(&header[8], &length, 4);
+  EXPECT_EQ(size_of(Bytes(header).first(14)), std::nullopt);
+  EXPECT_THROW(size_of(header), InputError);
+}
+
+TEST(GlbPreviewFile, DoesNotLookAtWhatHasNotArrived) {
+  RandomScene random(8);
+  Scene scene;
+  TriangleSoup soup = random.geometry(5, false);
+  soup.appearance = random.lattice_texture(5, 2, false);
+  scene.primitives = std::move(soup);
+  std::vector<std::byte> bytes = testing::glb_bytes(scene, "texels_preview");
+  const std::size_t size = std::size_t(size_of(bytes).value());
+  std::fill(bytes.begin() + std::ptrdiff_t(size), bytes.end(), std::byte(0));
+  EXPECT_TRUE(preview_of(bytes));
+}
+
+}  // namespace
+}  // namespace tureen
