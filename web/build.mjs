@@ -8,7 +8,7 @@
 //   npm/                  a package: createViewer as an ES module with its types
 // and a table of sizes. Fails where what a browser has to fetch is larger than the limit.
 
-import { execFileSync } from 'node:child_process';
+import { spawnSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { cpSync, existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
@@ -44,8 +44,9 @@ function options() {
 /** One script with all that it imports. What it has to be is said in `how`, as esbuild's options. */
 async function bundle(entry, engine, how) {
   const result = await build({
-    entryPoints: [from(entry)], bundle: true, write: false, minify: true, platform: 'browser', target: 'es2022',
-    legalComments: 'none', alias: { 'tureen-engine': join(engine, 'tureen.js') }, logLevel: 'warning', ...how,
+    entryPoints: [from(entry)], bundle: true, write: false, minify: true, platform: 'browser',
+    target: 'es2022', legalComments: 'none', logLevel: 'warning',
+    alias: { 'tureen-engine': join(engine, 'tureen.js') }, ...how,
   });
   return result.outputFiles[0].text;
 }
@@ -53,7 +54,8 @@ async function bundle(entry, engine, how) {
 /** Replaces what stands exactly once. */
 function replaceOnce(whole, part, by) {
   const pieces = whole.split(part);
-  if (pieces.length !== 2) fail(`“${part.slice(0, 60)}” should stand once in the page, not ${pieces.length - 1} times.`);
+  if (pieces.length !== 2)
+    fail(`“${part.slice(0, 60)}” should stand once in the page, not ${pieces.length - 1} times.`);
   return pieces.join(by);
 }
 
@@ -65,7 +67,8 @@ function write(folder, name, content) {
 /** models.json with the sizes of the files that lie beside it. */
 function gallery(folder) {
   const models = JSON.parse(text(from('page/models.json')));
-  return JSON.stringify(models.map((model) => ({ ...model, bytes: statSync(join(folder, model.url)).size })), null, 2) + '\n';
+  const weighed = models.map((model) => ({ ...model, bytes: statSync(join(folder, model.url)).size }));
+  return JSON.stringify(weighed, null, 2) + '\n';
 }
 
 async function makeSite(folder, engine, parts) {
@@ -84,14 +87,15 @@ async function makeSite(folder, engine, parts) {
   write(folder, 'models.json', gallery(folder));
 }
 
-/** The page with everything in it. A file has no address that import.meta.url could tell. */
+/** The page with everything in it. What asks for import.meta.url gets an address that is never
+ *  fetched: a worker from a Blob has none that others could be relative to. */
 async function makeTemplate(engine, parts) {
-  const inFile = { format: 'iife', define: { 'import.meta.url': 'self.location.href' } };
+  const inFile = { format: 'iife', define: { 'import.meta.url': '"file:///"' } };
   const script = await bundle('page/single_file.ts', engine, inFile);
   const worker = await bundle('viewer/loader_worker.ts', engine, inFile);
   if (/<\/script|<!--/i.test(script)) fail('The script of the single file has what ends a script in HTML.');
-  const part = (id, bytes) =>
-    `<script type="application/octet-stream;base64" id="${id}">${Buffer.from(bytes).toString('base64')}</script>\n`;
+  const part = (id, bytes) => `<script type="application/octet-stream;base64" id="${id}">` +
+    `${Buffer.from(bytes).toString('base64')}</script>\n`;
   const hash = createHash('sha256').update(script).digest('base64');
   const parts64 = part('engine', readFileSync(join(engine, 'tureen.wasm'))) + part('worker', worker);
 
@@ -115,14 +119,17 @@ function makePackage(folder, engine, parts) {
   cpSync(join(engine, 'tureen.wasm'), join(folder, 'tureen.wasm'));
   cpSync(from('package/README.md'), join(folder, 'README.md'));
   cpSync(join(root, 'LICENSE'), join(folder, 'LICENSE'));
-  execFileSync(process.execPath, [from('node_modules/typescript/bin/tsc'), '-p', from('package'), '--outDir', join(folder, 'types')],
-               { stdio: 'inherit' });
+  const compiler = from('node_modules/typescript/bin/tsc');
+  const types = spawnSync(process.execPath, [compiler, '-p', from('package'), '--outDir', join(folder, 'types')],
+                          { stdio: 'inherit' });
+  if (types.status !== 0) fail('The package has no types: see above.');
 }
 
 /** Prints the sizes of what a browser fetches before the first scene. */
 function weigh(site) {
   const totals = [0, 0, 0];
-  const row = (name, sizes) => console.log(name.padEnd(18) + sizes.map((size) => size.toLocaleString('en').padStart(12)).join(''));
+  const row = (name, sizes) =>
+    console.log(name.padEnd(18) + sizes.map((size) => size.toLocaleString('en').padStart(12)).join(''));
   console.log(' '.repeat(18) + ['bytes', 'gzip', 'brotli'].map((name) => name.padStart(12)).join(''));
   for (const name of ['page.js', 'loader_worker.js', 'tureen.wasm']) {
     const bytes = readFileSync(join(site, name));
@@ -132,7 +139,7 @@ function weigh(site) {
   }
   row('together', totals);
   if (totals[2] > mostBytes)
-    fail(`Engine and scripts are ${totals[2].toLocaleString('en')} bytes by brotli; the limit is ${mostBytes.toLocaleString('en')}.`);
+    fail(`Engine and scripts are ${totals[2]} bytes by brotli; the limit is ${mostBytes}.`);
 }
 
 async function main() {

@@ -2,8 +2,8 @@
 //
 //   #eye=4.269,-5.968,3.39&target=0,0,0.7&up=0,0,1&fov=35&look=depth
 //
-// Lengths are the scene's units; `fov` (the vertical angle) and `roll` (left out when 0) are degrees,
-// as `tureen render --eye --target --fov` takes them.
+// Lengths are the scene's units; `fov`, the vertical angle, is in degrees: what `tureen render --eye
+// --target --up --fov` takes. So is `roll`, which only recorded cameras have.
 
 import type { Vec3, ViewPose } from '../viewer/types.js';
 import { degreesPerRadian, plainNumber } from './numbers.js';
@@ -29,7 +29,7 @@ export function writeFragment(pose: ViewPose | null, look: string | null): strin
     const list = (vector: Vec3, digits: number) => vector.map((value) => plainNumber(value, digits)).join(',');
     parts.push(`eye=${list(pose.eye, decimals)}`, `target=${list(pose.target, decimals)}`, `up=${list(pose.up, 6)}`,
                `fov=${plainNumber(pose.fov * degreesPerRadian, 4)}`);
-    const roll = plainNumber(pose.roll * degreesPerRadian, 4);
+    const roll = plainNumber(pose.roll * degreesPerRadian, 3);
     if (roll !== '0') parts.push(`roll=${roll}`);
   }
   if (look && look !== 'color') parts.push(`look=${encodeURIComponent(look)}`);

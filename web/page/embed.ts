@@ -67,5 +67,5 @@ export function answerEmbedder(viewer: Viewer, loading: Loading): void {
       post(origin, { id, error: { message: error instanceof Error ? error.message : String(error), kind } });
     }
   });
-  for (const origin of allowed ?? ['*']) post(origin, { event: 'ready' });
+  parent.postMessage({ tureen: 1, event: 'ready' }, '*');  // which is no secret
 }

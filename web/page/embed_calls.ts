@@ -6,9 +6,11 @@ import {
   type ViewerEvents, type ViewPose,
 } from '../viewer/types.js';
 import type { Loading } from './loading.js';
+import { fetchedProtocols } from './openings.js';
 import { isPose, isVector } from './saved_views.js';
 
-const eventNames: readonly (keyof ViewerEvents)[] = ['progress', 'preview', 'scene', 'notice', 'frame', 'view', 'context'];
+const eventNames: readonly (keyof ViewerEvents)[] =
+  ['progress', 'preview', 'scene', 'notice', 'frame', 'view', 'context'];
 
 function refuse(what: string): never { throw new ViewerError(what, 'usage'); }
 
@@ -20,14 +22,16 @@ function number(value: unknown, name: string): number {
 }
 
 function whole(value: unknown, name: string): number {
-  return Number.isInteger(value) && (value as number) >= 0 ? (value as number) : refuse(`${name} is no whole number from 0 on.`);
+  return Number.isInteger(value) && (value as number) >= 0 ? (value as number) :
+    refuse(`${name} is no whole number from 0 on.`);
 }
 
 function text(value: unknown, name: string): string {
   return typeof value === 'string' ? value : refuse(`${name} is no text.`);
 }
 
-const vector = (value: unknown, name: string): Vec3 => (isVector(value) ? value : refuse(`${name} is not three numbers.`));
+const vector = (value: unknown, name: string): Vec3 =>
+  isVector(value) ? value : refuse(`${name} is not three numbers.`);
 
 function oneOf<T extends string>(value: unknown, choices: readonly T[], name: string): T {
   return choices.includes(value as T) ? (value as T) : refuse(`${name} is none of ${choices.join(', ')}.`);
@@ -40,7 +44,8 @@ function pose(value: unknown): ViewPose {
 function file(value: unknown): SceneFile {
   const { path, data } = object(value);
   if (data instanceof ArrayBuffer) return { path: text(path, 'path'), data: new Blob([data]) };
-  return data instanceof Blob ? { path: text(path, 'path'), data } : refuse('A file\'s data is neither a Blob nor an ArrayBuffer.');
+  if (data instanceof Blob) return { path: text(path, 'path'), data };
+  return refuse('A file\'s data is neither a Blob nor an ArrayBuffer.');
 }
 
 function source(value: unknown): SceneSource {
@@ -48,13 +53,15 @@ function source(value: unknown): SceneSource {
   const named = name === undefined ? {} : { name: text(name, 'name') };
   if (Array.isArray(files)) return { files: files.map(file), ...named };
   if (typeof url !== 'string') refuse('A scene is {url} or {files: [{path, data}]}.');
-  const address = URL.canParse(url, location.href) ? new URL(url, location.href) : refuse(`“${url}” is no address.`);
-  if (!['http:', 'https:', 'blob:', 'data:'].includes(address.protocol)) refuse('Scenes are fetched by http and https.');
-  return { url: address.href, ...named };
+  if (!URL.canParse(url, location.href)) refuse(`“${url}” is no address.`);
+  const { href, protocol } = new URL(url, location.href);
+  if (!fetchedProtocols.includes(protocol)) refuse('Scenes are fetched by http and https.');
+  return { url: href, ...named };
 }
 
 function resolution(value: unknown): Resolution {
-  return typeof value === 'number' ? number(value, 'resolution') : { targetFps: number(object(value).targetFps, 'targetFps') };
+  if (typeof value === 'number') return number(value, 'resolution');
+  return { targetFps: number(object(value).targetFps, 'targetFps') };
 }
 
 type Answer = (given: readonly unknown[]) => unknown;

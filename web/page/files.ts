@@ -7,12 +7,14 @@ import { ViewerError, type SceneFile, type SceneSource } from '../viewer/types.j
 const mostFiles = 10_000;
 
 function tooMany(): ViewerError {
-  return new ViewerError(`There are more than ${mostFiles.toLocaleString('en')} files; drop the scene's own folder.`, 'input');
+  const most = mostFiles.toLocaleString('en');
+  return new ViewerError(`There are more than ${most} files; drop the scene's own folder.`, 'input');
 }
 
 /** A file is named by itself, a folder by its name, loose files by the first. */
 function sourceOf(files: readonly SceneFile[], folder: string | null): SceneSource {
-  if (files.length === 0) throw new ViewerError(folder ? `The folder ${folder} is empty.` : 'There is no file to open.', 'input');
+  if (files.length === 0)
+    throw new ViewerError(folder ? `The folder ${folder} is empty.` : 'There is no file to open.', 'input');
   return { files, name: folder ?? files[0]!.path };
 }
 
@@ -63,7 +65,8 @@ export function sourceOfDropped(transfer: DataTransfer): Promise<SceneSource> {
         else if (file) files.push({ path: file.name, data: file });
     } catch (error) {
       if (error instanceof ViewerError) throw error;
-      throw new ViewerError('The browser could not read the folder that was dropped; choose it with the button instead.', 'input');
+      throw new ViewerError(
+        'The browser could not read the folder that was dropped; choose it with the button instead.', 'input');
     }
     return sourceOf(files, alone);
   })();

@@ -19,11 +19,15 @@ const count = (value: unknown) => (typeof value === 'number' && Number.isFinite(
 function readModel(entry: unknown): Model | null {
   const { name, url, picture, triangles, bytes } = (entry ?? {}) as Record<string, unknown>;
   if (typeof name !== 'string' || typeof url !== 'string' || !url) return null;
-  return { name, url, picture: typeof picture === 'string' ? picture : null, triangles: count(triangles), bytes: count(bytes) };
+  return {
+    name, url, picture: typeof picture === 'string' ? picture : null,
+    triangles: count(triangles), bytes: count(bytes),
+  };
 }
 
 function card(model: Model, choose: (address: string) => void): HTMLElement {
-  const facts = [model.triangles === null ? '' : trianglesText(model.triangles), model.bytes === null ? '' : bytesText(model.bytes)];
+  const facts = [model.triangles === null ? '' : trianglesText(model.triangles),
+                 model.bytes === null ? '' : bytesText(model.bytes)];
   const picture = model.picture === null ? make('span', { class: 'no-picture' }) :
     make('img', { src: model.picture, alt: '', loading: 'lazy', width: 320, height: 200 });
   const button = make('button', { type: 'button', class: 'card' }, picture,

@@ -30,6 +30,7 @@ export class Loading {
   private readonly bar = block('progress-bar');
   private current: AbortController | null = null;
   private preview = '';
+  private readonly listeners: (() => void)[] = [];
 
   constructor(private readonly viewer: Viewer, private readonly messages: Messages) {
     button('cancel').addEventListener('click', () => this.cancel());
@@ -38,6 +39,9 @@ export class Loading {
       this.preview = `; a first picture of ${trianglesText(triangles)} stands`;
     });
   }
+
+  /** Calls when another scene is asked for. */
+  onBegin(listener: () => void): void { this.listeners.push(listener); }
 
   get busy(): boolean { return this.current !== null; }
 
@@ -70,6 +74,7 @@ export class Loading {
     this.current = new AbortController();
     this.preview = '';
     this.messages.clearErrors();
+    for (const listener of this.listeners) listener();
     this.name.textContent = name;
     this.show({ stage: 'download', fraction: null, loadedBytes: 0, totalBytes: null });
     this.card.hidden = false;

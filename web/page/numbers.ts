@@ -25,7 +25,7 @@ export function bytesText(bytes: number): string {
 }
 
 /** "4.27 ms", "157 ms" */
-export const millisecondsText = (ms: number) => `${ms < 9.95 ? ms.toFixed(2) : ms < 99.5 ? ms.toFixed(1) : ms.toFixed(0)} ms`;
+export const millisecondsText = (ms: number) => `${ms.toFixed(ms < 9.95 ? 2 : ms < 99.5 ? 1 : 0)} ms`;
 
 /** Without zeros at the end and without exponent: "0.25", "12". */
 export function plainNumber(value: number, decimals: number): string {
@@ -36,7 +36,9 @@ export function plainNumber(value: number, decimals: number): string {
 
 /** "#20242e" for colours of 0..1. */
 export function hexColor(color: Vec3): string {
-  return '#' + color.map((part) => Math.round(Math.min(Math.max(part, 0), 1) * 255).toString(16).padStart(2, '0')).join('');
+  const digits = (part: number) =>
+    Math.round(Math.min(Math.max(part, 0), 1) * 255).toString(16).padStart(2, '0');
+  return '#' + color.map(digits).join('');
 }
 
 /** Null where the text is no "#20242e". */

@@ -14,6 +14,9 @@ export type Origin =
   /** It is part of the page. */
   | { readonly kind: 'page' };
 
+/** Of addresses that a scene may have. */
+export const fetchedProtocols: readonly string[] = ['http:', 'https:', 'blob:', 'data:'];
+
 const noView: LinkedView = { pose: null, look: null, defect: null };
 
 export class Openings {
@@ -65,7 +68,7 @@ export class Openings {
     }
     if (url.protocol === 'file:')
       this.messages.error('A page that was opened from the disk cannot fetch files; drop the scene on it instead.');
-    else if (!['http:', 'https:', 'blob:', 'data:'].includes(url.protocol))
+    else if (!fetchedProtocols.includes(url.protocol))
       this.messages.error(`Scenes are fetched by http and https, not by ${url.protocol.slice(0, -1)}.`);
     else return url.href;
     return null;

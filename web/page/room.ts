@@ -70,7 +70,8 @@ function tellOfContext(viewer: Viewer, messages: Messages): void {
 }
 
 /** Everything around the picture but opening. */
-function furnish(viewer: Viewer, messages: Messages, openings: Openings, bar: AddressBar, start: Start): void {
+function furnish(viewer: Viewer, messages: Messages, loading: Loading, openings: Openings, bar: AddressBar,
+                 start: Start): void {
   const tell = (sentence: string) => messages.notice(sentence);
   const failed = (what: unknown) => messages.thrown(what);
   const sceneKey = () => {
@@ -79,19 +80,23 @@ function furnish(viewer: Viewer, messages: Messages, openings: Openings, bar: Ad
   };
 
   const panel = new Panel(), fullScreen = new FullScreen();
-  new SceneSection(viewer);
+  new SceneSection(viewer, loading);
   const views = new ViewsSection(viewer, tell), cameras = new CamerasSection(viewer, tell);
   const saved = new SavedSection(viewer, tell);
   new DrawingSection(viewer);
   const picture = new PictureSection(viewer, tell, failed);
   const link = new LinkSection(viewer, bar, openings, tell);
   const follow = () => {
-    if (viewer.scene) bar.showView(viewer.getView(), viewer.shownLook);
+    // While another scene is on its way, or did not come, the address is that one's.
+    const origin = openings.origin;
+    if (origin && bar.scene() === (origin.kind === 'address' ? origin.address : null))
+      bar.showView(viewer.getView(), viewer.shownLook);
     link.update();
   };
   const look = new LookSection(viewer, failed, follow);
   new TimesSection(viewer);
   viewer.on('view', follow);
+  viewer.on('context', () => look.update());
   openings.onOpened(() => {
     saved.follow(sceneKey());
     look.update();
@@ -161,7 +166,7 @@ export async function openRoom(options: RoomOptions = {}): Promise<void> {
     answerEmbedder(viewer, loading);
   } else {
     start.attachDrop();
-    furnish(viewer, messages, openings, bar, start);
+    furnish(viewer, messages, loading, openings, bar, start);
     followAddress(viewer, openings, bar, start);
   }
   if (wanted) await openings.openAddress(wanted, bar.view());

@@ -15,8 +15,8 @@ export const isVector = (value: unknown): value is Vec3 =>
 /** Whether something that came from outside is a camera. */
 export function isPose(value: unknown): value is ViewPose {
   const pose = value as Partial<ViewPose> | null;
-  return typeof pose === 'object' && pose !== null && isVector(pose.eye) && isVector(pose.target) && isVector(pose.up) &&
-    Number.isFinite(pose.fov) && Number.isFinite(pose.roll);
+  return typeof pose === 'object' && pose !== null && isVector(pose.eye) && isVector(pose.target) &&
+    isVector(pose.up) && Number.isFinite(pose.fov) && Number.isFinite(pose.roll);
 }
 
 const isView = (value: unknown): value is SavedView =>

@@ -177,11 +177,12 @@ function describe(canvas: HTMLCanvasElement): () => void {
   };
   const added = Object.keys(wanted).filter((name) => !canvas.hasAttribute(name));
   for (const name of added) canvas.setAttribute(name, wanted[name as keyof typeof wanted]);
-  const touchAction = canvas.style.touchAction;
+  const { touchAction, userSelect } = canvas.style;
   canvas.style.touchAction = 'none';  // the page neither scrolls nor zooms under these fingers
+  canvas.style.userSelect = 'none';   // nor does a double click select what is beside
   return () => {
     for (const name of added) canvas.removeAttribute(name);
-    canvas.style.touchAction = touchAction;
+    Object.assign(canvas.style, { touchAction, userSelect });
   };
 }
 
@@ -195,10 +196,11 @@ export function attachControls(canvas: HTMLCanvasElement, viewer: Viewer): () =>
                                                    options: AddEventListenerOptions = {}) =>
     canvas.addEventListener(type, listener, { ...options, signal: ended.signal });
 
-  on('pointerdown', (event) => {
+  on('pointerdown', (event) => pointers.press(event));
+  on('mousedown', (event) => {
+    if (event.button !== 1) return;
+    event.preventDefault();  // or the browser scrolls
     canvas.focus({ preventScroll: true });
-    pointers.press(event);
-    event.preventDefault();  // no scrolling with the middle button, no selection
   });
   on('pointermove', (event) => pointers.move(event));
   on('pointerup', (event) => pointers.release(event));

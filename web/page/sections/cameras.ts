@@ -17,8 +17,8 @@ export class CamerasSection {
       block('cameras-part').hidden = cameras.length === 0;
       this.list.replaceChildren(
         make('option', { value: '' }, 'none'),
-        ...cameras.map((camera, index) =>
-          make('option', { value: index }, `${camera.name || `camera ${index + 1}`}, ${camera.width} × ${camera.height}`)));
+        ...cameras.map(({ name, width, height }, index) =>
+          make('option', { value: index }, `${name || `camera ${index + 1}`}, ${width} × ${height}`)));
     });
   }
 

@@ -36,7 +36,8 @@ export class LinkSection {
     } catch {  // no permission, or a page that is neither https nor localhost
       this.field.closest('details')!.open = true;
       this.field.select();
-      return this.tell('The browser does not let the page copy; the link is selected in the panel, under “Picture and link”.');
+      return this.tell(
+        'The browser does not let the page copy; the link is selected in the panel, under “Picture and link”.');
     }
     this.tell(`The link is copied. ${this.hint()}`);
   }
@@ -45,7 +46,8 @@ export class LinkSection {
   private hint(): string {
     const origin = this.openings.origin;
     if (origin?.kind === 'files')
-      return 'The scene came from a file of yours, which a link cannot carry: it has the camera alone, for who opens the same file.';
+      return 'The scene came from a file of yours, which a link cannot carry: it has the camera alone, for ' +
+        'who opens the same file.';
     if (origin?.kind === 'page' && location.protocol === 'file:')
       return 'It leads to this file on this computer; send the file along.';
     return origin ? 'It opens this scene from here.' : '';

@@ -55,7 +55,7 @@ export class LookSection {
     this.list.disabled = choices.length === 0;
     this.list.replaceChildren(...choices.map(({ look, title, missing }) =>
       make('option', { value: look, disabled: missing !== null }, title)));
-    fillSentences(block('missing-looks'), choices.map(({ missing }) => missing).filter((sentence) => sentence !== null));
+    fillSentences(block('missing-looks'), choices.flatMap(({ missing }) => missing ?? []));
     this.update();
   }
 

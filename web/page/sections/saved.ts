@@ -32,7 +32,8 @@ export class SavedSection {
   private show(): void {
     this.list.replaceChildren(...this.views.list().map(({ name, pose }) => {
       const go = make('button', { type: 'button', class: 'plain go' }, name);
-      const remove = make('button', { type: 'button', class: 'plain', 'aria-label': `Delete the view ${name}` }, icon('close'));
+      const remove =
+        make('button', { type: 'button', class: 'plain', 'aria-label': `Delete the view ${name}` }, icon('close'));
       go.addEventListener('click', () => this.viewer.setView(pose, { glide: true }));
       remove.addEventListener('click', () => {
         this.views.remove(name);

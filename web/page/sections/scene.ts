@@ -2,20 +2,19 @@
 
 import type { SceneSummary, Viewer } from '../../viewer/types.js';
 import { block, fillFacts, fillSentences } from '../dom.js';
+import type { Loading } from '../loading.js';
 import { bytesText, trianglesText } from '../numbers.js';
 
 export class SceneSection {
   private notices: string[] = [];
 
-  constructor(private readonly viewer: Viewer) {
+  constructor(private readonly viewer: Viewer, loading: Loading) {
     viewer.on('scene', (scene) => this.show(scene));
     viewer.on('notice', (sentence) => {
       this.notices.push(sentence);
       this.showNotes();
     });
-    viewer.on('progress', ({ loadedBytes, stage }) => {
-      if (stage === 'download' && loadedBytes === 0) this.notices = [];  // they were the scene's before
-    });
+    loading.onBegin(() => { this.notices = []; });  // they were the scene's before
     this.show(viewer.scene);
   }
 
@@ -23,12 +22,12 @@ export class SceneSection {
     block('scene-title').textContent = scene?.name ?? '';
     document.title = scene ? `${scene.name} · Tureen` : 'Tureen';
     fillFacts(block('facts'), scene ? [
-      ['File', scene.name],
+      ['Name', scene.name],
       ['From', scene.source || null],
       ['Size', trianglesText(scene.triangles)],
       ['Appearance', scene.appearance],
       ['On the device', bytesText(scene.deviceBytes)],
-    ] : [['File', 'none is open']]);
+    ] : [['Name', 'none is open']]);
     this.showNotes();
   }
 

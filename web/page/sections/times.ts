@@ -39,7 +39,8 @@ export class TimesSection {
     const { frameMs, p95Ms, submitMs, width, height, scale } = stats;
     const size = `${width} × ${height}`;
     fillFacts(block('times-facts'), [
-      ['Between frames', frameMs === null ? 'at rest' : `${millisecondsText(frameMs)}, ${(1000 / frameMs).toFixed(0)} a second`],
+      ['Between frames',
+       frameMs === null ? 'at rest' : `${millisecondsText(frameMs)}, ${(1000 / frameMs).toFixed(0)} a second`],
       ['Slowest 5 %', p95Ms === null ? null : `over ${millisecondsText(p95Ms)}`],
       ['To ask for one', submitMs === null ? null : millisecondsText(submitMs)],
       ['Drawn at', `${size}, ${scale.toFixed(2)} of the screen's`],
