@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "formats/scene_file.hpp"
+#include "formats/tureen_glb_preview.hpp"
 #include "runtime/inspection.hpp"
 #include "runtime/preset_check.hpp"
 #include "runtime/up_axis.hpp"
@@ -85,6 +86,19 @@ Json read(const Json& arguments) {
   return take(read_scene(arguments.at("path").get<std::string>(), options));
 }
 
+/// {"name"}; the buffer holds the first bytes of a file. How many of them a preview takes; 0 where there
+/// will be none, null where that cannot be told yet.
+Json preview_size(const Json& arguments) {
+  const auto size = tureen_glb_preview_size(buffer(), arguments.at("name").get<std::string>());
+  return size ? Json(*size) : Json();
+}
+
+/// {"name"}; the buffer holds so many bytes.
+Json preview(const Json& arguments) {
+  auto scene = read_tureen_glb_preview(buffer(), arguments.at("name").get<std::string>());
+  return scene ? take(std::move(*scene)) : Json();
+}
+
 /// {"limits", "preset": whether the scene's is obeyed, "level"?: no lattice above it}. The head is
 /// then in the buffer.
 Json prepare(const Json& arguments) {
@@ -128,6 +142,8 @@ Json lattice_level(const Json&) {
 
 Commands loader_commands() {
   return {{"read", read},
+          {"preview_size", preview_size},
+          {"preview", preview},
           {"prepare", prepare},
           {"read_block", read_block},
           {"lattice_level", lattice_level}};

@@ -27,16 +27,16 @@ export class Preview {
   private tryToRead(prefix: Uint8Array): SceneDescription | null {
     const head = new DataView(prefix.buffer, prefix.byteOffset, prefix.length);
     if (head.getUint32(0, true) !== glb) this.over = true;
-    const jsonEnd = 20 + head.getUint32(12, true);
+    const jsonEnd = 28 + head.getUint32(12, true);  // and the header of the chunk behind it
     if (this.over || prefix.length < jsonEnd) return null;
     if (this.needed === null) {
       this.engine.setBuffer(prefix.subarray(0, jsonEnd));
-      this.needed = this.engine.call<number | null>('preview_size');
-      if (this.needed === null) this.over = true;
+      this.needed = this.engine.call<number | null>('preview_size', { name: this.name }) ?? 0;
+      this.over = this.needed === 0;
     }
-    if (this.over || prefix.length < this.needed!) return null;
+    if (this.over || prefix.length < this.needed) return null;
     this.over = true;
-    this.engine.setBuffer(prefix.subarray(0, this.needed!));
+    this.engine.setBuffer(prefix.subarray(0, this.needed));
     return this.engine.call<SceneDescription | null>('preview', { name: this.name });
   }
 }
