@@ -71,6 +71,7 @@ struct EntrantResult {
 struct BenchmarkResult {
   std::vector<EntrantResult> entrants;  // in the order given
   double aa_spread = 0;                 // series_spread of the first entrant against itself
+  std::vector<FrameTimes> self_test;    // the two series that it comes from; empty without it
   int rounds = 0;                       // those that were made: as asked, or fewer for time
   int frames_per_sample = 1;
   double seconds = 0;  // all of it
@@ -81,6 +82,64 @@ struct BenchmarkResult {
 /// a busy machine; threads that wait cost nothing, so it is not how long a frame takes. Says
 /// nothing of a GPU, and is the time of the wall on Windows.
 double processor_seconds();
+
+/// The protocol sample by sample, for who has to look after other things in between: a page hands
+/// back its thread, or it would be taken for dead.
+class BenchmarkRun {
+ public:
+  /// Asserts that there are entrants, cameras and at least one round. All are kept.
+  BenchmarkRun(std::span<const Entrant> entrants, std::span<const Camera> cameras,
+               const BenchmarkOptions& options = {});
+
+  /// Times one sample. False when there is none left.
+  bool step();
+  /// Of the samples, 0..1; 0 during warm-up.
+  double fraction() const;
+  /// Once step() has said false.
+  BenchmarkResult result() &&;
+
+ private:
+  enum class Phase { warm_up, self_test, measurement, done };
+  /// Rounds of some entrants taking turns, until all are made or their share of the time is used
+  /// up.
+  struct Series {
+    std::vector<std::size_t> entrants;
+    std::vector<FrameTimes> times;  // one an entrant
+    double begin = 0, limit = 0;    // seconds since the start; 0: no limit
+    int round = 0;
+    std::size_t turn = 0;  // within the round
+  };
+
+  double elapsed() const;
+  double sample(const Entrant& entrant, const Camera& camera, int frames) const;  // ms a frame
+  bool is_warm() const;
+  void warm_up();
+  void begin();
+  void begin_measurement();
+  void end_self_test();
+  void end();
+  void choose_frames_per_sample();
+  int affordable_rounds(std::size_t turns) const;
+  void begin_series(Phase phase, std::vector<std::size_t> entrants, double share);
+  bool next_round_is_affordable() const;
+  bool measure_next();
+  void report() const;
+
+  std::vector<Entrant> entrants_;
+  std::vector<Camera> cameras_;
+  BenchmarkOptions options_;
+  std::function<double()> clock_;
+  double start_;
+  Phase phase_ = Phase::warm_up;
+  double warm_up_start_ = 0;
+  std::vector<double> warm_up_ms_;  // of the entrant that is warmed up
+  std::vector<double> fastest_ms_;  // of each one that was
+  int frames_per_sample_ = 1;
+  int rounds_ = 1;
+  std::size_t samples_ = 1, samples_done_ = 0;
+  Series series_;
+  BenchmarkResult result_;
+};
 
 /// Asserts that there are entrants, cameras and at least one round. Leaves no frame in flight. The
 /// last sample of each entrant showed the last camera.
