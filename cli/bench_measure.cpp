@@ -1,7 +1,5 @@
 #include "cli/bench_measure.hpp"
 
-#include <fmt/format.h>
-
 #include <chrono>
 
 #include "cli/picture_file.hpp"
@@ -19,15 +17,6 @@ constexpr double least_sample_ms = 5;
 /// For graphics cards to raise their clocks; next to nothing beside a run of seconds.
 constexpr double least_warm_up_seconds = 0.1;
 
-/// Of the pixels, row by row from the top: FNV-1a of 64 bits.
-std::string hash_of(const Image8& image) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  const auto add = [&](std::uint8_t byte) { hash = (hash ^ byte) * 0x100000001b3u; };
-  for (const glm::u8vec4& pixel : image.pixels)
-    for (int channel = 0; channel < 4; ++channel) add(pixel[channel]);
-  return fmt::format("{:016x}", hash);
-}
-
 /// "tureen_hemisphere-8_1280x720.png".
 std::string picture_name_of(const BenchMeasurement& measurement) {
   std::string name =
@@ -41,7 +30,7 @@ std::string picture_name_of(const BenchMeasurement& measurement) {
 void add_proof(BenchMeasurement& measurement, const Contestant& contestant,
                const fs::path& folder) {
   const Image8 frame = contestant.last_frame();
-  measurement.pixels_hash = hash_of(frame);
+  measurement.pixels_hash = pixels_hash(frame);
   if (folder.empty()) return;
   const fs::path path = folder / picture_name_of(measurement);
   write_picture(frame, path);

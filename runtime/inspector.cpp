@@ -374,7 +374,7 @@ std::vector<std::uint8_t> Inspector::read_fragment_counts() const {
 }
 
 void Inspector::blit_to(unsigned framebuffer) const {
-  blit_color(state_->color_framebuffer.id(), framebuffer, state_->width, state_->height);
+  blit_color(state_->color_framebuffer.id(), framebuffer, {state_->width, state_->height});
 }
 
 Legend Inspector::legend() const {

@@ -129,7 +129,10 @@ void Renderer::draw(const Camera& camera) {
   state_->tell_choice();
 }
 
-void Renderer::finish() const { glFinish(); }
+void Renderer::finish() const {
+  // Without a frame there is nothing to wait for but uploads.
+  gl::wait_for_device(state_->width > 0 ? state_->pipeline->color_framebuffer() : 0);
+}
 
 void Renderer::time_passes(gl::PassTimer* timer) { state_->pipeline->time_passes(timer); }
 
@@ -164,8 +167,9 @@ std::optional<glm::dvec3> Renderer::point_at(glm::dvec2 place) {
   return camera.eye() + camera.world_from_view_rotation() * (*depth * ray);
 }
 
-void Renderer::blit_to(unsigned framebuffer) const {
-  blit_color(state_->pipeline->color_framebuffer(), framebuffer, state_->width, state_->height);
+void Renderer::blit_to(unsigned framebuffer, glm::ivec2 corner) const {
+  blit_color(state_->pipeline->color_framebuffer(), framebuffer, {state_->width, state_->height},
+             corner);
 }
 
 void Renderer::leave_context() {

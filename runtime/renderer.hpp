@@ -87,8 +87,8 @@ class Renderer {
   /// device.
   std::optional<glm::dvec3> point_at(glm::dvec2 place);
 
-  /// Copies the last frame into a framebuffer of the same size (0 is the window).
-  void blit_to(unsigned framebuffer) const;
+  /// Copies the last frame into a framebuffer (0 is the window), its lower left corner to `corner`.
+  void blit_to(unsigned framebuffer, glm::ivec2 corner = glm::ivec2(0)) const;
 
   /// Gives up the last frame and what belongs to the current context alone (vertex arrays and
   /// framebuffers), so that from now on another context of the same share group may be current: a

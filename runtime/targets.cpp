@@ -93,12 +93,13 @@ std::vector<std::uint32_t> read_visible_faces(GLuint framebuffer, glm::ivec2 siz
   return result;
 }
 
-void blit_color(GLuint from, GLuint to, int width, int height) {
+void blit_color(GLuint from, GLuint to, glm::ivec2 size, glm::ivec2 corner) {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, from);
   glReadBuffer(GL_COLOR_ATTACHMENT0);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
   glDisable(GL_SCISSOR_TEST);
-  glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBlitFramebuffer(0, 0, size.x, size.y, corner.x, corner.y, corner.x + size.x, corner.y + size.y,
+                    GL_COLOR_BUFFER_BIT, GL_NEAREST);
   glBindFramebuffer(GL_FRAMEBUFFER, to);
 }
 

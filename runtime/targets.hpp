@@ -44,9 +44,10 @@ Image8 read_pixels(GLuint framebuffer, int width, int height);
 std::vector<std::uint32_t> read_visible_faces(GLuint framebuffer, glm::ivec2 size,
                                               std::span<const std::uint32_t> faces);
 
-/// Copies the colours of one framebuffer into another of the same size (0 is the window), which is
+/// Copies the colours of one framebuffer into another (0 is the window), its lower left corner to
+/// `corner`; that one is
 /// bound afterwards.
-void blit_color(GLuint from, GLuint to, int width, int height);
+void blit_color(GLuint from, GLuint to, glm::ivec2 size, glm::ivec2 corner = glm::ivec2(0));
 
 /// Throws DeviceLimitError where either side is above `max_side`.
 void require_drawable(int width, int height, int max_side);

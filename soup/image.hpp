@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/gtc/type_precision.hpp>
 #include <glm/vec4.hpp>
+#include <string>
 #include <vector>
 
 namespace tureen {
@@ -36,6 +37,10 @@ struct ImageF {
 
 /// Rounds to the nearest of 256 values, as a GL framebuffer does; clamps, NaN becomes 0.
 Image8 quantised(const ImageF& image);
+
+/// Of the bytes, row by row from the top, as 16 hexadecimal digits: FNV-1a of 64 bits. Pictures
+/// with one hash are the same picture; it proves nothing against somebody who wants to deceive.
+std::string pixels_hash(const Image8& image);
 
 /// byte / 255.
 ImageF to_float(const Image8& image);

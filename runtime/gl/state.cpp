@@ -1,5 +1,6 @@
 #include "runtime/gl/state.hpp"
 
+#include <cstdint>
 #include <initializer_list>
 
 #include "runtime/gl/api.hpp"
@@ -29,6 +30,20 @@ void use_plain_pixel_transfer() {
 }
 
 void use_texture_sampling(unsigned unit) { glBindSampler(unit, 0); }
+
+void wait_for_device(unsigned framebuffer) {
+#ifdef __EMSCRIPTEN__
+  if (framebuffer == 0) return;
+  std::uint8_t pixel[4];
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  use_plain_pixel_transfer();
+  glReadPixels(0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel);
+#else
+  (void)framebuffer;
+  glFinish();
+#endif
+}
 
 void use_zero_to_one_depth(Api api, bool zero_to_one) {
 #ifndef __EMSCRIPTEN__

@@ -20,4 +20,8 @@ void use_texture_sampling(unsigned unit);
 /// GL's own. Only where there is clip control.
 void use_zero_to_one_depth(Api api, bool zero_to_one);
 
+/// Returns when the device has drawn all that it was asked for into this framebuffer. Browsers have
+/// a glFinish that does not wait; there a pixel is read.
+void wait_for_device(unsigned framebuffer);
+
 }  // namespace tureen::gl

@@ -33,6 +33,7 @@ namespace {
 Commands all_commands() {
   Commands commands = loader_commands();
   commands.merge(viewer_commands());
+  commands.merge(bench_commands());
   return commands;
 }
 

@@ -25,6 +25,8 @@ std::vector<std::byte>& buffer();
 Commands loader_commands();
 /// For the instance of the page: draws what was prepared.
 Commands viewer_commands();
+/// For that of bench.html.
+Commands bench_commands();
 
 /// Tells the page that a command under way is so far: 0..1.
 void report_progress(double fraction);

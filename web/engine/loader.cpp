@@ -86,8 +86,8 @@ Json read(const Json& arguments) {
   return take(read_scene(arguments.at("path").get<std::string>(), options));
 }
 
-/// {"name"}; the buffer holds the first bytes of a file. How many of them a preview takes; 0 where there
-/// will be none, null where that cannot be told yet.
+/// {"name"}; the buffer holds the first bytes of a file. How many of them a preview takes; 0 where
+/// there will be none, null where that cannot be told yet.
 Json preview_size(const Json& arguments) {
   const auto size = tureen_glb_preview_size(buffer(), arguments.at("name").get<std::string>());
   return size ? Json(*size) : Json();
@@ -141,12 +141,8 @@ Json lattice_level(const Json&) {
 }  // namespace
 
 Commands loader_commands() {
-  return {{"read", read},
-          {"preview_size", preview_size},
-          {"preview", preview},
-          {"prepare", prepare},
-          {"read_block", read_block},
-          {"lattice_level", lattice_level}};
+  return {{"read", read},       {"preview_size", preview_size}, {"preview", preview},
+          {"prepare", prepare}, {"read_block", read_block},     {"lattice_level", lattice_level}};
 }
 
 }  // namespace tureen::web

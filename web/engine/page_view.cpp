@@ -1,8 +1,23 @@
 #include "web/engine/page_view.hpp"
 
+#include <memory>
+
 #include "runtime/gl/api.hpp"
 
 namespace tureen::web {
+
+namespace {
+
+std::unique_ptr<PageView>& slot() {
+  static std::unique_ptr<PageView> one;
+  return one;
+}
+
+}  // namespace
+
+void start_page_view() { slot() = std::make_unique<PageView>(); }
+
+PageView& page_view() { return *slot(); }
 
 PageView::PageView() : context_(gl::Context::external(nullptr, gl::Api::es)) {}
 

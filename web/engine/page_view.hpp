@@ -62,6 +62,8 @@ class PageView {
   /// size.
   void draw(int width, int height, double seconds);
 
+  void clear_canvas(int width, int height) const;
+
   /// What is shown, at any size that the device draws.
   Image8 picture(int width, int height);
   Image8 picture(const Camera& camera);
@@ -77,7 +79,6 @@ class PageView {
   Stage* current() { return preview_ ? &*preview_ : stage_ ? &*stage_ : nullptr; }
   bool looks_into() const { return look_ != Inspection::color && !preview_; }
   void draw_frame(const Camera& camera);
-  void clear_canvas(int width, int height) const;
 
   gl::Context context_;
   std::optional<Stage> stage_, preview_;
@@ -87,5 +88,9 @@ class PageView {
   Flight flight_;
   glm::vec3 background_{0.0f};
 };
+
+/// This instance's one: commands are about it.
+void start_page_view();
+PageView& page_view();
 
 }  // namespace tureen::web

@@ -9,54 +9,26 @@
 #include "soup/error.hpp"
 #include "web/engine/commands.hpp"
 #include "web/engine/page_view.hpp"
-#include "web/engine/prepared_archive.hpp"
+#include "web/engine/unpacking.hpp"
 
 namespace tureen::web {
 
 namespace {
 
-std::unique_ptr<PageView>& view_slot() {
-  static std::unique_ptr<PageView> one;
-  return one;
-}
-
-PageView& view() { return *view_slot(); }
+PageView& view() { return page_view(); }
 CameraControls& controls() { return view().controls(); }
 
 Json start(const Json&) {
-  view_slot() = std::make_unique<PageView>();
+  start_page_view();
   const gl::Capabilities& device = view().capabilities();
   return {{"renderer", device.renderer},
+          {"vendor", device.vendor},
+          {"gl_version", device.version},
           {"limits", to_json(device_limits(device))},
           {"max_picture_side", device.max_picture_side}};
 }
 
 // -- scenes -------------------------------------------------------------------------------------
-
-/// Heads that wait to be unpacked: with the preset, and without it where that must be compared.
-struct Heads {
-  std::vector<std::byte> faithful, quick;
-};
-Heads& heads() {
-  static Heads both;
-  return both;
-}
-
-/// {"preset"}: the buffer is a head; its blobs are in Module.blobs when it is shown.
-Json take_head(const Json& arguments) {
-  (arguments.at("preset").get<bool>() ? heads().quick : heads().faithful) = std::move(buffer());
-  buffer() = {};
-  return nullptr;
-}
-
-/// Blobs of the scene with the preset follow those of the one without.
-Renderer unpacked(const std::vector<std::byte>& head, std::size_t first_blob) {
-  const BlobReader read = [first_blob](std::size_t blob, std::uint64_t offset,
-                                       std::span<std::byte> out) {
-    pull_block(first_blob + blob, offset, out);
-  };
-  return Renderer(view().context(), unpack(head, read));
-}
 
 ShownScene scene_of(const Json& scene) {
   ShownScene shown{.subject = subject_of(scene.at("subject")), .cameras = {}};
@@ -82,9 +54,8 @@ PresetPromise promise_of(const Json& promise) {
 Json show(const Json& arguments) {
   const Json& scene = arguments.at("scene");
   const auto quick_blobs = arguments.find("quick_blobs");
-  const Heads taken = std::move(heads());
-  heads() = {};
-  const auto faithful = [&] { return unpacked(taken.faithful, 0); };
+  const Heads taken = taken_heads();
+  const auto faithful = [&] { return unpacked(view().context(), taken.faithful); };
   if (arguments.at("role") == "preview") {
     view().show_preview(faithful(), scene_of(scene));
     return facts("");
@@ -93,9 +64,11 @@ Json show(const Json& arguments) {
   CheckedRenderer checked =
       quick_blobs == arguments.end()
           ? CheckedRenderer{faithful(), "", false}
-          : checked_renderer(promise_of(scene.at("promise")),
-                             {.with_preset = [&] { return unpacked(taken.quick, *quick_blobs); },
-                              .without = faithful});
+          : checked_renderer(
+                promise_of(scene.at("promise")),
+                {.with_preset =
+                     [&] { return unpacked(view().context(), taken.quick, *quick_blobs); },
+                 .without = faithful});
   view().show(std::move(checked.renderer), scene_of(scene));
   return facts(checked.sentence);
 }

@@ -1,0 +1,292 @@
+// bench.html's commands: scenes side by side, and frames timed by the protocol of `tureen bench`
+// (runtime/benchmark.hpp), a few samples at a time.
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "formats/camera_file.hpp"
+#include "formats/scene_file.hpp"
+#include "runtime/benchmark.hpp"
+#include "runtime/camera_path.hpp"
+#include "runtime/camera_sets.hpp"
+#include "soup/error.hpp"
+#include "web/engine/page_view.hpp"
+#include "web/engine/unpacking.hpp"
+
+namespace tureen::web {
+
+namespace {
+
+double milliseconds() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double, std::milli>(now).count();
+}
+
+struct BenchScene {
+  Renderer tureen;
+  std::optional<Renderer> published;
+  Subject subject;
+  std::vector<Camera> recorded;
+  std::vector<Camera> cameras;  // of the run that comes
+};
+
+/// Who takes part in a run: one scene, or several as one frame.
+struct Participant {
+  std::string name;
+  std::vector<Renderer*> renderers;
+  std::vector<const BenchScene*> scenes;
+};
+
+struct Bench {
+  std::vector<std::unique_ptr<BenchScene>> scenes;
+  std::vector<Participant> participants;
+  std::optional<BenchmarkRun> run;
+};
+
+Bench& bench() {
+  static Bench one;
+  return one;
+}
+
+BenchScene& scene_at(const Json& index) {
+  if (index.get<std::size_t>() >= bench().scenes.size())
+    throw UsageError("there is no scene " + index.dump());
+  return *bench().scenes[index.get<std::size_t>()];
+}
+
+Json facts(const Renderer& renderer, double start) {
+  renderer.finish();
+  return {{"plan", renderer.plan().sentences},
+          {"device_bytes", renderer.device_bytes()},
+          {"upload_ms", milliseconds() - start}};
+}
+
+Json clear(const Json&) {
+  bench() = {};
+  return nullptr;
+}
+
+/// {"scene": what "read" said}
+Json add_scene(const Json& arguments) {
+  const Json& scene = arguments.at("scene");
+  const double start = milliseconds();
+  Renderer renderer = unpacked(page_view().context(), taken_heads().faithful);
+  renderer.set_background(glm::vec4(vector_of(scene.at("background")), 1.0f));
+  const Json result = facts(renderer, start);
+  auto added = std::make_unique<BenchScene>(
+      BenchScene{std::move(renderer), {}, subject_of(scene.at("subject")), {}, {}});
+  for (const Json& camera : scene.at("cameras")) added->recorded.push_back(camera_of(camera));
+  bench().scenes.push_back(std::move(added));
+  return result;
+}
+
+/// {"scene", "folder", "path"}: the same scene drawn by the published pipeline.
+Json add_published(const Json& arguments) {
+  BenchScene& to = scene_at(arguments.at("scene"));
+  std::filesystem::current_path(arguments.at("folder").get<std::string>());
+  Scene scene = read_scene(arguments.at("path").get<std::string>());
+  RenderOptions options{.background = glm::vec4(scene.info.background, 1.0f)};
+  options.plan.pipeline = PipelineKind::published;
+  const double start = milliseconds();
+  to.published.emplace(page_view().context(), opaque_soup(scene), scene.origin, options);
+  return facts(*to.published, start);
+}
+
+int count_of(const std::string& set) {
+  const std::size_t colon = set.find(':');
+  const int count = colon == std::string::npos ? 8 : std::atoi(set.c_str() + colon + 1);
+  if (count < 1 || count > 1000) throw UsageError("a set has 1 to 1000 views, not \"" + set + "\"");
+  return count;
+}
+
+std::vector<Camera> named_set(const std::string& set, const Subject& subject, const Lens& lens) {
+  if (set.rfind("hemisphere", 0) == 0) return hemisphere(subject, count_of(set), lens);
+  if (set.rfind("orbit", 0) == 0)
+    return orbit(subject, count_of(set), {three_quarter_view.azimuth, orbit_elevation}, lens);
+  throw UsageError("views are \"hemisphere:N\", \"orbit:N\" or a file, not \"" + set + "\"");
+}
+
+/// Of a path as many as are asked for, evenly in time; of recorded cameras the first ones.
+std::vector<Camera> cameras_in(const std::string& text, int count, const Lens& lens) {
+  const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
+  std::vector<Camera> cameras;
+  Input as_path = Input::memory("the camera file", bytes);
+  try {
+    const CameraPath path(read_path(as_path));
+    const double end = path.is_loop() ? count : std::max(count - 1, 1);
+    for (int i = 0; i < count; ++i)
+      cameras.push_back(path.at(path.begin() + path.duration() * i / end, lens.width, lens.height));
+  } catch (const InputError&) {
+    Input as_cameras = Input::memory("the camera file", bytes);
+    cameras = read_cameras(as_cameras).cameras;
+    if (cameras.size() > std::size_t(count)) cameras.resize(std::size_t(count));
+    for (Camera& camera : cameras) camera = resized(camera, lens.width, lens.height);
+  }
+  if (cameras.empty()) throw UsageError("the camera file has no cameras");
+  return cameras;
+}
+
+/// {"scene", "width", "height", "set"} or {.., "file", "count"}
+Json set_cameras(const Json& arguments) {
+  BenchScene& scene = scene_at(arguments.at("scene"));
+  const Lens lens{.width = arguments.at("width"), .height = arguments.at("height")};
+  const auto file = arguments.find("file");
+  scene.cameras = file != arguments.end()
+                      ? cameras_in(file->get<std::string>(), arguments.at("count"), lens)
+                      : named_set(arguments.at("set").get<std::string>(), scene.subject, lens);
+  return scene.cameras.size();
+}
+
+// -- runs ---------------------------------------------------------------------------------------
+
+Participant participant_of(const Json& entrant) {
+  Participant result{.name = entrant.at("name").get<std::string>(), .renderers = {}, .scenes = {}};
+  if (const auto grid = entrant.find("grid"); grid != entrant.end()) {
+    for (const Json& index : *grid) {
+      BenchScene& scene = scene_at(index);
+      result.renderers.push_back(&scene.tureen);
+      result.scenes.push_back(&scene);
+    }
+    return result;
+  }
+  BenchScene& scene = scene_at(entrant.at("scene"));
+  const bool published = entrant.at("published").get<bool>();
+  if (published && !scene.published) throw UsageError("the published pipeline was not added");
+  result.renderers.push_back(published ? &*scene.published : &scene.tureen);
+  result.scenes.push_back(&scene);
+  return result;
+}
+
+/// The protocol knows one list of cameras. Theirs have numbers for names: each scene has its own.
+Entrant entrant_of(const Participant& participant) {
+  return {.name = participant.name,
+          .draw =
+              [&participant](const Camera& camera) {
+                const std::size_t index = std::stoul(camera.name);
+                for (std::size_t i = 0; i < participant.renderers.size(); ++i)
+                  participant.renderers[i]->draw(participant.scenes[i]->cameras[index]);
+              },
+          .finish =
+              [&participant] {
+                for (const Renderer* renderer : participant.renderers) renderer->finish();
+              }};
+}
+
+/// {"entrants", "rounds", "least_sample_ms"}
+Json begin(const Json& arguments) {
+  bench().run.reset();
+  bench().participants.clear();
+  std::size_t views = 0;
+  for (const Json& entrant : arguments.at("entrants")) {
+    bench().participants.push_back(participant_of(entrant));
+    for (const BenchScene* scene : bench().participants.back().scenes) {
+      if (scene->cameras.empty()) throw UsageError("a scene has no cameras yet");
+      if (views > 0 && scene->cameras.size() != views)
+        throw UsageError("all that take part must have as many cameras");
+      views = scene->cameras.size();
+    }
+  }
+  if (bench().participants.empty() || views == 0) throw UsageError("nobody takes part");
+  std::vector<Camera> numbers(views);
+  for (std::size_t i = 0; i < views; ++i) numbers[i].name = std::to_string(i);
+  std::vector<Entrant> entrants;
+  for (const Participant& participant : bench().participants)
+    entrants.push_back(entrant_of(participant));
+  BenchmarkOptions options{.rounds = std::max(arguments.at("rounds").get<int>(), 1)};
+  options.least_sample_ms = arguments.at("least_sample_ms");
+  bench().run.emplace(entrants, numbers, options);
+  return nullptr;
+}
+
+BenchmarkRun& run() {
+  if (!bench().run) throw UsageError("nothing is being measured");
+  return *bench().run;
+}
+
+/// So many milliseconds of samples, and one at least.
+Json step(const Json& budget) {
+  const double end = milliseconds() + budget.get<double>();
+  bool goes_on = run().step();
+  while (goes_on && milliseconds() < end) goes_on = run().step();
+  return {{"done", !goes_on}, {"fraction", run().fraction()}};
+}
+
+Json rounds_of(const FrameTimes& times) {
+  Json rounds = Json::array();
+  for (std::size_t i = 0; i < times.rounds(); ++i) {
+    const auto round = times.round(i);
+    rounds.push_back(std::vector<double>(round.begin(), round.end()));
+  }
+  return rounds;
+}
+
+Json to_json(const FrameStatistics& ms) {
+  return {{"mean", ms.mean},
+          {"median", ms.median},
+          {"p95", ms.p95},
+          {"p99", ms.p99},
+          {"min_of_medians", ms.min_of_medians},
+          {"spread", ms.spread},
+          {"low_1_percent_fps", ms.low_1_percent_fps}};
+}
+
+/// Of the pictures of a frame, one below the other where it has several.
+std::string hash_of(const Participant& participant) {
+  Image8 all;
+  for (const Renderer* renderer : participant.renderers) {
+    const Image8 one = renderer->read_color();
+    all.pixels.insert(all.pixels.end(), one.pixels.begin(), one.pixels.end());
+  }
+  return pixels_hash(all);
+}
+
+Json result(const Json&) {
+  const BenchmarkResult measured = std::move(run()).result();
+  bench().run.reset();
+  Json self_test = Json::array(), entrants = Json::array();
+  for (const FrameTimes& times : measured.self_test) self_test.push_back(rounds_of(times));
+  for (std::size_t i = 0; i < measured.entrants.size(); ++i) {
+    const EntrantResult& entrant = measured.entrants[i];
+    entrants.push_back({{"name", entrant.name},
+                        {"stable", entrant.stable},
+                        {"frame_ms", rounds_of(entrant.times)},
+                        {"pixels_hash", hash_of(bench().participants[i])},
+                        {"statistics", to_json(statistics_of(entrant.times))}});
+  }
+  return {{"frames_per_sample", measured.frames_per_sample},
+          {"aa_spread", measured.aa_spread},
+          {"self_test_ms", self_test},
+          {"entrants", entrants}};
+}
+
+/// {"cells": [{"scene", "published", "camera", "x", "y", "width", "height"}], "width", "height"}
+Json show(const Json& arguments) {
+  page_view().clear_canvas(arguments.at("width"), arguments.at("height"));
+  for (const Json& cell : arguments.at("cells")) {
+    BenchScene& scene = scene_at(cell.at("scene"));
+    const bool published = cell.at("published").get<bool>() && scene.published.has_value();
+    Renderer& renderer = published ? *scene.published : scene.tureen;
+    const auto& cameras = scene.cameras;
+    if (cameras.empty()) continue;
+    const Camera& camera = cameras[cell.at("camera").get<std::size_t>() % cameras.size()];
+    renderer.draw(resized(camera, cell.at("width"), cell.at("height")));
+    renderer.blit_to(0, {cell.at("x").get<int>(), cell.at("y").get<int>()});
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+Commands bench_commands() {
+  return {{"bench_clear", clear},
+          {"bench_add_scene", add_scene},
+          {"bench_add_published", add_published},
+          {"bench_cameras", set_cameras},
+          {"bench_run", begin},
+          {"bench_step", step},
+          {"bench_result", result},
+          {"bench_show", show}};
+}
+
+}  // namespace tureen::web
