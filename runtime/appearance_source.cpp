@@ -45,14 +45,12 @@ class Preparation {
  public:
   Preparation(const TriangleSoup& soup, const RenderPlan& plan, const TexelLayout& layout)
       : soup_(soup), plan_(plan), layout_(layout) {
-    result_.constants = {{"TEXEL_ROW_BITS", std::to_string(layout.row_bits)},
-                         {"TEXEL_LAYER_BITS", std::to_string(layout.layer_bits)},
-                         {"ALPHA_THRESHOLD", "0.5"},
-                         {"COLOR_MLP", plan.color_mlp ? "1" : "0"}};
+    result_.constants = {{"ALPHA_THRESHOLD", "0.5"}, {"COLOR_MLP", plan.color_mlp ? "1" : "0"}};
   }
 
   AppearanceSource run() {
     std::visit([this](const auto& appearance) { prepare(appearance); }, soup_.appearance);
+    result_.fit_layout(layout_);
     return std::move(result_);
   }
 
@@ -154,7 +152,9 @@ class Preparation {
     add("features0", std::move(sources.features0));
     result_.constants["LATENT_FEATURES"] = plan_.latent_features ? "1" : "0";
     if (plan_.latent_features) add("features1", std::move(sources.features1));
-    if (plan_.opaque_count < plan_.faces.size()) add("alpha_cells", std::move(sources.alpha_cells));
+    result_.constants["ALPHA_BY_CELL"] = plan_.lattice.alpha_by_cell ? "1" : "0";
+    if (plan_.opaque_count < plan_.faces.size())
+      add(plan_.lattice.alpha_by_cell ? "alpha_cells" : "alpha_texels", std::move(sources.alpha));
     if (plan_.lattice.uniform_level < 0) add("patches", std::move(sources.patches));
     result_.constants["LATTICE_HARMONICS"] = "0";
     if (texture.harmonics) add_bands(*texture.harmonics, std::move(sources.bands));
@@ -265,6 +265,14 @@ class Preparation {
 };
 
 }  // namespace
+
+void AppearanceSource::fit_layout(const TexelLayout& device) {
+  std::uint64_t most = 0;
+  for (const Sampler& sampler : samplers) most = std::max(most, sampler.source.count);
+  layout = device.fitted(most);
+  constants["TEXEL_ROW_BITS"] = std::to_string(layout.row_bits);
+  constants["TEXEL_LAYER_BITS"] = std::to_string(layout.layer_bits);
+}
 
 AppearanceSource prepare_appearance(const TriangleSoup& soup, const RenderPlan& plan,
                                     const TexelLayout& layout) {

@@ -24,6 +24,11 @@ struct AppearanceSource {
   std::map<std::string, std::string> constants;
   std::vector<Sampler> samplers;
   ColorMlpSource mlp;  // its uniforms
+  TexelLayout layout;  // of all stores
+
+  /// Takes the layers that fit the stores, of those that the device has; at last, when all stores
+  /// are there.
+  void fit_layout(const TexelLayout& device);
 };
 
 /// The sources read the soup and the elements of plan.faces, which must outlive them where they

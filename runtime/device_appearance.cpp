@@ -4,12 +4,12 @@
 
 namespace tureen {
 
-DeviceAppearance::DeviceAppearance(AppearanceSource source, const TexelLayout& layout)
+DeviceAppearance::DeviceAppearance(AppearanceSource source)
     : glsl(std::move(source.glsl)),
       constants(std::move(source.constants)),
       mlp(std::move(source.mlp)) {
   for (AppearanceSource::Sampler& sampler : source.samplers) {
-    samplers.push_back({std::move(sampler.name), TexelStore(layout, sampler.source)});
+    samplers.push_back({std::move(sampler.name), TexelStore(source.layout, sampler.source)});
     sampler.source.fill = nullptr;  // what it holds need not be kept beside what is on the device
   }
 }

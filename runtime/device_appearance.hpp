@@ -18,7 +18,7 @@ struct DeviceAppearance {
   ColorMlpSource mlp;
 
   /// The source's texels are read and not needed afterwards. Throws DeviceLimitError.
-  DeviceAppearance(AppearanceSource source, const TexelLayout& layout);
+  explicit DeviceAppearance(AppearanceSource source);
 
   std::size_t device_bytes() const;
   /// Binds the stores to units 0.. and sets samplers and network weights of `program`, in use.

@@ -85,7 +85,8 @@ class Forecaster {
     add("lattice texels", texels, four_channels);
     if (plan_.latent_features) add("lattice texels", texels, four_channels);
     if (plan_.opaque_count < plan_.faces.size())
-      add("lattice alpha", alpha_cells(texture), four_channels);
+      plan_.lattice.alpha_by_cell ? add("lattice alpha", alpha_cells(texture), four_channels)
+                                  : add("lattice alpha", texels, four_channels / 4);
     if (plan_.lattice.uniform_level < 0) add("lattice patches", slots(), 16);
     if (texture.harmonics) {
       const bool bytes =

@@ -68,6 +68,7 @@ AppearanceSource inspected_appearance(const TriangleSoup& soup, const RenderPlan
       {"corners", TexelSource::of(texel_formats::rgb32f, std::move(corners), "corners")});
   appearance.samplers.push_back(
       {"soup_faces", TexelSource::of(texel_formats::r32ui, plan.faces, "faces")});
+  appearance.fit_layout(layout);
   return appearance;
 }
 
@@ -133,8 +134,7 @@ Inspector::State::State(const gl::Capabilities& capabilities, const TriangleSoup
       shader(shader_of(soup)),
       features(feature_count(soup)),
       plan(make_inspection_plan(soup, device_limits(capabilities), options)),
-      appearance(inspected_appearance(soup, plan, TexelLayout::of(device_limits(capabilities))),
-                 TexelLayout::of(device_limits(capabilities))),
+      appearance(inspected_appearance(soup, plan, TexelLayout::of(device_limits(capabilities)))),
       geometry(prepare_geometry(soup, plan.faces)) {
   for (const InspectionName& name : inspection_names())
     refusals[std::size_t(name.what)] = why_not(name.what, soup);

@@ -175,6 +175,20 @@ TexelSource alpha_cell_source(const std::vector<Value>& values, const SharedPlac
   return {format, placement->cells(), "lattice alpha", fill};
 }
 
+template <class Value>
+TexelSource alpha_texel_source(const std::vector<Value>& values, const SharedPlacement& placement) {
+  const auto fill = [&values, placement](std::uint64_t first, std::span<std::byte> out) {
+    placement->for_each_texel(
+        first, out.size() / sizeof(Value), [&](std::uint64_t i, std::uint64_t source) {
+          std::memcpy(&out[i * sizeof(Value)],
+                      &values[source * LatticeTexture::channels + LatticeTexture::features],
+                      sizeof(Value));
+        });
+  };
+  return {sizeof(Value) == 1 ? texel_formats::r8 : texel_formats::r32f, placement->texel_count(),
+          "lattice alpha", fill};
+}
+
 // With other bits than the soup has.
 
 TexelSource encoded_features(const LatticeTexture& texture, const SharedPlacement& placement,
@@ -189,6 +203,19 @@ TexelSource encoded_features(const LatticeTexture& texture, const SharedPlacemen
     });
   };
   return {rgba_format(bits), placement->texel_count(), "lattice texels", fill};
+}
+
+/// Of bytes that the soup has as floats.
+TexelSource encoded_alpha_texels(const LatticeTexture& texture, const SharedPlacement& placement) {
+  const auto fill = [&texture, placement](std::uint64_t first, std::span<std::byte> out) {
+    placement->for_each_texel(first, out.size(), [&](std::uint64_t i, std::uint64_t texel) {
+      std::array<std::byte, 4> encoded;
+      encode_texel({texture.value(texel, LatticeTexture::features), 0, 0, 0}, 8, Alphas::all,
+                   encoded.data());
+      out[i] = encoded[0];
+    });
+  };
+  return {texel_formats::r8, placement->texel_count(), "lattice alpha", fill};
 }
 
 TexelSource encoded_alpha_cells(const LatticeTexture& texture, const SharedPlacement& placement,
@@ -274,13 +301,18 @@ LatticeSources prepare_lattice(const LatticeTexture& texture, const RenderPlan& 
           sources.features0 = feature_source(values, placement, format, 0);
           if (plan.latent_features)
             sources.features1 = feature_source(values, placement, format, 4);
-          if (cut_outs) sources.alpha_cells = alpha_cell_source(values, placement, format);
+          if (cut_outs)
+            sources.alpha = plan.lattice.alpha_by_cell
+                                ? alpha_cell_source(values, placement, format)
+                                : alpha_texel_source(values, placement);
         },
         texture.texels);
   } else {
     sources.features0 = encoded_features(texture, placement, bits, 0);
     if (plan.latent_features) sources.features1 = encoded_features(texture, placement, bits, 4);
-    if (cut_outs) sources.alpha_cells = encoded_alpha_cells(texture, placement, bits);
+    if (cut_outs)
+      sources.alpha = plan.lattice.alpha_by_cell ? encoded_alpha_cells(texture, placement, bits)
+                                                 : encoded_alpha_texels(texture, placement);
   }
   if (texture.harmonics) sources.bands = band_source(*texture.harmonics, placement, bits);
   if (plan.lattice.uniform_level < 0) {

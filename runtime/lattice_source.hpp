@@ -10,9 +10,10 @@ namespace tureen {
 struct LatticeSources {
   TexelSource features0;  // f0..f3
   TexelSource features1;  // f4..f6, 0
-  /// Alpha at the four corners of each cell, so that an alpha test costs one read instead of three;
-  /// docs/decisions/alpha-cells.md has the measurement.
-  TexelSource alpha_cells;
+  /// Alpha at the four corners of each cell, so that an alpha test costs one read instead of three
+  /// (docs/decisions/alpha-cells.md has the measurement); or, where the plan says so, of each
+  /// texel.
+  TexelSource alpha;
   /// LatticeHarmonics' values of each texel, four to a texel of this store: 3 times
   /// band_groups(degree) of them, each group of three holding four RGB coefficients, the last ones
   /// of degree 1 unused.
@@ -22,7 +23,7 @@ struct LatticeSources {
 
 constexpr int band_groups(int degree) { return degree; }
 
-/// Only what the plan reads: features1 where the network sees it, alpha_cells with cut-outs,
+/// Only what the plan reads: features1 where the network sees it, alpha with cut-outs,
 /// patches without a uniform level, bands with harmonics; the others have no `fill`. All of them
 /// read `texture`, which must outlive them. Throws DeviceLimitError.
 LatticeSources prepare_lattice(const LatticeTexture& texture, const RenderPlan& plan,

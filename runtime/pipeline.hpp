@@ -65,7 +65,6 @@ class Pipeline {
 
 /// The plan must outlive the pipeline; the sources are read and not needed afterwards.
 std::unique_ptr<Pipeline> make_tureen_pipeline(const gl::Capabilities& capabilities,
-                                               const DeviceLimits& limits,
                                                AppearanceSource appearance,
                                                const GeometrySource& geometry,
                                                const RenderPlan& plan);

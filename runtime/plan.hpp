@@ -60,6 +60,9 @@ struct PlanPreferences {
   bool reversed_depth = true;            // where the device can
   std::optional<ShadingSite> site = {};  // the plan's own choice when absent
   ShadingStage shading_stage = ShadingStage::measured;
+  /// Alpha by cell may take so many bytes of the device; if more, it is stored by the texel: the
+  /// same pictures, in more time. Texels of other than 8 or 32 bits have it by cell always.
+  std::uint64_t most_alpha_cell_bytes = ~std::uint64_t(0);
   /// Knobs that trade error for time; none: faithful. Without a defect() for the soup.
   std::optional<RenderPreset> preset = {};
 };
@@ -72,6 +75,9 @@ struct LatticePlan {
   /// Level of each slot on the device, below the soup's where a face is affine. Empty when the
   /// texels are uploaded as the soup has them.
   std::vector<std::uint8_t> levels;
+  /// Alpha is stored by the cell, read once a fragment, or by the texel, read three times, in less
+  /// than a third of the memory.
+  bool alpha_by_cell = true;
   /// Bits of a channel: 32 and 8 as texels are stored, 16 and 4 where the preset asks for them.
   int texel_bits = 32;
 };

@@ -59,7 +59,29 @@ void leave_out_affine_texels(PlanDraft& draft, const LatticeTexture& texture,
 
 }  // namespace
 
-void plan_appearance(PlanDraft& draft, const LatticeTexture& texture) {
+namespace {
+
+/// At last, when levels are known. Faces that share cells are counted each.
+void choose_alpha_storage(PlanDraft& draft, const LatticeTexture& texture) {
+  RenderPlan& plan = draft.plan;
+  const int bits = plan.lattice.texel_bits;
+  if (plan.opaque_count == plan.faces.size() || plan.flat_colors || (bits != 8 && bits != 32))
+    return;
+  std::uint64_t cells = 0;
+  for (std::size_t i = 0; i < plan.faces.size(); ++i)
+    cells +=
+        lattice::cell_count(plan.lattice.levels.empty() ? int(texture.patches[plan.faces[i]].level)
+                                                        : int(plan.lattice.levels[i]));
+  const std::uint64_t bytes = cells * std::uint64_t(bits) / 2;
+  if (bytes <= draft.preferences.most_alpha_cell_bytes) return;
+  plan.lattice.alpha_by_cell = false;
+  draft.say(
+      formatted("alpha is stored by the texel, not by the cell: that would take %.1f MB, and "
+                "memory is short",
+                double(bytes) / 1e6));
+}
+
+void plan_lattice(PlanDraft& draft, const LatticeTexture& texture) {
   RenderPlan& plan = draft.plan;
   plan.color_mlp = texture.mlp.has_value();
   plan.lattice.texel_bits = stored_texel_bits(
@@ -94,6 +116,13 @@ void plan_appearance(PlanDraft& draft, const LatticeTexture& texture) {
     draft.leave_out(LeaveOut::texel_table,
                     formatted("the table of texels, every face has level %d (exact)",
                               plan.lattice.uniform_level));
+}
+
+}  // namespace
+
+void plan_appearance(PlanDraft& draft, const LatticeTexture& texture) {
+  plan_lattice(draft, texture);
+  choose_alpha_storage(draft, texture);
 }
 
 }  // namespace tureen

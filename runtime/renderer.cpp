@@ -90,7 +90,6 @@ Renderer::Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dv
 Renderer::Renderer(const gl::Context& context, PreparedSoup prepared, const RenderOptions& options)
     : state_(std::make_unique<State>()) {
   const gl::Capabilities& capabilities = context.capabilities();
-  const DeviceLimits limits = options.limits.value_or(device_limits(capabilities));
   state_->plan = std::move(prepared.plan);
   state_->bounds = prepared.bounds;
   state_->origin = prepared.origin;
@@ -98,10 +97,9 @@ Renderer::Renderer(const gl::Context& context, PreparedSoup prepared, const Rend
   state_->max_side = capabilities.max_picture_side;
   state_->api = capabilities.api;
   gl::use_plain_pixel_transfer();
-  state_->pipeline =
-      resampled(make_tureen_pipeline(capabilities, limits, std::move(prepared.appearance),
-                                     prepared.geometry, state_->plan),
-                state_->plan, capabilities);
+  state_->pipeline = resampled(make_tureen_pipeline(capabilities, std::move(prepared.appearance),
+                                                    prepared.geometry, state_->plan),
+                               state_->plan, capabilities);
 }
 
 Renderer::~Renderer() = default;

@@ -15,6 +15,16 @@ TexelLayout TexelLayout::of(const DeviceLimits& limits) {
   return layout;
 }
 
+TexelLayout TexelLayout::fitted(std::uint64_t most_texels) const {
+  constexpr int fewest_row_bits = 4, most_layers = 64;
+  const std::uint64_t rows = most_texels >> row_bits;
+  TexelLayout layout = *this;
+  while (layout.layer_bits > fewest_row_bits &&
+         (rows >> (layout.layer_bits - 1)) < std::uint64_t(std::min(most_layers, max_layers)))
+    --layout.layer_bits;
+  return layout;
+}
+
 TexelStore::TexelStore(const TexelLayout& layout, const TexelSource& source) {
   const TexelFormat& format = source.format;
   const std::uint64_t count = source.count;

@@ -16,15 +16,17 @@
 
 namespace tureen {
 
-/// How the index is cut into column, row and layer. The same for every store of a device. A layer
-/// of 2^21 texels wastes at most 8 MiB of RGBA8 at the end and lets 256 layers, the least that any
-/// device has, hold 2^29 texels.
+/// How the index is cut into column, row and layer. The same for every store of a scene. Layers of
+/// 2^21 texels let 256 of them, the least that any device has, hold 2^29 texels.
 struct TexelLayout {
   int row_bits = 12;   // 4096 columns, 2048 on devices that have no more
   int layer_bits = 9;  // rows of a layer
   int max_layers = 256;
 
   static TexelLayout of(const DeviceLimits& limits);
+  /// With layers so small that a store of so many texels has 32 to 64 of them: what the last one
+  /// wastes is then at most a thirty-second. Layers have at least 16 rows.
+  TexelLayout fitted(std::uint64_t most_texels) const;
   std::uint64_t texels_per_layer() const { return std::uint64_t(1) << (row_bits + layer_bits); }
   /// The most texels that one store can hold: shaders count them in 32 bits.
   std::uint64_t capacity() const {

@@ -22,12 +22,11 @@ namespace {
 
 class TureenPipeline final : public Pipeline {
  public:
-  TureenPipeline(const gl::Capabilities& capabilities, const DeviceLimits& limits,
-                 AppearanceSource appearance, const GeometrySource& geometry,
-                 const RenderPlan& plan)
+  TureenPipeline(const gl::Capabilities& capabilities, AppearanceSource appearance,
+                 const GeometrySource& geometry, const RenderPlan& plan)
       : plan_(plan),
         device_(capabilities),
-        appearance_(std::move(appearance), TexelLayout::of(limits)),
+        appearance_(std::move(appearance)),
         geometry_(geometry) {
     if (plan.drops_faces_between_pixels) {
       covered_.emplace(geometry);
@@ -262,12 +261,10 @@ class TureenPipeline final : public Pipeline {
 }  // namespace
 
 std::unique_ptr<Pipeline> make_tureen_pipeline(const gl::Capabilities& capabilities,
-                                               const DeviceLimits& limits,
                                                AppearanceSource appearance,
                                                const GeometrySource& geometry,
                                                const RenderPlan& plan) {
-  return std::make_unique<TureenPipeline>(capabilities, limits, std::move(appearance), geometry,
-                                          plan);
+  return std::make_unique<TureenPipeline>(capabilities, std::move(appearance), geometry, plan);
 }
 
 }  // namespace tureen

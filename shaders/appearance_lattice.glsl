@@ -9,7 +9,11 @@ uniform sampler2DArray features1;  // f4..f6
 #endif
 // Alpha at the four corners of each lattice cell: (x+1, y), (x, y+1), (x, y), (x+1, y+1). The cells
 // of a face follow each other as the texels of a lattice one row smaller do. A cut-out costs one read.
+#if ALPHA_BY_CELL
 uniform sampler2DArray alpha_cells;
+#else
+uniform sampler2DArray alpha_texels;  // or of each texel, where memory is short: three reads
+#endif
 #if LATTICE_LEVEL < 0
 uniform usampler2DArray patches;  // first texel, level, first cell
 #endif
@@ -40,13 +44,22 @@ FacePatch patch_of(uint face) {
 
 float fragment_alpha(uint face, vec2 b) {
   FacePatch at = patch_of(face);
+#if ALPHA_BY_CELL
   LatticeCell cell = lattice_cell(at.level, b);
   uint index = at.first_cell + lattice_texel_index(cell.x, cell.y);
   vec4 alpha = texelFetch(alpha_cells, texel_position(index), 0);
   bool upper;
   vec3 weights = lattice_weights(cell.p, upper);
-  // In the form that returns a constant exactly: an alpha of 1/2 throughout has no holes.
   float third = upper ? alpha.w : alpha.z;
+#else
+  LatticeFootprint footprint = lattice_footprint(at.level, b);
+  uvec3 texels = at.first_texel + footprint.texels;
+  vec3 weights = footprint.weights;
+  vec2 alpha = vec2(texelFetch(alpha_texels, texel_position(texels.x), 0).r,
+                    texelFetch(alpha_texels, texel_position(texels.y), 0).r);
+  float third = texelFetch(alpha_texels, texel_position(texels.z), 0).r;
+#endif
+  // In the form that returns a constant exactly: an alpha of 1/2 throughout has no holes.
   return third + weights.x * (alpha.x - third) + weights.y * (alpha.y - third);
 }
 

@@ -16,6 +16,7 @@
 namespace tureen::test {
 namespace {
 
+using testing::Contains;
 using testing::HasSubstr;
 
 Image8 draw(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
@@ -227,6 +228,28 @@ TEST(Renderer, TellsThePointThatAPixelShows) {
       const glm::dvec4 seen = camera.view_from_world * glm::dvec4(*point, 1.0);
       EXPECT_NEAR(camera.cx - camera.fx * seen.x / seen.z, place.x, 1e-6);
       EXPECT_NEAR(camera.cy + camera.fy * seen.y / seen.z, place.y, 1e-6);
+    }
+}
+
+TEST(Renderer, AlphaByTheTexelIsAlphaByTheCell) {
+  Random random(77);
+  const Camera camera = random_camera(random, 160, 120);
+  for (const bool floats : {false, true})
+    for (const int level : {-1, 4}) {
+      const TriangleSoup soup = random_soup(
+          77, {.kind = Kind::lattice_mlp, .faces = 300, .level = level, .float_texels = floats});
+      const gl::Context context = gl::Context::create(osmesa);
+      RenderOptions lean;
+      lean.plan.most_alpha_cell_bytes = 1000;
+      Renderer by_cell(context, soup, {}), by_texel(context, soup, {}, lean);
+      EXPECT_TRUE(by_cell.plan().lattice.alpha_by_cell);
+      ASSERT_FALSE(by_texel.plan().lattice.alpha_by_cell);
+      EXPECT_THAT(by_texel.plan().sentences, Contains(HasSubstr("by the texel")));
+      EXPECT_LT(by_texel.device_bytes(), by_cell.device_bytes());
+      by_cell.draw(camera);
+      by_texel.draw(camera);
+      EXPECT_EQ(by_texel.read_faces(), by_cell.read_faces())
+          << "the same arithmetic on the same bytes";
     }
 }
 

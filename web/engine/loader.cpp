@@ -14,6 +14,10 @@ namespace tureen::web {
 
 namespace {
 
+/// A page shares its device's memory with all others: from here on half the memory counts more than
+/// an alpha test that takes a third less time (docs/decisions/alpha-cells.md).
+constexpr std::uint64_t most_alpha_cell_bytes = 16 << 20;
+
 struct Loader {
   std::optional<Scene> scene;
   std::optional<PreparedSoup> prepared;  // reads the scene's soup
@@ -104,6 +108,7 @@ Json preview(const Json& arguments) {
 Json prepare(const Json& arguments) {
   RenderOptions options;
   options.progress = report_progress;
+  options.plan.most_alpha_cell_bytes = most_alpha_cell_bytes;
   const Scene& scene = loader().scene.value();
   if (arguments.at("preset").get<bool>()) options.plan.preset = scene.preset;
   if (const auto level = arguments.find("level"); level != arguments.end()) {
