@@ -2,12 +2,14 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <functional>
 #include <memory>
 
 #include "cli/bench_contestants.hpp"
+#include "cli/bench_import.hpp"
 #include "cli/bench_measure.hpp"
 #include "cli/bench_reports.hpp"
 #include "cli/bench_table.hpp"
@@ -33,6 +35,7 @@ struct Options {
   bool processor_time = false;
   BenchReportOptions reports;
   bool json = false;
+  std::vector<std::string> imports;    // of bench.html; none: measure the scene
   std::vector<std::string> arguments;  // all of them, as typed
 };
 
@@ -117,7 +120,24 @@ BenchResult run(const Options& options) {
   return result;
 }
 
+/// Either there is a scene to measure, or there are imports and what can be made of them.
+void check_arguments(const CLI::App& command, const Options& options) {
+  if (options.imports.empty()) {
+    if (options.scene.path.empty()) throw UsageError("SCENE is required, or --import");
+    return;
+  }
+  const std::vector<std::string> allowed{"--import",  "--output",      "--csv",  "--plots",
+                                         "--against", "--fail-slower", "--json", "--help"};
+  for (const CLI::Option* option : command.get_options())
+    if (option->count() > 0 &&
+        std::find(allowed.begin(), allowed.end(), option->get_name()) == allowed.end())
+      throw UsageError(option->get_name() + " means nothing with --import: nothing is measured");
+}
+
 ExitCode bench(const Options& options) {
+  if (!options.imports.empty())
+    return import_benches(
+        {.files = options.imports, .reports = options.reports, .json = options.json});
   // Everything that can be wrong with the arguments is said before the scene is read.
   check(options.views);
   check(options.contestants);
@@ -155,11 +175,13 @@ Examples:
   tureen bench soup.glb --only tureen,triangles --seconds 60
   tureen bench soup.glb --only tureen-fragment,tureen-compute
                                                           shading by compute shaders
+  tureen bench --import phone.json --import laptop.json -o devices
+                                                          downloads of bench.html, side by side
 
 Exit codes: 0 done, 1 slower than --fail-slower allows, 2 wrong usage, 3 the scene or the
 cameras cannot be read, 4 no OpenGL context, 5 it does not fit on the device or cannot be
 written.)");
-  add_scene_argument(*command, options->scene);
+  add_scene_argument(*command, options->scene)->required(false);
   add_bench_view_options(*command, options->views);
   add_contestant_options(*command, options->contestants);
   command
@@ -178,7 +200,17 @@ written.)");
                     "busy machine; software OpenGL only");
   add_bench_report_options(*command, options->reports);
   command->add_flag("--json", options->json, "the result as JSON on standard output");
-  command->callback([options, &action] { action = [options] { return bench(*options); }; });
+  command
+      ->add_option("--import", options->imports,
+                   "tell what bench.html measured in a browser, a download of it each, instead of "
+                   "measuring; several are put side by side")
+      ->option_text("FILE.json")
+      ->type_size(1)
+      ->allow_extra_args(false);
+  command->callback([command, options, &action] {
+    check_arguments(*command, *options);
+    action = [options] { return bench(*options); };
+  });
 }
 
 }  // namespace tureen::cli

@@ -76,7 +76,7 @@ const std::vector<Column>& columns() {
 
 }  // namespace
 
-std::string bench_csv(const BenchResult& result) {
+std::string bench_csv(std::span<const BenchResult> results) {
   std::string text;
   const auto line = [&](const auto& cell) {
     bool first = true;
@@ -87,8 +87,9 @@ std::string bench_csv(const BenchResult& result) {
     text += '\n';
   };
   line([](const Column& column) { return std::string(column.name); });
-  for (const BenchMeasurement& measurement : result.measurements)
-    line([&](const Column& column) { return column.value(result, measurement); });
+  for (const BenchResult& result : results)
+    for (const BenchMeasurement& measurement : result.measurements)
+      line([&](const Column& column) { return column.value(result, measurement); });
   return text;
 }
 

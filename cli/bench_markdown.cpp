@@ -8,8 +8,11 @@ namespace tureen::cli {
 
 namespace {
 
-/// As the text of a cell: what would end it is escaped.
-std::string cell(const std::string& text) {
+std::string ms(double value) { return fmt::format("{:.{}f}", value, value < 10 ? 3 : 1); }
+
+}  // namespace
+
+std::string markdown_cell(const std::string& text) {
   std::string result;
   for (const char c : text) {
     if (c == '|' || c == '\\' || c == '<' || c == '*' || c == '`' || c == '_') result += '\\';
@@ -18,27 +21,25 @@ std::string cell(const std::string& text) {
   return result;
 }
 
-std::string ms(double value) { return fmt::format("{:.{}f}", value, value < 10 ? 3 : 1); }
-
-}  // namespace
-
 std::string bench_markdown(const BenchResult& result) {
   std::string text = fmt::format(
       "{}, {} triangles; {}{}, {}, {} cores; commit {}, {}. Times: "
       "{}.\n\n",
-      cell(result.scene.name), counted(result.scene.triangles), cell(result.device.renderer),
-      result.device.software ? " (software)" : "", cell(result.machine.cpu), result.machine.cores,
-      cell(result.program.commit), result.date, cell(result.protocol.clock));
+      markdown_cell(result.scene.name), counted(result.scene.triangles),
+      markdown_cell(result.device.renderer), result.device.software ? " (software)" : "",
+      markdown_cell(result.machine.cpu), result.machine.cores, markdown_cell(result.program.commit),
+      result.date, markdown_cell(result.protocol.clock));
   text += fmt::format(
       "| cameras | size | configuration | median ms | best ms | p95 ms | p99 ms | FPS | 1 % low | "
       "A/A spread | times as fast as {} |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
-      cell(reference_configuration(result)));
+      markdown_cell(reference_configuration(result)));
   for (const BenchMeasurement& m : result.measurements) {
     const double ratio = times_as_fast(result, m);
     text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {:.1f} | {:.1f} | {:.1f} % | {} |\n",
-                        cell(m.camera_set), cell(m.size), cell(m.configuration),
-                        ms(m.frame_ms.median), ms(m.frame_ms.min_of_medians), ms(m.frame_ms.p95),
-                        ms(m.frame_ms.p99), m.fps, m.frame_ms.low_1_percent_fps, 100 * m.aa_spread,
+                        markdown_cell(m.camera_set), markdown_cell(m.size),
+                        markdown_cell(m.configuration), ms(m.frame_ms.median),
+                        ms(m.frame_ms.min_of_medians), ms(m.frame_ms.p95), ms(m.frame_ms.p99),
+                        m.fps, m.frame_ms.low_1_percent_fps, 100 * m.aa_spread,
                         ratio > 0 ? fmt::format("{:.2f}", ratio) : "");
   }
   return text;

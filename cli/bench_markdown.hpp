@@ -11,4 +11,7 @@ namespace tureen::cli {
 /// reference_configuration().
 std::string bench_markdown(const BenchResult& result);
 
+/// As the text of a cell: what would end it is escaped.
+std::string markdown_cell(const std::string& text);
+
 }  // namespace tureen::cli

@@ -1,6 +1,6 @@
 #include "cli/bench_result.hpp"
 
-#include "formats/json_view.hpp"
+#include "cli/json_reading.hpp"
 
 namespace tureen::cli {
 
@@ -44,28 +44,6 @@ Json to_json(const BenchMeasurement& measurement) {
           {"views_ms", measurement.views_ms},
           {"pixels_hash", measurement.pixels_hash},
           {"picture", measurement.picture ? Json(*measurement.picture) : Json(nullptr)}};
-}
-
-// Reading. Counts are bounded by what an int holds; all else by the JSON itself.
-
-int integer(const JsonView& view) {
-  return int(view.natural(std::uint64_t(std::numeric_limits<int>::max())));
-}
-
-bool boolean(const JsonView& view) {
-  if (!view.value().is_boolean()) view.fail("expected true or false");
-  return view.value().get<bool>();
-}
-
-template <class Read>
-auto list(const JsonView& view, Read read) {
-  std::vector<decltype(read(view))> result;
-  for (std::size_t i = 0; i < view.size(); ++i) result.push_back(read(view.at(i)));
-  return result;
-}
-
-std::vector<std::string> texts(const JsonView& view) {
-  return list(view, [](const JsonView& each) { return each.text(); });
 }
 
 template <class Read>

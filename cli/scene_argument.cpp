@@ -10,10 +10,11 @@
 
 namespace tureen::cli {
 
-void add_scene_argument(CLI::App& command, SceneArgument& argument, const char* name) {
-  command.add_option(name, argument.path, "the scene: a file or a folder, told by its content")
-      ->required()
-      ->type_name("");
+CLI::Option* add_scene_argument(CLI::App& command, SceneArgument& argument, const char* name) {
+  CLI::Option* scene =
+      command.add_option(name, argument.path, "the scene: a file or a folder, told by its content")
+          ->required()
+          ->type_name("");
   add_choice<VertexColorSpace>(command, "--vertex-colors", argument.vertex_colors,
                                {{"auto", VertexColorSpace::automatic},
                                 {"srgb", VertexColorSpace::srgb},
@@ -26,6 +27,7 @@ void add_scene_argument(CLI::App& command, SceneArgument& argument, const char* 
                   "the direction that is up, in world coordinates, instead of the scene's own: "
                   "x,y,z")
       ->option_text("X,Y,Z");
+  return scene;
 }
 
 Scene read(const SceneArgument& argument) {

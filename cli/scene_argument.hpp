@@ -15,8 +15,10 @@ struct SceneArgument {
   std::string up;  // empty: the scene's own
 };
 
-/// Adds SCENE (under the name given), --vertex-colors and --up.
-void add_scene_argument(CLI::App& command, SceneArgument& argument, const char* name = "SCENE");
+/// Adds SCENE (under the name given), --vertex-colors and --up. Returns the first of them, which is
+/// required.
+CLI::Option* add_scene_argument(CLI::App& command, SceneArgument& argument,
+                                const char* name = "SCENE");
 
 /// Throws InputError, with a suggestion where the path does not exist.
 Scene read(const SceneArgument& argument);

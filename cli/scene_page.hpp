@@ -4,6 +4,7 @@
 // What it does not do: it knows nothing of the template but the one element that takes the scene.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 

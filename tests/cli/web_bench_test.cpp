@@ -1,0 +1,257 @@
+// Downloads of bench.html: what is made of them, the tables of devices, and what is refused.
+#include "cli/web_bench.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+
+#include "cli/bench_devices.hpp"
+#include "cli/bench_table.hpp"
+#include "soup/error.hpp"
+#include "support/markup.hpp"
+#include "support/schema.hpp"
+
+namespace tureen::cli {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using Pointer = nlohmann::json::json_pointer;
+
+constexpr const char* schema = "web_bench.schema.json";
+
+nlohmann::json fixture() {
+  std::ifstream stream(std::string(TUREEN_SOURCE_DIR) + "/tests/cli/web_bench.json");
+  return nlohmann::json::parse(stream);
+}
+
+std::vector<BenchResult> read(const std::string& text) {
+  Input input = Input::memory("phone.json", std::as_bytes(std::span(text)));
+  return read_web_bench(input);
+}
+std::vector<BenchResult> read(const nlohmann::json& document) { return read(document.dump()); }
+
+std::string refusal(const std::string& text) {
+  try {
+    read(text);
+    return "read";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+TEST(WebBench, TheFixtureFollowsTheSchema) {
+  EXPECT_EQ(test::schema_violations(fixture(), schema), "");
+}
+
+TEST(WebBench, SaysWhatThePageMeasured) {
+  const std::vector<BenchResult> results = read(fixture());
+  ASSERT_EQ(results.size(), 1u);
+  const BenchResult& result = results.front();
+  EXPECT_EQ(result.date, "2026-11-22T03:04:05Z");
+  EXPECT_EQ(result.program.commit, "abc1234");
+  EXPECT_THAT(result.program.arguments, ElementsAre("bench", "--import", "phone.json"));
+  EXPECT_EQ(result.scene.name, "ficus");
+  EXPECT_EQ(result.scene.path, "scenes/ficus.glb");
+  EXPECT_EQ(result.scene.triangles, 33417u);
+  EXPECT_THAT(result.machine.cpu, HasSubstr("Android 15"));
+  EXPECT_EQ(result.machine.cores, 8);
+  EXPECT_EQ(result.device.renderer, "Adreno (TM) 740");
+  EXPECT_EQ(result.device.context, "WebGL2, 2.75 pixels a CSS pixel on a screen of 393 x 851");
+  EXPECT_FALSE(result.device.software);
+  EXPECT_THAT(result.protocol.clock, HasSubstr("performance.now()"));
+  EXPECT_EQ(result.load.read_ms, 81.5);
+  EXPECT_EQ(result.load.plan_ms, 12.25);
+  EXPECT_EQ(result.load.peak_mib, 64);
+  EXPECT_EQ(result.load.device_mib, 45);
+  EXPECT_EQ(result.configurations.at(1).device_mib, 66.5);
+  EXPECT_THAT(result.notes,
+              ElementsAre(HasSubstr("bench.html?scenes=ficus.glb"), "the file says that up is z"));
+}
+
+TEST(WebBench, JudgesTimesByTheStatisticsOfEveryBenchmark) {
+  const BenchResult result = read(fixture()).front();
+  ASSERT_EQ(result.measurements.size(), 3u);
+  const BenchMeasurement& ours = result.measurements[0];
+  EXPECT_EQ(ours.configuration, "tureen");
+  EXPECT_EQ(ours.size, "1280x720");
+  EXPECT_EQ(ours.views, 3);
+  EXPECT_EQ(ours.rounds, 3);
+  EXPECT_EQ(ours.frames_per_sample, 4);
+  EXPECT_EQ(ours.frames, 36);
+  const FrameTimes times{.views = 3, .ms = {2, 3, 4, 2.5, 3.5, 4.5, 2.2, 3.2, 4.2}};
+  const FrameStatistics wanted = statistics_of(times);
+  EXPECT_EQ(ours.frame_ms.mean, wanted.mean);
+  EXPECT_EQ(ours.frame_ms.p95, wanted.p95);
+  EXPECT_EQ(ours.frame_ms.spread, wanted.spread);
+  EXPECT_EQ(ours.frame_ms.min_of_medians, 3);
+  EXPECT_EQ(ours.fps, 1000 / wanted.mean);
+  EXPECT_THAT(ours.views_ms, ElementsAre(2.2, 3.2, 4.2));
+  EXPECT_EQ(ours.aa_spread, 0.0625);
+  EXPECT_TRUE(ours.stable);
+  EXPECT_EQ(ours.pixels_hash, "0123456789abcdef");
+  EXPECT_EQ(result.measurements[1].configuration, "published");
+  EXPECT_FALSE(result.measurements[1].stable);
+  EXPECT_EQ(result.measurements[2].size, "640x360");
+  EXPECT_EQ(result.measurements[2].aa_spread, 0);
+  EXPECT_EQ(result.protocol.rounds, 3);
+  EXPECT_EQ(result.protocol.aa_spread, 0.0625);
+  EXPECT_THAT(bench_table(result), Contains(HasSubstr("3.00      3.23")));
+}
+
+TEST(WebBench, BecomesAResultLikeAnyOther) {
+  nlohmann::json two = fixture();
+  two["scenes"].push_back(two["scenes"][0]);
+  two["scenes"][1]["name"] = "fox";
+  const std::vector<BenchResult> results = read(two);
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_EQ(results[1].scene.name, "fox");
+  for (const BenchResult& result : results) {
+    const Json json = to_json(result);
+    EXPECT_EQ(test::schema_violations(json, "bench.schema.json"), "");
+    EXPECT_EQ(to_json(bench_result_from_json(json.dump(), "bench.json")), json);
+  }
+}
+
+// ---- Hostile files ------------------------------------------------------------------------------
+
+/// Everything that stands in the document, values and the objects and lists around them.
+std::vector<Pointer> all_places(const nlohmann::json& document) {
+  std::set<std::string> places;
+  const nlohmann::json flat = document.flatten();
+  for (const auto& [path, value] : flat.items())
+    for (Pointer pointer(path); !pointer.empty(); pointer.pop_back())
+      places.insert(pointer.to_string());
+  return {places.begin(), places.end()};
+}
+
+/// Neither the schema nor the reader takes it, and the reader names the file.
+void expect_refused(const nlohmann::json& document, const std::string& what) {
+  SCOPED_TRACE(what);
+  EXPECT_NE(test::schema_violations(document, schema), "");
+  EXPECT_THAT(refusal(document.dump()), ::testing::StartsWith("phone.json: "));
+}
+
+TEST(WebBench, EveryKeyIsNeeded) {
+  const nlohmann::json complete = fixture();
+  std::size_t keys = 0;
+  for (const Pointer& place : all_places(complete)) {
+    if (!complete.at(place.parent_pointer()).is_object()) continue;
+    nlohmann::json document = complete;
+    document.at(place.parent_pointer()).erase(place.back());
+    expect_refused(document, "without " + place.to_string());
+    ++keys;
+  }
+  EXPECT_GT(keys, 40u);
+}
+
+TEST(WebBench, EveryValueIsOfItsKind) {
+  const nlohmann::json complete = fixture();
+  for (const Pointer& place : all_places(complete)) {
+    for (const nlohmann::json& other :
+         {nlohmann::json(true), nlohmann::json("text"), nlohmann::json(nullptr),
+          nlohmann::json::object(), nlohmann::json::array()}) {
+      nlohmann::json document = complete;
+      document.at(place) = other;
+      // Some texts may be any, and some lists empty.
+      if (!test::schema_violations(document, schema).empty())
+        expect_refused(document, place.to_string() + " as " + other.dump());
+    }
+    if (complete.at(place).is_number()) {
+      nlohmann::json document = complete;
+      document.at(place) = -1;
+      expect_refused(document, place.to_string() + " negative");
+      document.at(place) = 1e300;
+      EXPECT_THAT(refusal(document.dump()), ::testing::StartsWith("phone.json: ")) << place;
+    }
+  }
+}
+
+TEST(WebBench, SaysWhatIsWrong) {
+  EXPECT_THAT(refusal(""), HasSubstr("phone.json: byte 0: not valid JSON"));
+  EXPECT_THAT(refusal("{\"format\": NaN}"), HasSubstr("NaN is no number there"));
+  EXPECT_THAT(refusal("[]"), HasSubstr("phone.json: expected an object"));
+  EXPECT_THAT(refusal("{\"format\": \"tureen bench\"}"),
+              HasSubstr("this is no download of bench.html"));
+  EXPECT_THAT(refusal(std::string(100000, '[')), HasSubstr("phone.json: "));
+  const auto changed = [](const char* place, const nlohmann::json& value) {
+    nlohmann::json document = fixture();
+    document.at(Pointer(place)) = value;
+    return refusal(document.dump());
+  };
+  EXPECT_THAT(changed("/version", 2), HasSubstr("version: version 2 is newer than this program"));
+  EXPECT_THAT(changed("/date", "today"), HasSubstr("date: expected a time of the form 2026-"));
+  EXPECT_THAT(changed("/device/pixel_ratio", 0), HasSubstr("device.pixel_ratio: expected"));
+  EXPECT_THAT(changed("/scenes", nlohmann::json::array()), HasSubstr("scenes: is empty"));
+  const std::string first = "scenes[0].measurements[0].";
+  const std::string at = "/scenes/0/measurements/0";
+  EXPECT_THAT(changed((at + "/entrants/0/frame_ms/1/2").c_str(), -0.5),
+              HasSubstr(first + "entrants[0].frame_ms[1][2]: -0.5 is no time from 0 to 1e+09 ms"));
+  EXPECT_THAT(changed((at + "/entrants/0/frame_ms/1/2").c_str(), 0),
+              HasSubstr("a frame that took no time"));
+  EXPECT_THAT(changed((at + "/entrants/0/frame_ms/1").c_str(), {1, 2}),
+              HasSubstr(first + "entrants[0].frame_ms[1]: has 2 views, expected 3"));
+  EXPECT_THAT(changed((at + "/entrants/1/frame_ms").c_str(), {{1, 2, 3}}),
+              HasSubstr(first + "entrants[1].frame_ms: has 1 rounds, expected 3"));
+  EXPECT_THAT(changed((at + "/self_test_ms/1").c_str(), {{1, 2, 3}}),
+              HasSubstr(first + "self_test_ms[1]: has 1 rounds, expected 2"));
+  EXPECT_THAT(changed((at + "/entrants/1/configuration").c_str(), "tureen"),
+              HasSubstr("took part already"));
+  EXPECT_THAT(changed((at + "/entrants/1/configuration").c_str(), "plaid"),
+              HasSubstr("is none of the scene's configurations"));
+  EXPECT_THAT(changed((at + "/entrants/1/pixels_hash").c_str(), "0123456789ABCDEF"),
+              HasSubstr("expected 16 hexadecimal digits"));
+  EXPECT_THAT(changed((at + "/frames_per_sample").c_str(), 2000000000),
+              HasSubstr("more frames than anybody draws"));
+  EXPECT_THAT(changed((at + "/width").c_str(), 0), HasSubstr("width: 0 is not enough"));
+}
+
+// ---- Devices side by side -----------------------------------------------------------------------
+
+TEST(DeviceTable, PutsTheSameThingInOneRow) {
+  nlohmann::json other = fixture();
+  other["device"]["renderer"] = "llvmpipe | <fast>";
+  other["device"]["software"] = true;
+  auto& scene = other["scenes"][0];
+  scene["measurements"][0]["entrants"][0]["frame_ms"] = {{20, 30, 40}, {20, 30, 40}, {20, 30, 40}};
+  scene["measurements"].erase(1);
+  scene["measurements"].push_back(scene["measurements"][0]);
+  scene["measurements"][1]["camera_set"] = "path";
+  const DeviceTable table =
+      device_table(std::vector<DeviceBench>{{"phone", read(fixture())}, {"laptop", read(other)}});
+  EXPECT_THAT(table.headings,
+              ElementsAre("scene", "cameras", "size", "configuration", "phone", "laptop"));
+  const std::string ficus = "ficus (33,417 triangles)";
+  EXPECT_THAT(
+      table.rows,
+      ElementsAre(ElementsAre(ficus, "hemisphere:3", "1280x720", "tureen", "3.000", "30.0"),
+                  ElementsAre(ficus, "hemisphere:3", "1280x720", "published", "12.0", "12.0"),
+                  ElementsAre(ficus, "hemisphere:3", "640x360", "tureen", "1.500", ""),
+                  ElementsAre(ficus, "path", "1280x720", "tureen", "", "30.0"),
+                  ElementsAre(ficus, "path", "1280x720", "published", "", "12.0")));
+  EXPECT_THAT(table.devices, ElementsAre(HasSubstr("phone: Adreno (TM) 740, WebGL2, 2.75"),
+                                         HasSubstr("laptop: llvmpipe | <fast> (software)")));
+
+  EXPECT_THAT(device_lines(table),
+              Contains("  ficus (33,417 triangles)  hemisphere:3  640x360   tureen         1.500"));
+  const std::string markdown = device_markdown(table);
+  EXPECT_THAT(markdown, HasSubstr("llvmpipe \\| \\<fast>"));
+  EXPECT_THAT(markdown, HasSubstr("| hemisphere:3 | 1280x720 | tureen | 3.000 | 30.0 |\n"));
+  const std::string page = device_page(table);
+  EXPECT_EQ(test::check_markup(page).defect, "");
+  EXPECT_THAT(page, HasSubstr("llvmpipe | &lt;fast&gt; (software)"));
+}
+
+TEST(DeviceTable, KeepsScenesApartThatOnlyShareAName) {
+  nlohmann::json other = fixture();
+  other["scenes"][0]["triangles"] = 1000;
+  const DeviceTable table =
+      device_table(std::vector<DeviceBench>{{"a", read(fixture())}, {"b", read(other)}});
+  EXPECT_EQ(table.rows.size(), 6u);
+}
+
+}  // namespace
+}  // namespace tureen::cli
