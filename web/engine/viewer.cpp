@@ -110,6 +110,7 @@ Json set_pose(const Json& arguments) {
   ViewState state =
       state_of(look_at(eye, target, up, fov, any_side, any_side), glm::normalize(up), distance);
   state.roll += pose.at("roll").get<double>();
+  controls().set_up(up);
   controls().adopt(camera_of(state, any_side, any_side));
   controls().set_target_depth(distance);
   if (!arguments.at("glide").get<bool>()) controls().arrive();

@@ -75,7 +75,10 @@ class CanvasViewer implements Viewer {
       this.emit('context', 'lost');
     }, { signal });
     this.canvas.addEventListener('webglcontextrestored', () => void this.restore(), { signal });
-    document.addEventListener('visibilitychange', () => this.ask(), { signal });
+    document.addEventListener('visibilitychange', () => {
+      this.lastFrame = null;  // what was hidden has not flown on
+      this.ask();
+    }, { signal });
   }
 
   private async startEngine(): Promise<void> {
