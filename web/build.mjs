@@ -11,7 +11,7 @@
 import { spawnSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { cpSync, existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
-import { dirname, join, resolve } from 'node:path';
+import { basename, dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
 import { brotliCompressSync, gzipSync } from 'node:zlib';
@@ -21,8 +21,11 @@ import { build } from 'esbuild';
 const mostBytes = 400_000;
 /** Where `tureen convert` puts a scene; html_scene of the program looks for exactly this. */
 const emptyScene = '<script type="application/octet-stream;base64" id="scene" data-name=""></script>';
-/** The site's pages beside the examples: HTML and the script that it loads, which is called alike. */
-const pages = [{ html: 'page/index.html', script: 'page/page.ts' }];
+/** The site's pages beside the examples: HTML, the script that it loads and its style. */
+const pages = [
+  { html: 'page/index.html', script: 'page/page.ts', style: 'page/style.css' },
+  { html: 'bench/bench.html', script: 'bench/bench.ts', style: 'bench/bench.css' },
+];
 
 const here = dirname(fileURLToPath(import.meta.url));
 const root = dirname(here);
@@ -41,15 +44,35 @@ function options() {
   return { engine, out };
 }
 
-/** One script with all that it imports. What it has to be is said in `how`, as esbuild's options. */
-async function bundle(entry, engine, how) {
+function version() {
+  const found = /project\(tureen VERSION ([\d.]+)/.exec(text(join(root, 'CMakeLists.txt')))?.[1];
+  return found ?? fail('The version is not where CMakeLists.txt had it.');
+}
+
+/** As the program says it of itself (cmake/commit.cmake). */
+function commit() {
+  const git = spawnSync('git', ['-C', root, 'describe', '--always', '--tags', '--dirty'], { encoding: 'utf8' });
+  return git.status === 0 ? git.stdout.trim() : 'unknown';
+}
+
+/** One script or style with all that it imports. What it has to be is said in `how`, as esbuild's options. */
+async function bundle(entry, how = {}) {
   const result = await build({
-    entryPoints: [from(entry)], bundle: true, write: false, minify: true, platform: 'browser',
-    target: 'es2022', legalComments: 'none', logLevel: 'warning',
-    alias: { 'tureen-engine': join(engine, 'tureen.js') }, ...how,
+    entryPoints: [entry], bundle: true, write: false, minify: true, platform: 'browser',
+    target: 'es2022', legalComments: 'none', logLevel: 'warning', ...how,
   });
   return result.outputFiles[0].text;
 }
+
+/** A module of the site or the package. All of them share one tureen.js, which a browser fetches once. */
+const module = (entry) => bundle(from(entry), {
+  format: 'esm',
+  define: { builtVersion: JSON.stringify(version()), builtCommit: JSON.stringify(commit()) },
+  plugins: [{
+    name: 'shared engine',
+    setup: ({ onResolve }) => onResolve({ filter: /^tureen-engine$/ }, () => ({ path: './tureen.js', external: true })),
+  }],
+});
 
 /** Replaces what stands exactly once. */
 function replaceOnce(whole, part, by) {
@@ -71,16 +94,21 @@ function gallery(folder) {
   return JSON.stringify(weighed, null, 2) + '\n';
 }
 
-async function makeSite(folder, engine, parts) {
-  for (const { html, script } of pages) {
-    const name = script.replace(/.*\//, '').replace('.ts', '.js');
-    cpSync(from(html), join(folder, html.replace(/.*\//, '')));
-    write(folder, name, await bundle(script, engine, { format: 'esm' }));
-  }
-  write(folder, 'style.css', parts.style);
+/** What draws in any page, and the viewer as a module. */
+function placeEngine(folder, engine, parts) {
+  write(folder, 'tureen.js', parts.engine);
   write(folder, 'viewer.js', parts.viewer);
   write(folder, 'loader_worker.js', parts.worker);
   cpSync(join(engine, 'tureen.wasm'), join(folder, 'tureen.wasm'));
+}
+
+async function makeSite(folder, engine, parts) {
+  for (const { html, script, style } of pages) {
+    write(folder, basename(html), text(from(html)));
+    write(folder, basename(script, '.ts') + '.js', await module(script));
+    write(folder, basename(style), await bundle(from(style)));
+  }
+  placeEngine(folder, engine, parts);
   cpSync(from('examples'), join(folder, 'examples'), { recursive: true });
   cpSync(join(root, 'examples/soup.glb'), join(folder, 'soup.glb'));
   cpSync(join(root, 'docs/images/example.png'), join(folder, 'soup.png'));
@@ -89,10 +117,13 @@ async function makeSite(folder, engine, parts) {
 
 /** The page with everything in it. What asks for import.meta.url gets an address that is never
  *  fetched: a worker from a Blob has none that others could be relative to. */
-async function makeTemplate(engine, parts) {
-  const inFile = { format: 'iife', define: { 'import.meta.url': '"file:///"' } };
-  const script = await bundle('page/single_file.ts', engine, inFile);
-  const worker = await bundle('viewer/loader_worker.ts', engine, inFile);
+async function makeTemplate(engine) {
+  const inFile = {
+    format: 'iife', alias: { 'tureen-engine': join(engine, 'tureen.js') }, define: { 'import.meta.url': '"file:///"' },
+  };
+  const script = await bundle(from('page/single_file.ts'), inFile);
+  const worker = await bundle(from('viewer/loader_worker.ts'), inFile);
+  const style = await bundle(from('page/style.css'));
   if (/<\/script|<!--/i.test(script)) fail('The script of the single file has what ends a script in HTML.');
   const part = (id, bytes) => `<script type="application/octet-stream;base64" id="${id}">` +
     `${Buffer.from(bytes).toString('base64')}</script>\n`;
@@ -100,7 +131,8 @@ async function makeTemplate(engine, parts) {
   const parts64 = part('engine', readFileSync(join(engine, 'tureen.wasm'))) + part('worker', worker);
 
   let page = text(from('page/index.html'));
-  page = replaceOnce(page, '<link rel="stylesheet" href="style.css">', `<style>\n${parts.style}</style>`);
+  page = replaceOnce(page, '<link rel="stylesheet" href="style.css">', `<style>\n${style}</style>`);
+  page = replaceOnce(page, '<link rel="modulepreload" href="tureen.js">\n', '');
   page = replaceOnce(page, '<script type="module" src="page.js"></script>\n', '');
   page = replaceOnce(page, "script-src 'self' 'wasm-unsafe-eval'; style-src 'self'",
                      `script-src 'sha256-${hash}' 'wasm-unsafe-eval' blob:; style-src 'unsafe-inline'`);
@@ -110,13 +142,9 @@ async function makeTemplate(engine, parts) {
 }
 
 function makePackage(folder, engine, parts) {
-  const version = /project\(tureen VERSION ([\d.]+)/.exec(text(join(root, 'CMakeLists.txt')))?.[1];
-  if (!version) fail('The version is not where CMakeLists.txt had it.');
   const { name, ...rest } = JSON.parse(text(from('package/package.json')));
-  write(folder, 'package.json', JSON.stringify({ name, version, ...rest }, null, 2) + '\n');
-  write(folder, 'viewer.js', parts.viewer);
-  write(folder, 'loader_worker.js', parts.worker);
-  cpSync(join(engine, 'tureen.wasm'), join(folder, 'tureen.wasm'));
+  write(folder, 'package.json', JSON.stringify({ name, version: version(), ...rest }, null, 2) + '\n');
+  placeEngine(folder, engine, parts);
   cpSync(from('package/README.md'), join(folder, 'README.md'));
   cpSync(join(root, 'LICENSE'), join(folder, 'LICENSE'));
   const compiler = from('node_modules/typescript/bin/tsc');
@@ -131,7 +159,7 @@ function weigh(site) {
   const row = (name, sizes) =>
     console.log(name.padEnd(18) + sizes.map((size) => size.toLocaleString('en').padStart(12)).join(''));
   console.log(' '.repeat(18) + ['bytes', 'gzip', 'brotli'].map((name) => name.padStart(12)).join(''));
-  for (const name of ['page.js', 'loader_worker.js', 'tureen.wasm']) {
+  for (const name of ['page.js', 'loader_worker.js', 'tureen.js', 'tureen.wasm']) {
     const bytes = readFileSync(join(site, name));
     const sizes = [bytes.length, gzipSync(bytes, { level: 9 }).length, brotliCompressSync(bytes).length];
     row(name, sizes);
@@ -145,15 +173,14 @@ function weigh(site) {
 async function main() {
   const { engine, out } = options();
   const site = join(out, 'site'), npm = join(out, 'npm');
-  const style = await build({ entryPoints: [from('page/style.css')], bundle: true, write: false, minify: true });
   const parts = {
-    style: style.outputFiles[0].text,
-    viewer: await bundle('package/index.ts', engine, { format: 'esm' }),
-    worker: await bundle('viewer/loader_worker.ts', engine, { format: 'esm' }),
+    engine: await bundle(join(engine, 'tureen.js'), { format: 'esm' }),
+    viewer: await module('package/index.ts'),
+    worker: await module('viewer/loader_worker.ts'),
   };
   for (const folder of [site, npm]) rmSync(folder, { recursive: true, force: true });
   await makeSite(site, engine, parts);
-  write(out, 'scene_template.html', await makeTemplate(engine, parts));
+  write(out, 'scene_template.html', await makeTemplate(engine));
   makePackage(npm, engine, parts);
   weigh(site);
 }

@@ -88,9 +88,14 @@ Json add_published(const Json& arguments) {
   Scene scene = read_scene(arguments.at("path").get<std::string>());
   RenderOptions options{.background = glm::vec4(scene.info.background, 1.0f)};
   options.plan.pipeline = PipelineKind::published;
+  const TriangleSoup& soup = opaque_soup(scene);
   const double start = milliseconds();
-  to.published.emplace(page_view().context(), opaque_soup(scene), scene.origin, options);
-  return facts(*to.published, start);
+  RenderPlan plan = make_plan(soup, device_limits(page_view().capabilities()), options.plan);
+  const double planned = milliseconds();
+  to.published.emplace(page_view().context(), soup, scene.origin, std::move(plan), options);
+  Json result = facts(*to.published, planned);
+  result["plan_ms"] = planned - start;
+  return result;
 }
 
 int count_of(const std::string& set) {

@@ -1,12 +1,12 @@
-// The few things that all parts of the page do with elements. The page's markup is index.html;
+// The few things that all parts of a page do with elements. Its markup is index.html or bench.html;
 // what depends on a scene is made here. Text always becomes a text node: names come from files.
 
 type Attributes = Readonly<Record<string, string | number | boolean | null>>;
 
-/** The element of index.html that has this id and is of this class. Its absence is a mistake of ours. */
+/** The element of the page that has this id and is of this class. Its absence is a mistake of ours. */
 export function byId<T extends Element>(id: string, type: abstract new () => T): T {
   const found = document.getElementById(id);
-  if (!(found instanceof type)) throw new Error(`index.html has no ${type.name} with the id ${id}.`);
+  if (!(found instanceof type)) throw new Error(`The page has no ${type.name} with the id ${id}.`);
   return found;
 }
 
@@ -26,7 +26,7 @@ export function make<K extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
-/** One of index.html's symbols. */
+/** One of the page's symbols. */
 export function icon(name: string): SVGSVGElement {
   const space = 'http://www.w3.org/2000/svg';
   const svg = document.createElementNS(space, 'svg');

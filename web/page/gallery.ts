@@ -5,7 +5,7 @@
 import { block, make } from './dom.js';
 import { bytesText, trianglesText } from './numbers.js';
 
-interface Model {
+export interface Model {
   readonly name: string;
   readonly url: string;
   readonly picture: string | null;
@@ -36,18 +36,20 @@ function card(model: Model, choose: (address: string) => void): HTMLElement {
   return make('li', {}, button);
 }
 
-/** Fills the gallery, where there is one. A site without models.json has none; that is no error. */
-export async function fillGallery(choose: (address: string) => void): Promise<void> {
-  if (location.protocol === 'file:') return;  // nothing can be fetched there
-  let entries: unknown;
+/** Those that the site lists. One without models.json has none; that is no error. */
+export async function readModels(): Promise<Model[]> {
+  if (location.protocol === 'file:') return [];  // nothing can be fetched there
+  let entries: unknown = null;
   try {
     const answer = await fetch('models.json');
-    if (!answer.ok) return;
-    entries = await answer.json();
-  } catch {
-    return;
-  }
-  const models = Array.isArray(entries) ? entries.map(readModel).filter((model) => model !== null) : [];
+    if (answer.ok) entries = await answer.json();
+  } catch { /* no list, or none that can be read */ }
+  return Array.isArray(entries) ? entries.map(readModel).filter((model) => model !== null) : [];
+}
+
+/** Fills the gallery, where there is one. */
+export async function fillGallery(choose: (address: string) => void): Promise<void> {
+  const models = await readModels();
   block('gallery-list').replaceChildren(...models.map((model) => card(model, choose)));
   block('gallery').hidden = models.length === 0;
 }

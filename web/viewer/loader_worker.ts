@@ -20,6 +20,7 @@ const order: readonly LoadStage[] = ['download', 'read', 'prepare', 'upload'];
 class Loader {
   private description: SceneDescription | null = null;
   private level: number | null = null;
+  private readMs = 0;
   private loaded = 0;
   private total: number | null = null;
   private told = { stage: '', permille: -1 };
@@ -29,7 +30,9 @@ class Loader {
   async load(source: SourceToLoad): Promise<void> {
     const files = 'url' in source ? await this.fetched(source.url, source.name) : await this.opened(source);
     this.engine.onProgress = (fraction) => this.tell('read', fraction);
+    const begin = performance.now();
     this.description = readWith<SceneDescription>(this.engine, 'read', files);
+    this.readMs = performance.now() - begin;
     this.send();
   }
 
@@ -68,10 +71,11 @@ class Loader {
   }
 
   private prepared(description: SceneDescription, quick: boolean): PreparedScene {
+    const begin = performance.now();
+    const faithful = this.packed(false), prepareMs = performance.now() - begin;
     return {
-      description, level: this.level,
-      faithful: this.packed(false),
-      quick: quick ? this.packed(true) : null,
+      description, level: this.level, readMs: this.readMs, prepareMs,
+      faithful, quick: quick ? this.packed(true) : null,
     };
   }
 

@@ -29,10 +29,11 @@ export async function openFiles(files: readonly SceneFile[], name: string): Prom
   return { bytes, paths: [whole, ...alone.slice(0, 1)] };
 }
 
-/** Lets a command of the engine read them; they are gone from it afterwards. Throws ViewerError. */
-export function readWith<T>(engine: Engine, command: string, files: OpenedFiles): T {
+/** Lets a command of the engine read them; they are gone from it afterwards. `more` goes with the
+ *  command. Throws ViewerError. */
+export function readWith<T>(engine: Engine, command: string, files: OpenedFiles, more: object = {}): T {
   engine.putFiles(folder, files.bytes);
-  const read = (path: string) => engine.call<T>(command, { folder, path });
+  const read = (path: string) => engine.call<T>(command, { ...more, folder, path });
   try {
     const [first, second] = files.paths;
     if (second === undefined) return read(first);

@@ -1,0 +1,207 @@
+// An engine that measures: scenes side by side on one canvas, and frames timed by the protocol of
+// `tureen bench` (web/engine/bench.cpp). Drawn is by the very pipeline of the viewer.
+
+import { assetsAt, type Assets } from '../viewer/assets.js';
+import { compile, Engine } from '../viewer/engine.js';
+import type { PreparedScene, SceneDescription } from '../viewer/loader_messages.js';
+import { Loading } from '../viewer/loading.js';
+import { openFiles, readWith } from '../viewer/scene_files.js';
+import { ViewerError, type LoadProgress, type SceneFile } from '../viewer/types.js';
+import { setName, type CameraChoice, type Size } from './request.js';
+
+export interface Device {
+  readonly renderer: string;
+  readonly vendor: string;
+  readonly gl_version: string;
+  /** With `software` where the processor draws. */
+  readonly limits: { readonly software: boolean };
+  readonly max_picture_side: number;
+}
+
+export interface Files {
+  readonly files: readonly SceneFile[];
+  readonly name: string;
+}
+
+/** A scene drawn by one pipeline. */
+export interface Pipeline {
+  readonly plan: readonly string[];
+  readonly plan_ms: number;
+  readonly upload_ms: number;
+  readonly device_bytes: number;
+}
+
+export interface AddedScene {
+  readonly description: SceneDescription;
+  readonly pipeline: Pipeline;
+  readonly readMs: number;
+  /** Set where the device has no memory for more. */
+  readonly level: number | null;
+}
+
+export type Entrant =
+  | { readonly name: string; readonly scene: number; readonly published: boolean }
+  | { readonly name: string; readonly grid: readonly number[] };
+
+/** Milliseconds a frame: round by round, in each the same views in the same order. */
+export type FrameTimes = readonly (readonly number[])[];
+
+/** Milliseconds where nothing else is said: runtime/frame_statistics.hpp. */
+export interface Statistics {
+  readonly mean: number;
+  readonly median: number;
+  readonly p95: number;
+  readonly p99: number;
+  readonly min_of_medians: number;
+  readonly spread: number;
+  readonly low_1_percent_fps: number;
+}
+
+export interface EntrantResult {
+  readonly name: string;
+  readonly stable: boolean;
+  readonly frame_ms: FrameTimes;
+  readonly pixels_hash: string;
+  readonly statistics: Statistics;
+}
+
+export interface RunResult {
+  readonly frames_per_sample: number;
+  /** Of the first against itself: the difference that means nothing. */
+  readonly aa_spread: number;
+  readonly self_test_ms: readonly [FrameTimes, FrameTimes];
+  readonly entrants: readonly EntrantResult[];
+}
+
+/** Of the canvas, in its own pixels from its bottom left corner. */
+export interface Cell extends Size {
+  readonly scene: number;
+  readonly x: number;
+  readonly y: number;
+}
+
+/** Between two breaths of the page. Long enough for several samples of any device, short enough for
+ *  a person who wants to cancel. */
+const stepMs = 50;
+
+/** Follows the browser's frames, so it pauses with a page that is hidden. */
+const nextFrame = () => new Promise((resolve) => requestAnimationFrame(resolve));
+
+const contextLost = () => new ViewerError(
+  'The browser took the graphics device away, most likely for want of memory or because a frame took too long. ' +
+  'Measure again with less.', 'device');
+
+/** Rejects with the signal's reason, which may be long after anybody waits for it. */
+function aborted(signal: AbortSignal): Promise<never> {
+  const ended = new Promise<never>((_, reject) => {
+    if (signal.aborted) reject(signal.reason);
+    else signal.addEventListener('abort', () => reject(signal.reason), { once: true });
+  });
+  ended.catch(() => {});
+  return ended;
+}
+
+export class BenchEngine {
+  private readonly lost = new AbortController();
+
+  private constructor(private readonly engine: Engine, private readonly program: WebAssembly.Module,
+                      private readonly assets: Assets, readonly canvas: HTMLCanvasElement, readonly device: Device) {
+    canvas.addEventListener('webglcontextlost', (event) => {
+      event.preventDefault();  // or it never comes back
+      this.lost.abort(contextLost());
+    }, { signal: this.lost.signal });
+  }
+
+  /** Rejects with ViewerError. */
+  static async start(canvas: HTMLCanvasElement): Promise<BenchEngine> {
+    const assets = assetsAt(), program = await compile(assets);
+    const engine = await Engine.create(program);
+    engine.takeCanvas(canvas);
+    return new BenchEngine(engine, program, assets, canvas, engine.call<Device>('start'));
+  }
+
+  /** Then a new one is needed. The event comes later than the first command that fails of it. */
+  get isLost(): boolean { return this.lost.signal.aborted || this.canvas.getContext('webgl2')!.isContextLost(); }
+  get wasmBytes(): number { return this.engine.memoryBytes; }
+
+  /** Forgets all scenes. */
+  clear(): void { this.engine.call('bench_clear'); }
+
+  /** Its number is how many there were before. Rejects with ViewerError and the signal's reason. */
+  async add(files: Files, signal: AbortSignal, tell: (progress: LoadProgress) => void): Promise<AddedScene> {
+    let added: AddedScene | null = null;
+    const loading = new Loading(this.assets, {
+      progress: tell,
+      preview: () => {},
+      scene: (scene) => (added = this.unpack(scene)) !== null,
+    });
+    const load = loading.run(this.program, files, this.device.limits);
+    try {
+      await Promise.race([load, aborted(signal), aborted(this.lost.signal)]);
+    } finally {
+      loading.cancel();
+      load.catch(() => {});
+    }
+    return added!;
+  }
+
+  /** Null where the device has no memory for it. */
+  private unpack({ description, faithful, level, readMs, prepareMs }: PreparedScene): AddedScene | null {
+    this.engine.setBuffer(new Uint8Array(faithful.head));
+    this.engine.call('take_head', { preset: false });
+    this.engine.setBlobs(faithful.blobs);
+    try {
+      const facts = this.engine.call<Omit<Pipeline, 'plan_ms'>>('bench_add_scene', { scene: description });
+      return { description, level, readMs, pipeline: { ...facts, plan_ms: prepareMs } };
+    } catch (error) {
+      if (error instanceof ViewerError && error.kind === 'device' && !this.isLost) return null;
+      throw error;
+    } finally {
+      this.engine.setBlobs([]);
+    }
+  }
+
+  /** The same scene drawn by the published pipeline. Rejects with ViewerError where that cannot. */
+  async addPublished(scene: number, { files, name }: Files): Promise<Pipeline> {
+    return readWith<Pipeline>(this.engine, 'bench_add_published', await openFiles(files, name), { scene });
+  }
+
+  setCameras(scene: number, cameras: CameraChoice, { width, height }: Size): void {
+    const from = cameras.kind === 'file' ? { file: cameras.text, count: cameras.count } : { set: setName(cameras) };
+    this.engine.call('bench_cameras', { scene, ...from, width, height });
+  }
+
+  /** Frames without a pause but the page's breaths. Rejects with ViewerError and the signal's reason. */
+  async run(entrants: readonly Entrant[], how: { readonly rounds: number; readonly leastSampleMs: number },
+            signal: AbortSignal, tell: (fraction: number) => void): Promise<RunResult> {
+    this.engine.call('bench_run', { entrants, rounds: how.rounds, least_sample_ms: how.leastSampleMs });
+    for (let done = false; !done;) {
+      await nextFrame();
+      signal.throwIfAborted();
+      const step = this.ask<{ done: boolean; fraction: number }>('bench_step', stepMs);
+      tell(step.fraction);
+      done = step.done;
+    }
+    return this.ask<RunResult>('bench_result');
+  }
+
+  /** A lost context draws nothing, in no time: nothing that it says counts. */
+  private ask<T>(command: string, given: unknown = null): T {
+    try {
+      const answer = this.engine.call<T>(command, given);
+      if (!this.isLost) return answer;
+    } catch (error) {
+      if (!this.isLost) throw error;
+    }
+    throw contextLost();
+  }
+
+  /** Not timed: what a person sees. */
+  show(cells: readonly Cell[], { width, height }: Size, camera: number): void {
+    if (this.isLost) return;
+    this.canvas.width = width;
+    this.canvas.height = height;
+    this.canvas.hidden = false;
+    this.engine.call('bench_show', { cells: cells.map((cell) => ({ ...cell, published: false, camera })), width, height });
+  }
+}

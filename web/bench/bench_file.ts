@@ -1,0 +1,90 @@
+// What the page gives away: the JSON of docs/web_bench.schema.json, which `tureen bench --import`
+// reads, and a table for spreadsheets.
+
+import { clockSentence } from './clock.js';
+import { leastSampleMs, type Measurement, type MeasuredScene } from './measure.js';
+import type { Device, FrameTimes } from './bench_engine.js';
+
+/** From the build: build.mjs. */
+declare const builtVersion: string, builtCommit: string;
+
+export interface BenchFile {
+  readonly format: 'tureen web bench';
+  readonly version: 1;
+  readonly date: string;
+  readonly page: { readonly version: string; readonly commit: string; readonly address: string };
+  readonly device: {
+    readonly user_agent: string; readonly renderer: string; readonly vendor: string; readonly gl_version: string;
+    readonly software: boolean; readonly cores: number; readonly pixel_ratio: number;
+    readonly screen_width: number; readonly screen_height: number;
+  };
+  readonly protocol: { readonly clock: string };
+  readonly scenes: readonly SceneInFile[];
+}
+
+interface SceneInFile {
+  readonly name: string; readonly source: string; readonly triangles: number; readonly appearance: string;
+  readonly read_ms: number; readonly wasm_bytes: number;
+  readonly configurations: readonly {
+    readonly name: string; readonly plan: readonly string[];
+    readonly plan_ms: number; readonly upload_ms: number; readonly device_bytes: number;
+  }[];
+  readonly measurements: readonly {
+    readonly camera_set: string; readonly width: number; readonly height: number;
+    readonly frames_per_sample: number; readonly self_test_ms: readonly [FrameTimes, FrameTimes];
+    readonly entrants: readonly {
+      readonly configuration: string; readonly stable: boolean; readonly frame_ms: FrameTimes; readonly pixels_hash: string;
+    }[];
+  }[];
+  readonly notes: readonly string[];
+}
+
+const measurementInFile = ({ cameraSet, width, height, result }: Measurement) => ({
+  camera_set: cameraSet, width, height,
+  frames_per_sample: result.frames_per_sample,
+  self_test_ms: result.self_test_ms,
+  entrants: result.entrants.map(({ name, stable, frame_ms, pixels_hash }) =>
+    ({ configuration: name, stable, frame_ms, pixels_hash })),
+});
+
+const sceneInFile = (scene: MeasuredScene): SceneInFile => ({
+  name: scene.name, source: scene.source, triangles: scene.triangles, appearance: scene.appearance,
+  read_ms: scene.readMs, wasm_bytes: scene.wasmBytes,
+  configurations: scene.configurations.map(({ name, plan, plan_ms, upload_ms, device_bytes }) =>
+    ({ name, plan, plan_ms, upload_ms, device_bytes })),
+  measurements: scene.measurements.map(measurementInFile),
+  notes: scene.notes,
+});
+
+export function benchFile(device: Device, scenes: readonly MeasuredScene[]): BenchFile {
+  return {
+    format: 'tureen web bench', version: 1,
+    date: new Date().toISOString().replace(/\.\d+Z$/, 'Z'),
+    page: { version: builtVersion, commit: builtCommit, address: location.href },
+    device: {
+      user_agent: navigator.userAgent, renderer: device.renderer, vendor: device.vendor, gl_version: device.gl_version,
+      software: device.limits.software, cores: navigator.hardwareConcurrency ?? 0, pixel_ratio: devicePixelRatio,
+      screen_width: screen.width, screen_height: screen.height,
+    },
+    protocol: { clock: clockSentence(leastSampleMs()) },
+    scenes: scenes.map(sceneInFile),
+  };
+}
+
+const quoted = (text: string) => (/[,"\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+
+/** A line a configuration and size, with the names that `tureen bench` gives its columns. */
+export function benchCsv(file: BenchFile, scenes: readonly MeasuredScene[]): string {
+  const rows = scenes.flatMap((scene) => scene.measurements.flatMap(({ cameraSet, width, height, result }) =>
+    result.entrants.map(({ name, stable, frame_ms, pixels_hash, statistics: ms }) => ({
+      configuration: name, camera_set: cameraSet, width, height,
+      views: frame_ms[0]!.length, rounds: frame_ms.length,
+      mean_ms: ms.mean, median_ms: ms.median, p95_ms: ms.p95, p99_ms: ms.p99, min_of_medians_ms: ms.min_of_medians,
+      spread: ms.spread, aa_spread: result.aa_spread, low_1_percent_fps: ms.low_1_percent_fps, stable, pixels_hash,
+      device_bytes: scene.configurations.find((one) => one.name === name)!.device_bytes, wasm_bytes: scene.wasmBytes,
+      scene: scene.name, triangles: scene.triangles, renderer: file.device.renderer,
+      commit: file.page.commit, date: file.date,
+    }))));
+  const line = (values: readonly unknown[]) => values.map((value) => quoted(String(value))).join(',') + '\n';
+  return line(Object.keys(rows[0] ?? {})) + rows.map((row) => line(Object.values(row))).join('');
+}

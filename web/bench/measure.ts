@@ -1,0 +1,197 @@
+// A request from its scenes' bytes to frame times: each scene at each size, one after the other; or
+// all of them on a grid, as one frame.
+
+import { download } from '../viewer/download.js';
+import { ViewerError, type SceneSource } from '../viewer/types.js';
+import { nameOf } from '../page/loading.js';
+import type { AddedScene, BenchEngine, Cell, Entrant, Files, Pipeline, RunResult } from './bench_engine.js';
+import { clockStepMs } from './clock.js';
+import { setName, sizeText, type BenchRequest, type Size } from './request.js';
+
+export interface Configuration extends Pipeline {
+  readonly name: string;
+}
+
+/** One set of cameras at one size. */
+export interface Measurement extends Size {
+  readonly cameraSet: string;
+  readonly result: RunResult;
+}
+
+/** What one scene, or one grid of them, has led to. */
+export interface MeasuredScene {
+  readonly name: string;
+  /** The address, or the name of the file. */
+  readonly source: string;
+  readonly triangles: number;
+  readonly appearance: string;
+  readonly readMs: number;
+  readonly wasmBytes: number;
+  readonly configurations: readonly Configuration[];
+  readonly measurements: readonly Measurement[];
+  readonly notes: readonly string[];
+}
+
+/** Says what goes on, and how far all of it is: 0..1. */
+export type Tell = (what: string, fraction: number) => void;
+
+/** Loading is quick beside measuring; the bar knows no better. */
+const loadingShare = 0.1;
+
+/** A sample that the clock can tell from the next to one in a hundred, and no shorter than `tureen
+ *  bench` has it. */
+export const leastSampleMs = () => Math.max(5, 100 * clockStepMs());
+
+/** Cells of `count` pictures in one of this size, row by row from the top; what does not divide is left. */
+export function gridCells(count: number, size: Size): Cell[] {
+  const columns = Math.ceil(Math.sqrt(count)), rows = Math.ceil(count / columns);
+  const width = Math.max(Math.floor(size.width / columns), 1), height = Math.max(Math.floor(size.height / rows), 1);
+  return Array.from({ length: count }, (_, scene) => ({
+    scene, width, height,
+    x: (scene % columns) * width,
+    y: size.height - (Math.floor(scene / columns) + 1) * height,
+  }));
+}
+
+const distinct = (texts: readonly string[]) => [...new Set(texts)];
+const sum = (values: readonly number[]) => values.reduce((total, value) => total + value, 0);
+
+export class Measuring {
+  private readonly fetched = new Map<string, Files>();
+
+  constructor(private readonly bench: BenchEngine, private readonly request: BenchRequest,
+              private readonly signal: AbortSignal, private readonly tell: Tell) {}
+
+  /** Rejects with ViewerError and the signal's reason. */
+  async run(): Promise<MeasuredScene[]> {
+    const { scenes, grid, copies } = this.request;
+    const frames = grid ? [scenes.flatMap((scene) => Array<SceneSource>(copies).fill(scene))] : scenes.map((scene) => [scene]);
+    const measured: MeasuredScene[] = [];
+    for (const [index, sources] of frames.entries()) {
+      const tell: Tell = (what, fraction) => this.tell(what, (index + fraction) / frames.length);
+      measured.push(await this.measureFrame(sources, tell));
+    }
+    return measured;
+  }
+
+  /** What is drawn as one frame. */
+  private async measureFrame(sources: readonly SceneSource[], tell: Tell): Promise<MeasuredScene> {
+    const { bench, request } = this;
+    const hidden = new Hidden();
+    bench.clear();
+    const added: AddedScene[] = [];
+    for (const source of sources) {
+      const name = nameOf(source) + (sources.length > 1 ? `, ${added.length + 1} of ${sources.length}` : '');
+      const load: Tell = (what, fraction) =>
+        tell(`${name}: ${what}`, (loadingShare * (added.length + fraction)) / sources.length);
+      const files = await this.files(source, load);
+      load('reading', 0.5);
+      added.push(await bench.add(files, this.signal, ({ fraction }) => load('reading', 0.5 + (fraction ?? 0) / 2)));
+    }
+    const configurations = [this.ours(added)], notes = this.notes(added);
+    if (request.published) {
+      const published = await this.published(sources[0]!, tell);
+      if (typeof published === 'string') notes.push(published);
+      else configurations.push(published);
+    }
+    const measurements: Measurement[] = [];
+    for (const [index, size] of request.sizes.entries())
+      measurements.push(await this.measureAt(size, added, configurations, (what, fraction) =>
+        tell(what, loadingShare + ((1 - loadingShare) * (index + fraction)) / request.sizes.length)));
+    if (hidden.end())
+      notes.push('The page was hidden in between; browsers slow down what nobody sees.');
+    return {
+      ...this.described(sources, added), wasmBytes: bench.wasmBytes, configurations, measurements, notes,
+    };
+  }
+
+  private async files(source: SceneSource, tell: Tell): Promise<Files> {
+    const name = nameOf(source);
+    if ('files' in source) return { files: source.files, name };
+    const url = new URL(source.url, document.baseURI).href;
+    let files = this.fetched.get(url);
+    if (!files) {
+      tell('downloading', 0);
+      const bytes = await download(url, ({ bytes, total }) => {
+        this.signal.throwIfAborted();
+        tell('downloading', total ? bytes.length / total / 2 : 0);
+      });
+      files = { files: [{ path: name, data: new Blob([bytes]) }], name };
+      this.fetched.set(url, files);
+    }
+    return files;
+  }
+
+  private ours(added: readonly AddedScene[]): Configuration {
+    const pipelines = added.map(({ pipeline }) => pipeline);
+    return {
+      name: this.request.grid ? 'grid' : 'tureen',
+      plan: distinct(pipelines.flatMap(({ plan }) => plan)),
+      plan_ms: sum(pipelines.map(({ plan_ms }) => plan_ms)),
+      upload_ms: sum(pipelines.map(({ upload_ms }) => upload_ms)),
+      device_bytes: sum(pipelines.map(({ device_bytes }) => device_bytes)),
+    };
+  }
+
+  /** Or the sentence that says why it does not take part. */
+  private async published(source: SceneSource, tell: Tell): Promise<Configuration | string> {
+    tell(`${nameOf(source)}: preparing the published pipeline`, loadingShare);
+    try {
+      const files = await this.files(source, tell);
+      return { name: 'published', ...await this.bench.addPublished(0, files) };
+    } catch (error) {
+      if (!(error instanceof ViewerError) || this.bench.isLost) throw error;
+      return `The published pipeline takes no part: ${error.message}`;
+    }
+  }
+
+  private notes(added: readonly AddedScene[]): string[] {
+    return distinct(added.flatMap(({ description, level }) => [
+      ...description.notes,
+      ...(level === null ? [] : [`This device has not enough memory for the whole scene: it is drawn with lattice level ${level}.`]),
+      ...(description.promise ? ['Its preset is not obeyed: frames are drawn faithfully.'] : []),
+    ]));
+  }
+
+  private described(sources: readonly SceneSource[], added: readonly AddedScene[]) {
+    const about = added.map(({ description }) => description);
+    return {
+      name: this.request.grid ? `${added.length} on a grid: ${distinct(about.map(({ name }) => name)).join(', ')}` : about[0]!.name,
+      source: distinct(sources.map((source) => ('url' in source ? source.url : nameOf(source)))).join(', '),
+      triangles: sum(about.map(({ triangles }) => triangles)),
+      appearance: distinct(about.map(({ appearance }) => appearance)).join(', '),
+      readMs: sum(added.map(({ readMs }) => readMs)),
+    };
+  }
+
+  private async measureAt(size: Size, added: readonly AddedScene[], configurations: readonly Configuration[],
+                          tell: Tell): Promise<Measurement> {
+    const { bench, request } = this;
+    const cells = gridCells(added.length, size);
+    for (const cell of cells) bench.setCameras(cell.scene, request.cameras, cell);
+    bench.show(cells, size, 0);
+    const entrants: Entrant[] = configurations.map(({ name }) => request.grid
+      ? { name, grid: cells.map(({ scene }) => scene) }
+      : { name, scene: 0, published: name === 'published' });
+    const what = `${added.length > 1 ? `${added.length} scenes` : added[0]!.description.name}, ${sizeText(size)}`;
+    const result = await bench.run(entrants, { rounds: request.rounds, leastSampleMs: leastSampleMs() }, this.signal,
+                                   (fraction) => tell(`${what}: ${fraction > 0 ? 'measuring' : 'warming up'}`, fraction));
+    bench.show(cells, size, 0);
+    return { ...size, cameraSet: setName(request.cameras), result };
+  }
+}
+
+/** Whether the page was hidden, from now on. */
+class Hidden {
+  private was = document.hidden;
+  private readonly watching = new AbortController();
+
+  constructor() {
+    document.addEventListener('visibilitychange', () => { this.was ||= document.hidden; }, { signal: this.watching.signal });
+  }
+
+  end(): boolean {
+    this.watching.abort();
+    return this.was;
+  }
+}

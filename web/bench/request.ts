@@ -1,0 +1,105 @@
+// What is to be measured: as the form has it, and as the page's address carries it.
+//
+//   bench.html?scenes=soup.glb,models/fox.glb&set=hemisphere:8&size=1280x720,1920x1080&rounds=5&published=1&run=1
+//   bench.html?scenes=soup.glb&grid=1&copies=14&run=1
+
+import { ViewerError, type SceneSource } from '../viewer/types.js';
+
+export interface Size {
+  readonly width: number;
+  readonly height: number;
+}
+
+/** Where frames are looked at from. Of a path as many cameras as are asked for, evenly in time; of a
+ *  list the first ones. */
+export type CameraChoice =
+  | { readonly kind: 'hemisphere' | 'orbit'; readonly count: number }
+  | { readonly kind: 'file'; readonly count: number; readonly name: string; readonly text: string };
+
+export interface BenchRequest {
+  /** The same one may be there more than once. */
+  readonly scenes: readonly SceneSource[];
+  /** All of them at once, in one frame, instead of one after the other. */
+  readonly grid: boolean;
+  /** Of each scene, on a grid. */
+  readonly copies: number;
+  readonly cameras: CameraChoice;
+  readonly sizes: readonly Size[];
+  /** How often the cameras are gone through. */
+  readonly rounds: number;
+  /** Whether the published pipeline takes turns with ours; never on a grid. */
+  readonly published: boolean;
+}
+
+/** What a form has at first, where the address says nothing else. */
+export interface AddressRequest {
+  readonly scenes: readonly string[];
+  readonly grid: boolean;
+  readonly copies: number;
+  readonly set: { readonly kind: 'hemisphere' | 'orbit'; readonly count: number };
+  readonly sizes: readonly Size[];
+  readonly rounds: number;
+  readonly published: boolean;
+  /** Whether it begins at once. */
+  readonly run: boolean;
+}
+
+/** More would take hours where the processor draws. */
+export const most = { views: 1000, rounds: 1000, copies: 100, side: 16384 } as const;
+
+const usage = (sentence: string) => new ViewerError(sentence, 'usage');
+
+/** A whole number from 1 to `limit`. Throws ViewerError. */
+export function countOf(text: string, what: string, limit: number): number {
+  const value = Number(text);
+  if (!/^\d+$/.test(text.trim()) || value < 1 || value > limit)
+    throw usage(`“${text}” is no number of ${what}: it has to be 1 to ${limit}.`);
+  return value;
+}
+
+/** Of "1280x720, 1920x1080". Throws ViewerError. */
+export function sizesOf(text: string): Size[] {
+  return text.split(',').map((part) => part.trim()).filter(Boolean).map((part) => {
+    const sides = /^(\d+)\s*[x×]\s*(\d+)$/i.exec(part)?.slice(1).map(Number);
+    if (!sides?.every((side) => side >= 1 && side <= most.side))
+      throw usage(`“${part}” is no size: it has to be like 1280x720, with sides of 1 to ${most.side}.`);
+    return { width: sides[0]!, height: sides[1]! };
+  });
+}
+
+export const sizeKey = ({ width, height }: Size) => `${width}x${height}`;
+export const sizeText = ({ width, height }: Size) => `${width} × ${height}`;
+/** As results name it: "hemisphere:8". */
+export const setName = (cameras: CameraChoice) => `${cameras.kind === 'file' ? cameras.name : cameras.kind}:${cameras.count}`;
+
+/** Throws ViewerError. */
+export function readAddress(query: string): AddressRequest {
+  const given = new URLSearchParams(query);
+  const flag = (name: string) => given.has(name) && given.get(name) !== '0';
+  const [kind = '', count = '8'] = (given.get('set') ?? 'hemisphere').split(':');
+  if (kind !== 'hemisphere' && kind !== 'orbit')
+    throw usage(`“${kind}” is no set of cameras: there are hemisphere:8 and orbit:8, with any number.`);
+  return {
+    scenes: given.getAll('scenes').flatMap((list) => list.split(',')).filter(Boolean),
+    grid: flag('grid'),
+    copies: countOf(given.get('copies') ?? '1', 'copies', most.copies),
+    set: { kind, count: countOf(count, 'cameras', most.views) },
+    sizes: sizesOf(given.get('size') ?? ''),
+    rounds: countOf(given.get('rounds') ?? '5', 'rounds', most.rounds),
+    published: given.has('published') ? flag('published') : true,
+    run: flag('run'),
+  };
+}
+
+/** The query that asks for this; null where no address can: of files at hand, and cameras of a file. */
+export function writeAddress(request: BenchRequest): string | null {
+  const { scenes, grid, copies, cameras, sizes, rounds, published } = request;
+  const addresses = scenes.map((scene) => ('url' in scene ? scene.url : null));
+  if (cameras.kind === 'file' || addresses.some((address) => address === null)) return null;
+  const readable = (text: string) => encodeURIComponent(text).replace(/%2F/g, '/').replace(/%3A/g, ':');
+  return '?' + [
+    `scenes=${addresses.map((address) => readable(address!)).join(',')}`,
+    ...(grid ? ['grid=1', `copies=${copies}`] : [`published=${published ? 1 : 0}`]),
+    `set=${cameras.kind}:${cameras.count}`, `size=${sizes.map(sizeKey).join(',')}`, `rounds=${rounds}`,
+  ].join('&');
+}

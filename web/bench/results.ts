@@ -1,0 +1,89 @@
+// What was measured, for people: a sentence a scene, two tables, notes.
+
+import { block, fillSentences, make } from '../page/dom.js';
+import { bytesText, millisecondsText } from '../page/numbers.js';
+import type { EntrantResult } from './bench_engine.js';
+import { clockSentence } from './clock.js';
+import { leastSampleMs, type Measurement, type MeasuredScene } from './measure.js';
+import { sizeText } from './request.js';
+
+const percentText = (part: number) => `${(100 * part).toFixed(1)} %`;
+
+/** Of the smallest medians of a round, as `tureen bench` has its ratios; null where the difference
+ *  is none that the A/A spread leaves. */
+function ratio(entrant: EntrantResult, first: EntrantResult, { result }: Measurement): number | null {
+  const a = entrant.statistics.min_of_medians, b = first.statistics.min_of_medians;
+  return Math.abs(a - b) >= 2 * result.aa_spread * Math.min(a, b) ? a / b : null;
+}
+
+const counted = (count: number, what: string) => `${count} ${what}${count === 1 ? '' : 's'}`;
+
+const cell = (text: string) => make('td', {}, text);
+
+function head(table: HTMLElement, names: readonly (readonly [string, string])[]): void {
+  const cells = names.map(([name, meaning]) => make('th', { scope: 'col', title: meaning || null }, name));
+  table.append(make('thead', {}, make('tr', {}, ...cells)));
+}
+
+const timeColumns = [
+  ['Drawn by', ''], ['median', 'half of all samples take less'], ['p95', '95 of 100 samples take less'],
+  ['p99', '99 of 100 samples take less'], ['1 % low', 'frames a second at the pace of the slowest one in a hundred'],
+  ['ratio', 'of the rounds’ smallest medians, to the first one’s'], ['at rest', 'whether its times had settled before they counted'],
+] as const;
+
+function timesRow(entrant: EntrantResult, measurement: Measurement): HTMLElement {
+  const { statistics: ms, name, stable } = entrant, first = measurement.result.entrants[0]!;
+  const to = ratio(entrant, first, measurement);
+  return make('tr', {}, make('th', { scope: 'row' }, name), cell(millisecondsText(ms.median)),
+              cell(millisecondsText(ms.p95)), cell(millisecondsText(ms.p99)), cell(`${ms.low_1_percent_fps.toFixed(1)} fps`),
+              cell(entrant === first ? '1' : to === null ? 'equal' : to.toFixed(2)), cell(stable ? 'yes' : 'no'));
+}
+
+function timesGroup(scene: MeasuredScene, measurement: Measurement): HTMLElement {
+  const { result, cameraSet } = measurement, times = result.entrants[0]!.frame_ms;
+  const samples = `${counted(times[0]!.length, 'view')}, ${counted(times.length, 'round')}` +
+    (result.frames_per_sample > 1 ? ` of ${result.frames_per_sample} frames a view` : '');
+  const title = make('th', { scope: 'rowgroup', colspan: timeColumns.length }, `${scene.name}, ${sizeText(measurement)} `,
+                     make('small', {}, `${cameraSet}: ${samples}; A/A spread ${percentText(result.aa_spread)}`));
+  return make('tbody', {}, make('tr', {}, title), ...result.entrants.map((entrant) => timesRow(entrant, measurement)));
+}
+
+function memoryRow(scene: MeasuredScene, { name, device_bytes, plan_ms, upload_ms }: MeasuredScene['configurations'][number]) {
+  return make('tr', {}, make('th', { scope: 'row' }, `${scene.name}, ${name}`), cell(bytesText(device_bytes)),
+              cell(bytesText(scene.wasmBytes)), cell(millisecondsText(scene.readMs)),
+              cell(millisecondsText(plan_ms)), cell(millisecondsText(upload_ms)));
+}
+
+const memoryColumns = [
+  ['Scene', ''], ['on the device', 'buffers and textures'], ['WebAssembly', 'its memory, which never shrinks'],
+  ['reading', 'from the file’s bytes to the soup'], ['planning', 'what the device gets'], ['handing over', 'to the device'],
+] as const;
+
+/** "6.42 ms a frame at 1280 × 720, 3.1 times as fast as the published pipeline." */
+function summary(scene: MeasuredScene): HTMLElement[] {
+  return scene.measurements.map((measurement) => {
+    const [first, ...others] = measurement.result.entrants;
+    const published = others.find(({ name }) => name === 'published');
+    const to = published && ratio(published, first!, measurement);
+    const compared = !published ? '' : to === null ? ', as fast as the published pipeline' :
+      `, ${to!.toFixed(to! < 10 ? 1 : 0)} times as fast as the published pipeline`;
+    return make('p', {}, `${scene.name}: `, make('strong', {}, `${millisecondsText(first!.statistics.median)} a frame`),
+                ` at ${sizeText(measurement)}${compared}.`);
+  });
+}
+
+export function showResults(scenes: readonly MeasuredScene[]): void {
+  const times = block('times'), memory = block('memory');
+  for (const table of [times, memory]) table.replaceChildren(table.querySelector('caption')!);
+  head(times, timeColumns);
+  head(memory, memoryColumns);
+  times.append(...scenes.flatMap((scene) => scene.measurements.map((measurement) => timesGroup(scene, measurement))));
+  memory.append(make('tbody', {}, ...scenes.flatMap((scene) => scene.configurations.map((one) => memoryRow(scene, one)))));
+  block('summary').replaceChildren(...scenes.flatMap(summary));
+  const several = scenes.length > 1;
+  const notes = scenes.flatMap(({ name, notes }) => notes.map((note) => (several ? `${name}: ${note}` : note)));
+  fillSentences(block('notes'), notes);
+  block('notes-part').hidden = notes.length === 0;
+  block('clock').textContent = `Times are read from ${clockSentence(leastSampleMs())}.`;
+  block('results').hidden = false;
+}

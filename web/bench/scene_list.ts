@@ -1,0 +1,92 @@
+// The scenes that may be measured, with a box each: those of the gallery, of addresses, and files that
+// were picked or dropped.
+
+import { block, button, input, make } from '../page/dom.js';
+import { sourceOfDropped, sourceOfPicked } from '../page/files.js';
+import { readModels } from '../page/gallery.js';
+import { nameOf } from '../page/loading.js';
+import type { Messages } from '../page/messages.js';
+import { bytesText, trianglesText } from '../page/numbers.js';
+import type { SceneSource } from '../viewer/types.js';
+
+export class SceneList {
+  private readonly list = block('scenes');
+  private readonly rows: { source: SceneSource; box: HTMLInputElement }[] = [];
+
+  constructor(private readonly messages: Messages) {
+    button('add-address').addEventListener('click', () => this.addTyped());
+    input('address').addEventListener('keydown', (event) => {
+      if (event.key !== 'Enter') return;
+      event.preventDefault();  // which would measure
+      this.addTyped();
+    });
+    this.attachPicker('choose-files', 'files');
+    this.attachPicker('choose-folder', 'folder');
+    this.attachDrop();
+  }
+
+  /** Those of the address, or the gallery's, of which the first is chosen. */
+  async fill(addresses: readonly string[]): Promise<void> {
+    for (const address of addresses) this.add({ url: address });
+    for (const { name, url, triangles, bytes } of await readModels()) {
+      if (addresses.includes(url)) continue;
+      const facts = [triangles === null ? '' : trianglesText(triangles), bytes === null ? '' : bytesText(bytes)];
+      this.add({ url }, { name, facts: facts.filter(Boolean).join(' · '), chosen: this.rows.length === 0 });
+    }
+  }
+
+  get chosen(): readonly SceneSource[] {
+    return this.rows.filter(({ box }) => box.checked).map(({ source }) => source);
+  }
+
+  private add(source: SceneSource, { name = nameOf(source), facts = 'url' in source ? source.url : '', chosen = true } = {}): void {
+    const box = make('input', { type: 'checkbox' });
+    box.checked = chosen;
+    this.list.append(make('li', {}, make('label', { class: 'check' }, box,
+      make('span', {}, name, ...(facts && facts !== name ? [make('small', {}, facts)] : [])))));
+    this.rows.push({ source, box });
+  }
+
+  private addTyped(): void {
+    const field = input('address'), address = field.value.trim();
+    if (!address) return;
+    field.value = '';
+    this.add({ url: address });
+  }
+
+  private attachPicker(buttonId: string, inputId: string): void {
+    const picker = input(inputId);
+    button(buttonId).addEventListener('click', () => picker.click());
+    picker.addEventListener('change', () => {
+      const picked = picker.files;
+      if (picked?.length) void this.take(async () => sourceOfPicked(picked));
+      picker.value = '';  // so that the same file can be picked again
+    });
+  }
+
+  private attachDrop(): void {
+    const sign = block('drop-here');
+    const carriesFiles = (event: DragEvent) => event.dataTransfer?.types.includes('Files') ?? false;
+    window.addEventListener('dragover', (event) => {
+      if (!carriesFiles(event)) return;
+      event.preventDefault();
+      sign.hidden = false;
+    });
+    window.addEventListener('dragleave', (event) => { if (!event.relatedTarget) sign.hidden = true; });
+    window.addEventListener('drop', (event) => {
+      sign.hidden = true;
+      if (!carriesFiles(event)) return;
+      event.preventDefault();
+      const dropped = sourceOfDropped(event.dataTransfer!);  // gone after the event
+      void this.take(() => dropped);
+    });
+  }
+
+  private async take(read: () => Promise<SceneSource>): Promise<void> {
+    try {
+      this.add(await read());
+    } catch (error) {
+      this.messages.thrown(error);
+    }
+  }
+}
