@@ -9,19 +9,17 @@
 #include "runtime/inspector.hpp"
 #include "runtime/renderer.hpp"
 #include "support/contexts.hpp"
-#include "support/random_soups.hpp"
+#include "support/golden_scenes.hpp"
 
 namespace tureen::test {
 namespace {
 
 Image8 draw_golden(const gl::ContextRequest& request, Kind kind, RenderOptions options) {
   const gl::Context context = gl::Context::create(request);
-  const TriangleSoup soup = random_soup(2026, {.kind = kind, .faces = 150, .size = 0.25});
-  Random random(11);
-  const Camera camera = random_camera(random, 320, 240);
-  options.background = glm::vec4(0.95f, 0.95f, 0.9f, 1.0f);
-  Renderer renderer(context, soup, glm::dvec3(0.0), options);
-  renderer.draw(camera);
+  const Scene scene = golden_scene(kind);
+  options.background = glm::vec4(scene.info.background, 1.0f);
+  Renderer renderer(context, std::get<TriangleSoup>(scene.primitives), scene.origin, options);
+  renderer.draw(scene.cameras.at(0));
   return renderer.read_color();
 }
 
@@ -78,25 +76,24 @@ TEST(Golden, Example) {
   options.plan.reversed_depth = false;
   options.background = glm::vec4(scene.info.background, 1.0f);
   Renderer renderer(context, std::get<TriangleSoup>(scene.primitives), scene.origin, options);
-  renderer.draw(resized(scene.cameras.at(40), 320, 240));
+  renderer.draw(resized(scene.cameras.at(golden_example_camera), 320, 240));
   expect_golden(renderer.read_color(), "example");
 }
 
-// Each view of the example from near by, where lattices and edges can be told apart. Mistakes that
-// the tests against the oracle share would show here: colours that say nothing, lines that break.
+// Each view of the example from near by. Mistakes that the tests against the oracle share would
+// show here: colours that say nothing, lines that break.
 TEST(Golden, Inspections) {
-  const Scene scene = read_scene(std::string(TUREEN_SOURCE_DIR) + "/examples/soup.glb");
-  Camera camera = resized(scene.cameras.at(40), 160, 120);
-  camera.fx *= 6;
-  camera.fy *= 6;
+  const Scene scene =
+      golden_inspection_scene(read_scene(std::string(TUREEN_SOURCE_DIR) + "/examples/soup.glb"));
   for (const NamedContext& named : every_context) {
     const gl::Context context = gl::Context::create(named.request);
-    Inspector inspector(context, std::get<TriangleSoup>(scene.primitives), scene.origin,
-                        {.reversed_depth = false, .background = glm::vec4(0, 0, 0, 1)});
+    Inspector inspector(
+        context, std::get<TriangleSoup>(scene.primitives), scene.origin,
+        {.reversed_depth = false, .background = glm::vec4(scene.info.background, 1.0f)});
     const bool is_reference = named.request.backend == gl::Backend::osmesa;
     for (const InspectionName& name : inspection_names()) {
       inspector.show(name.what, {4, 3});
-      inspector.draw(camera);
+      inspector.draw(scene.cameras.at(0));
       expect_golden(inspector.read_color(), std::string("inspection_") + name.name,
                     is_reference ? "" : named.name);
     }

@@ -20,20 +20,8 @@ export class TimesSection {
       this.update();
     });
     viewer.on('frame', () => this.updateSoon());
-    viewer.on('scene', () => {
-      this.leadToBench();
-      this.update();
-    });
-    this.leadToBench();
+    viewer.on('scene', () => this.update());
     this.update();
-  }
-
-  /** The bench lies beside the page: not beside a page that is one file. It begins with the scene, where
-   *  that has an address. */
-  private leadToBench(): void {
-    const scene = new URLSearchParams(location.search).get('scene');
-    block('measure-line').hidden = location.protocol === 'file:';
-    block('measure').setAttribute('href', 'bench.html' + (scene ? `?${new URLSearchParams({ scenes: scene })}` : ''));
   }
 
   private updateSoon(): void {

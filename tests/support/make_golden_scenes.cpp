@@ -1,0 +1,47 @@
+// make_golden_scenes EXAMPLE OUT: writes the scenes of support/golden_scenes.hpp into the folder
+// OUT, for who draws them with another program: NAME.glb for tests/golden/NAME.png,
+// alpha_to_coverage.glb with its preset, inspections.glb, and one soup as a DiffSoup export, in the
+// folder diffsoup.
+#include <cstdio>
+#include <filesystem>
+
+#include "formats/scene_file.hpp"
+#include "soup/error.hpp"
+#include "support/golden_scenes.hpp"
+
+namespace tureen::test {
+namespace {
+
+void write_all(const std::filesystem::path& example, const std::filesystem::path& folder) {
+  for (const Kind kind : all_kinds)
+    write_scene(golden_scene(kind), folder / (to_string(kind) + ".glb"));
+
+  Scene coverage = golden_scene(Kind::uv_textures);
+  coverage.preset = {.alpha_to_coverage = 4};
+  write_scene(coverage, folder / "alpha_to_coverage.glb");
+
+  write_scene(golden_inspection_scene(read_scene(example)), folder / "inspections.glb");
+
+  // An export has one lattice level.
+  Scene exported = golden_scene(Kind::lattice_mlp);
+  exported.primitives =
+      random_soup(2026, {.kind = Kind::lattice_mlp, .faces = 150, .size = 0.25, .level = 4});
+  write_scene(exported, folder / "diffsoup");
+}
+
+}  // namespace
+}  // namespace tureen::test
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fprintf(stderr, "usage: make_golden_scenes EXAMPLE OUT\n");
+    return 2;
+  }
+  try {
+    tureen::test::write_all(argv[1], argv[2]);
+  } catch (const tureen::Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 5;
+  }
+  return 0;
+}

@@ -1,0 +1,94 @@
+// axe-core finds nothing to object to, wherever a person may get, in light and dark, wide and on a phone;
+// and what it cannot see: that everything is done with the keyboard alone.
+
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { errorShown, sceneShown, source, stage, view, viewChanged } from './support.mjs';
+
+const axe = readFileSync(join(source, 'web/node_modules/axe-core/axe.min.js'), 'utf8');
+const { visit } = await stage();
+
+async function assertAccessible(page, where) {
+  await page.evaluate(`${axe}; 0`);  // not as a script of the page, which its policy forbids
+  const violations = await page.evaluate(async () => (await window.axe.run()).violations.map(({ id, help, nodes }) =>
+    `${id}: ${help}: ${nodes.map(({ html, failureSummary }) => `${html} ${failureSummary}`).join('; ')}`));
+  assert.deepEqual(violations, [], where);
+}
+
+/** The parts of the page that a person may get to, one after the other. */
+async function walk(page) {
+  await page.locator('#gallery-list button').waitFor();
+  await assertAccessible(page, 'the start');
+  await page.click('#gallery-list button');
+  await sceneShown(page, 'soup');
+  await assertAccessible(page, 'a scene');
+  if (await page.isHidden('#panel')) await page.click('#toggle-panel');
+  await page.evaluate(() => { for (const section of document.querySelectorAll('details')) section.open = true; });
+  await page.selectOption('#look', 'depth');
+  await page.locator('#legend').waitFor();
+  await page.fill('#view-name', 'mine');
+  await page.press('#view-name', 'Enter');
+  await assertAccessible(page, 'the panel, all of it, with a legend and a notice');
+  await page.click('#toggle-panel');
+  await page.click('#open-help');
+  await assertAccessible(page, 'the help');
+  await page.keyboard.press('Escape');
+  await page.setInputFiles('#files', { name: 'bad.glb', mimeType: 'model/gltf-binary', buffer: Buffer.from('glTF, or not') });
+  await errorShown(page);
+  await page.click('#open-start');
+  await assertAccessible(page, 'an error, and the start over a scene');
+}
+
+const phone = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
+for (const colorScheme of ['light', 'dark']) {
+  test(`${colorScheme}`, () => visit('', walk, { colorScheme, viewport: { width: 1100, height: 700 } }));
+  test(`${colorScheme}, on a phone`, () => visit('', walk, { colorScheme, ...phone }));
+}
+
+test('in a frame', () => visit('?embed', async (page) => {
+  await assertAccessible(page, 'embedded');
+}));
+
+test('a scene is opened, looked at and left with the keyboard alone', () => visit('', async (page) => {
+  const focused = () => page.evaluate(() => document.activeElement.id || document.activeElement.className);
+  const tabTo = async (wanted) => {
+    for (let i = 0; i < 60; ++i) {
+      if (await focused() === wanted) return;
+      await page.keyboard.press('Tab');
+    }
+    assert.fail(`Tab does not get to ${wanted}`);
+  };
+  await page.locator('#gallery-list button').waitFor();
+  await tabTo('card');
+  await page.keyboard.press('Enter');
+  await sceneShown(page, 'soup');
+  await tabTo('canvas');
+  const before = await view(page);
+  await page.keyboard.press('ArrowLeft');
+  await viewChanged(page, before);
+  await tabTo('frame');
+  await page.keyboard.press('Shift+?');
+  await page.locator('dialog[open]').waitFor();
+  await page.keyboard.press('Escape');
+  assert.equal(await focused(), 'frame', 'the focus is back where it was');
+  await page.keyboard.press('o');
+  assert.equal(await focused(), 'start-title');
+  await page.keyboard.press('Escape');
+  assert.ok(await page.isHidden('#start'));
+}));
+
+test('less motion, for who asks for it', () => visit('?scene=soup.glb', async (page) => {
+  await sceneShown(page, 'soup');
+  const before = await view(page);
+  const frames = await page.evaluate(() => new Promise((resolve) => {
+    const seen = new Set();
+    const until = performance.now() + 1000;
+    const look = () => { seen.add(location.hash); if (performance.now() < until) requestAnimationFrame(look); else resolve(seen.size); };
+    document.querySelector('#named-views button').click();
+    look();
+  }));
+  assert.ok(frames <= 2, 'the view is there at once');
+  assert.notEqual((await view(page)).hash, before.hash);
+}, { reducedMotion: 'reduce' }));

@@ -1,0 +1,135 @@
+// The page in the frame of somebody else's page, which speaks to it by messages; and the examples.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { sceneShown, stage } from './support.mjs';
+
+const embedder = `<!doctype html><html lang="en"><title>Embedder</title><link rel="icon" href="data:,">
+<iframe id="frame" title="A scene" style="width: 480px; height: 320px; border: 0"></iframe>
+<script>
+  const frame = document.getElementById('frame'), waiting = new Map(), heard = [];
+  let last = 0;
+  /** The answer, or the error as it came. */
+  function call(name, ...given) {
+    return new Promise((resolve) => {
+      waiting.set(++last, resolve);
+      frame.contentWindow.postMessage({ tureen: 1, id: last, call: name, arguments: given }, '*');
+    });
+  }
+  addEventListener('message', ({ source, data }) => {
+    if (source !== frame.contentWindow || data?.tureen !== 1) return;
+    if (data.event) heard.push(data);
+    else waiting.get(data.id)(data.error ? { error: data.error } : data.result);
+  });
+  const ready = () => new Promise((resolve) => {
+    const look = setInterval(() => { if (heard.some(({ event }) => event === 'ready')) resolve(clearInterval(look)); }, 50);
+  });
+</script>`;
+const { visit, server } = await stage({
+  routes: { '/embedder.html': (request, response) => response.writeHead(200, { 'content-type': 'text/html' }).end(embedder) },
+});
+
+/** Another origin of the same server: localhost by its number. */
+const elsewhere = server.address.replace('localhost', '127.0.0.1');
+const framed = (query, body, address = '/embedder.html') => () => visit(address, async (page) => {
+  await page.evaluate((source) => { frame.src = source; }, `${server.address}index.html?embed${query}`);
+  await page.evaluate(() => ready());
+  await body(page);
+}, { friends: [elsewhere] });
+
+/** Calls the framed page. */
+const call = (page, ...given) => page.evaluate((what) => window.call(...what), given);
+/** Until the framed page shows a scene, whole. */
+const framedScene = (page) => page.waitForFunction(async () => await window.call('scene') !== null);
+
+test('a scene, views and a picture, by calls', framed('', async (page) => {
+  const summary = await call(page, 'load', { url: 'soup.glb' });
+  assert.equal(summary.triangles, 7000);
+  assert.equal((await call(page, 'scene')).name, 'soup');
+  const pose = { eye: [3, -4, 2], target: [0, 0, 0.5], up: [0, 0, 1], fov: 0.6, roll: 0 };
+  await call(page, 'setView', pose);
+  const now = await call(page, 'getView');
+  for (const part of ['eye', 'target', 'up'])
+    now[part].forEach((value, axis) => assert.ok(Math.abs(value - pose[part][axis]) < 1e-9, `${part}: ${now[part]}`));
+  const size = await page.evaluate(async () => {
+    const picture = await createImageBitmap(await window.call('screenshot', { width: 64, height: 48 }));
+    return [picture.width, picture.height];
+  });
+  assert.deepEqual(size, [64, 48]);
+  await call(page, 'show', 'depth');
+  assert.ok((await call(page, 'legend')).length > 0);
+  assert.equal((await call(page, 'stats')).width, 480);
+  await call(page, 'clear');
+  assert.equal(await call(page, 'scene'), null);
+}));
+
+test('events that are subscribed to, until they are not', framed('&scene=soup.glb', async (page) => {
+  await call(page, 'subscribe', 'view');
+  const count = () => page.evaluate(() => heard.filter(({ event }) => event === 'view').length);
+  await framedScene(page);
+  await call(page, 'orbit', 40, 0);
+  await page.waitForFunction(() => heard.some(({ event, data }) => event === 'view' && data.eye.length === 3));
+  await call(page, 'unsubscribe', 'view');
+  const before = await count();
+  await call(page, 'orbit', 40, 0);
+  await page.waitForTimeout(500);
+  assert.equal(await count(), before);
+}));
+
+test('only the picture is there', framed('&scene=soup.glb', async (page) => {
+  const inside = page.frameLocator('#frame');
+  await framedScene(page);
+  for (const part of ['header', '#panel', '#start']) assert.ok(await inside.locator(part).isHidden(), part);
+  assert.deepEqual(await inside.locator('#canvas').evaluate(({ clientWidth, clientHeight }) => [clientWidth, clientHeight]), [480, 320]);
+}));
+
+test('what is wrong is answered by a sentence and its kind', framed('', async (page) => {
+  const wrong = [
+    [['explode'], /no call named “explode”/, 'usage'],
+    [['load', { url: 'nowhere.glb' }], /404/, 'network'],
+    [['load', { url: 'javascript:alert(1)' }], /http and https/, 'usage'],
+    [['load', 7], /A scene is/, 'usage'],
+    [['setView', { eye: [1, 2] }], /A view has eye, target and up/, 'usage'],
+    [['setBackground', 'red'], /not three numbers/, 'usage'],
+    [['showCamera', 3], /cameras/, 'usage'],
+    [['subscribe', 'everything'], /none of/, 'usage'],
+  ];
+  for (const [what, sentence, kind] of wrong) {
+    const { error } = await call(page, ...what);
+    assert.match(error.message, sentence);
+    assert.equal(error.kind, kind, error.message);
+  }
+  // What is no call at all is not answered, and harms nothing.
+  await page.evaluate(() => {
+    for (const message of [null, 7, 'call', { tureen: 2, id: 1, call: 'clear' }, { tureen: 1, call: 'clear' }, { tureen: 1, id: {}, call: 'clear' }])
+      frame.contentWindow.postMessage(message, '*');
+  });
+  assert.equal((await call(page, 'load', { url: 'soup.glb' })).triangles, 7000);
+}));
+
+test('a page of another origin', framed('', async (page) => {
+  assert.equal((await call(page, 'load', { url: 'soup.glb' })).name, 'soup');
+}, `${elsewhere}embedder.html`));
+
+test('only the origins that the address names are answered', framed(`&origin=https://a.example`, async (page) => {
+  const answer = await page.evaluate(() => Promise.race([window.call('scene'), new Promise((resolve) => setTimeout(resolve, 1000, 'silence'))]));
+  assert.equal(answer, 'silence');
+}));
+
+test('an origin that is named is answered', framed(`&origin=${server.address.slice(0, -1)}`, async (page) => {
+  assert.equal(await call(page, 'scene'), null);
+}));
+
+test('the example of a frame', () => visit('examples/embed.html', async (page) => {
+  await page.locator('#status', { hasText: 'The frame answers' }).waitFor();
+  await page.frameLocator('iframe').locator('body:not(.empty)').waitFor();
+  await page.click('#where');
+  await page.locator('#status', { hasText: 'The eye is at' }).waitFor();
+  await page.click('#picture');
+  await page.locator('#pictures img').waitFor();
+}));
+
+test('the example of a viewer', () => visit('examples/viewer.html', async (page) => {
+  await page.locator('#status', { hasText: '7,000 triangles' }).waitFor();
+  await page.click('#corner');
+}));

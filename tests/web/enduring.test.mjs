@@ -1,0 +1,209 @@
+// What happens to a page that stays open: scenes come and go, the device is lost, the network ends, the
+// tab is hidden, windows change their size.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { distance, errorShown, middle, noticeShown, often, picture, programs, sceneShown, scratch, source, stage, view, viewChanged } from './support.mjs';
+
+const folder = scratch(), other = join(folder, 'UvTexturesMlp.glb');
+execFileSync(join(programs, 'make_golden_scenes'), [join(source, 'examples/soup.glb'), folder]);
+const { visit } = await stage({
+  routes: { '/UvTexturesMlp.glb': (request, response) => response.writeHead(200).end(readFileSync(other)) },
+});
+
+/** Counts what is there of WebGL and WebAssembly: runs in the page before its scripts. */
+function keepCount() {
+  window.counted = { objects: 0, memories: new Set() };
+  const gl = WebGL2RenderingContext.prototype;
+  for (const kind of ['Buffer', 'Framebuffer', 'Program', 'Renderbuffer', 'Shader', 'Texture', 'VertexArray']) {
+    const [create, remove] = [gl[`create${kind}`], gl[`delete${kind}`]];
+    const living = new Set();
+    gl[`create${kind}`] = function (...given) {
+      const made = create.apply(this, given);
+      living.add(made);
+      counted.objects++;
+      return made;
+    };
+    gl[`delete${kind}`] = function (what) {
+      if (living.delete(what)) counted.objects--;
+      return remove.call(this, what);
+    };
+  }
+  const instantiate = WebAssembly.instantiate;
+  WebAssembly.instantiate = async (...given) => {
+    const instance = await instantiate(...given);
+    for (const part of Object.values(instance.exports))
+      if (part instanceof WebAssembly.Memory) counted.memories.add(part);
+    return instance;
+  };
+}
+
+/** After a collection of garbage. */
+async function measure(page, client) {
+  await client.send('HeapProfiler.collectGarbage');
+  const { usedSize } = await client.send('Runtime.getHeapUsage');
+  const { metrics } = await client.send('Performance.getMetrics');
+  const metric = (name) => metrics.find((one) => one.name === name).value;
+  const { objects, wasm } = await page.evaluate(() => ({
+    objects: counted.objects, wasm: [...counted.memories].reduce((sum, memory) => sum + memory.buffer.byteLength, 0),
+  }));
+  return { heap: usedSize, nodes: metric('Nodes'), listeners: metric('JSEventListeners'), objects, wasm, workers: page.workers().length };
+}
+
+test('fifty scenes one after the other leave nothing behind', () => visit('', async (page, profile) => {
+  await profile.addInitScript(keepCount);
+  await page.reload();
+  const client = await profile.newCDPSession(page);
+  await client.send('Performance.enable');
+  const open = async (name) => {
+    await page.evaluate(() => { if (document.getElementById('start').hidden) document.getElementById('open-start').click(); });
+    await page.fill('#address', `${name}.glb`);
+    await page.press('#address', 'Enter');
+    await sceneShown(page, name);
+  };
+  const both = async (times) => {
+    for (let i = 0; i < times; ++i) {
+      await open('UvTexturesMlp');
+      await open('soup');
+    }
+    return measure(page, client);
+  };
+  const before = await both(3), after = await both(22);
+  console.log('after 6 scenes', before, 'after 50', after);
+  assert.equal(after.wasm, before.wasm, 'bytes of WebAssembly');
+  assert.equal(after.objects, before.objects, 'objects of WebGL');
+  assert.equal(after.workers, 0, 'workers');
+  // The history of the tab has an entry a scene, and V8 keeps some profiles: tens of kilobytes. One of
+  // these scenes is two megabytes.
+  assert.ok(after.heap - before.heap < 1_000_000, `JavaScript's heap: ${before.heap} and ${after.heap} bytes`);
+  assert.ok(after.nodes - before.nodes < 100, `elements: ${before.nodes} and ${after.nodes}`);
+  assert.equal(after.listeners, before.listeners, 'listeners');
+}));
+
+test('the device is lost and comes back, with scene, view and look', () => visit('?scene=soup.glb', async (page) => {
+  await sceneShown(page, 'soup');
+  const first = await view(page);
+  await page.keyboard.press('2');
+  const before = await viewChanged(page, first), shown = await picture(page);
+  await page.evaluate(() => {
+    window.loss = document.getElementById('canvas').getContext('webgl2').getExtension('WEBGL_lose_context');
+    loss.loseContext();
+  });
+  assert.match(await errorShown(page), /took the graphics device away/);
+  await page.mouse.wheel(0, 100);  // what cannot be drawn is no error
+  await page.keyboard.press('ArrowLeft');
+  await page.evaluate(() => loss.restoreContext());
+  await noticeShown(page, 'graphics device is back');
+  await sceneShown(page, 'soup');
+  const after = await view(page);
+  assert.ok(distance(after.eye, before.eye) < 1e-3, 'the same view');
+  assert.ok(shown.equals(await picture(page)), 'the same picture');
+}));
+
+test('the device is lost while a scene is on its way', () => visit('', async (page) => {
+  await page.evaluate(() => {
+    window.loss = document.getElementById('canvas').getContext('webgl2').getExtension('WEBGL_lose_context');
+  });
+  await page.fill('#address', 'soup.glb');
+  await page.press('#address', 'Enter');
+  await page.evaluate(() => loss.loseContext());
+  assert.match(await errorShown(page), /took the graphics device away/);
+  await page.evaluate(() => loss.restoreContext());
+  await noticeShown(page, 'graphics device is back');
+  await page.fill('#address', 'soup.glb');
+  await page.press('#address', 'Enter');
+  await sceneShown(page, 'soup');
+}));
+
+test('without a network the page goes on', () => visit('?scene=soup.glb', async (page, profile) => {
+  await sceneShown(page, 'soup');
+  const before = await view(page);
+  await profile.setOffline(true);
+  await page.keyboard.press('3');
+  await viewChanged(page, before);
+  await page.setInputFiles('#files', other);
+  await sceneShown(page, 'UvTexturesMlp');
+  await page.keyboard.press('o');
+  await page.fill('#address', 'soup.glb');
+  await page.press('#address', 'Enter');
+  assert.match(await errorShown(page), /there is no network/);
+  assert.equal(await page.textContent('#scene-title'), 'UvTexturesMlp');
+  await profile.setOffline(false);
+}, { expected: [/ERR_INTERNET_DISCONNECTED/] }));
+
+/** Hides and shows the page as a browser does, which a browser under test never does: no animation
+ *  frames while it is hidden, and an event each time. Runs in the page before its scripts. */
+function mayBeHidden() {
+  let hidden = false, waiting = [];
+  const frame = window.requestAnimationFrame.bind(window);
+  window.requestAnimationFrame = (callback) => frame((now) => { if (hidden) waiting.push(callback); else callback(now); });
+  Object.defineProperty(document, 'visibilityState', { get: () => (hidden ? 'hidden' : 'visible') });
+  Object.defineProperty(document, 'hidden', { get: () => hidden });
+  window.hide = (now) => {
+    hidden = now;
+    document.dispatchEvent(new Event('visibilitychange'));
+    if (!hidden) for (const callback of waiting.splice(0)) window.requestAnimationFrame(callback);
+  };
+}
+
+test('a hidden tab moves nothing, opens scenes, and shows them when it is seen', () => visit('', async (page, profile) => {
+  await profile.addInitScript(mayBeHidden);
+  await page.goto(new URL('?scene=soup.glb', page.url()).href);
+  await sceneShown(page, 'soup');
+  const before = await view(page);
+  await page.evaluate(() => hide(true));
+  await page.evaluate(() => document.querySelector('#named-views button').click());
+  await page.waitForTimeout(700);
+  assert.equal(await page.evaluate(() => location.hash), before.hash, 'nothing moves');
+  await page.evaluate(() => hide(false));
+  assert.ok(distance((await viewChanged(page, before)).eye, before.eye) > 0.1, 'it moves when it is seen');
+
+  const shown = await picture(page);
+  await page.evaluate(() => hide(true));
+  await page.setInputFiles('#files', other);
+  await sceneShown(page, 'UvTexturesMlp');
+  await page.evaluate(() => hide(false));
+  await page.waitForTimeout(500);
+  assert.ok(!shown.equals(await picture(page)), 'the other scene is drawn');
+}));
+
+/** The canvas has as many pixels as the screen has under it. */
+async function assertSharp(page, ratio) {
+  await page.waitForFunction((dots) => {
+    const canvas = document.getElementById('canvas');
+    return devicePixelRatio === dots && canvas.clientWidth > 0 &&
+      canvas.width === Math.round(canvas.clientWidth * dots) && canvas.height === Math.round(canvas.clientHeight * dots);
+  }, ratio, often);
+}
+
+for (const ratio of [1, 1.5, 2]) {
+  test(`${ratio} device pixels a CSS pixel, in windows of any size`, () => visit('?scene=soup.glb', async (page) => {
+    await sceneShown(page, 'soup');
+    await assertSharp(page, ratio);
+    for (const [width, height] of [[500, 700], [333, 251], [900, 420]]) {
+      await page.setViewportSize({ width, height });
+      await assertSharp(page, ratio);
+    }
+    await page.keyboard.press('h');  // the panel makes room
+    await assertSharp(page, ratio);
+    const { x, y } = await middle(page);
+    const before = await view(page);
+    await page.mouse.dblclick(x, y);  // what is in the middle stays there, whatever a pixel is
+    await page.waitForTimeout(500);
+    const after = await view(page);
+    const way = after.target.map((value, axis) => value - before.eye[axis]);
+    const ahead = before.target.map((value, axis) => value - before.eye[axis]);
+    const cosine = way.reduce((sum, value, axis) => sum + value * ahead[axis], 0) / Math.hypot(...way) / Math.hypot(...ahead);
+    assert.ok(cosine > 0.9999, `the middle is the middle: ${cosine}`);
+  }, { deviceScaleFactor: ratio }));
+}
+
+test('a phone that is turned', () => visit('?scene=soup.glb', async (page) => {
+  await sceneShown(page, 'soup');
+  await page.setViewportSize({ width: 844, height: 390 });
+  await assertSharp(page, 3);
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), true, 'nothing sticks out');
+}, { viewport: { width: 390, height: 844 }, deviceScaleFactor: 3, hasTouch: true, isMobile: true }));

@@ -1,0 +1,102 @@
+// Bad files and bad servers: a sentence in the page, and the page goes on.
+
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { errors, errorShown, picture, sceneShown, source, stage } from './support.mjs';
+
+const example = readFileSync(join(source, 'examples/soup.glb'));
+const answer = (bytes, type = 'model/gltf-binary') => (request, response) =>
+  response.writeHead(200, { 'content-type': type, 'content-length': bytes.length }).end(bytes);
+const damaged = (at, value) => {
+  const copy = Buffer.from(example);
+  copy.writeUInt32LE(value, at);
+  return copy;
+};
+/** Noise of a fixed seed. */
+const garbage = Buffer.from(Uint32Array.from({ length: 5000 }, (_, i) => Math.imul(i + 1, 2654435761) ^ (i << 7)).buffer);
+
+const { visit, server } = await stage({ routes: {
+  '/cut-off.glb': answer(example.subarray(0, example.length - 1000)),
+  '/beginning.glb': answer(example.subarray(0, 10)),
+  '/empty.glb': answer(Buffer.alloc(0)),
+  '/garbage.glb': answer(garbage),
+  '/page.glb': answer(Buffer.from('<!doctype html><title>Not found</title>'), 'text/html'),
+  '/long-json.glb': answer(damaged(12, 0xfffffff0)),
+  '/counts.off': answer(Buffer.from('OFF\n4000000000 4000000000 0\n0 0 0\n')),
+  '/breaks-off.glb': (request, response) => {
+    response.writeHead(200, { 'content-length': example.length });
+    response.write(example.subarray(0, 300_000), () => setTimeout(() => response.destroy(), 200));
+  },
+  '/refused.glb': (request, response) => response.writeHead(403).end(),
+} });
+
+/** What is said of each, whole: the file, the place and the reason. Servers' refusals are in the
+ *  console, too. */
+const cases = [
+  ['cut-off.glb', 'cut-off.glb: byte 8: the file is cut short: its header says 2227760 bytes, it has 2226760'],
+  ['beginning.glb', 'beginning.glb: byte 8: the GLB header cut short: 4 bytes expected, 2 bytes left'],
+  ['empty.glb', /^empty\.glb: byte 0: ./],
+  ['garbage.glb', /^garbage\.glb: byte 0: ./],
+  ['page.glb', /^page\.glb: byte 0: ./],
+  ['long-json.glb', 'long-json.glb: byte 12: a GLB chunk of 4294967280 bytes, but 2227740 are left'],
+  ['counts.off', 'counts.off:2: 4000000000 vertices and 4000000000 faces do not fit into the 7 bytes that follow'],
+  ['breaks-off.glb', /breaks-off\.glb broke off after [\d,]+ bytes\.$/, /ERR_CONTENT_LENGTH_MISMATCH|ERR_CONNECTION/],
+  ['nowhere.glb', /nowhere\.glb cannot be had: the server answers 404 Not Found\.$/, /404/],
+  ['refused.glb', /refused\.glb cannot be had: the server answers 403 Forbidden\.$/, /403/],
+  ['ftp://example.org/soup.glb', 'Scenes are fetched by http and https, not by ftp.'],
+];
+
+for (const [address, sentence, complaint] of cases) {
+  test(`${address}, and then a good one`, () => visit(`?scene=${address}`, async (page) => {
+    const said = await errorShown(page);
+    if (typeof sentence === 'string') assert.equal(said, sentence);
+    else assert.match(said, sentence);
+    assert.ok(await page.isVisible('#start'), 'another can be opened');
+    await page.click('#gallery-list button');
+    await sceneShown(page, 'soup');
+    assert.deepEqual(await errors(page), [], 'the sentence is gone');
+  }, { expected: complaint ? [complaint] : [] }));
+}
+
+test('a bad one leaves the scene that is shown', () => visit('?scene=soup.glb', async (page) => {
+  await sceneShown(page, 'soup');
+  const before = await picture(page);
+  await page.setInputFiles('#files', { name: 'garbage.glb', mimeType: 'model/gltf-binary', buffer: garbage });
+  assert.match(await errorShown(page), /garbage\.glb/);
+  assert.equal(await page.textContent('#scene-title'), 'soup');
+  await page.click('#errors button');
+  assert.deepEqual(await errors(page), []);
+  assert.ok(before.equals(await picture(page)), 'the picture is what it was');
+}));
+
+test('files that are no scene', () => visit('', async (page) => {
+  const files = {
+    'notes.txt': Buffer.from('Dear diary\n'), 'picture.png': readFileSync(join(source, 'docs/images/example.png')),
+    'model.pt': Buffer.concat([Buffer.from('PK\x03\x04'), garbage]),
+    'loop.gltf': Buffer.from('{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"children": [0]}]}'),
+    '<img src=x onerror=alert(1)>.glb': garbage,
+  };
+  for (const [name, buffer] of Object.entries(files)) {
+    await page.setInputFiles('#files', { name, mimeType: 'application/octet-stream', buffer });
+    await page.locator('#errors .message p', { hasText: name }).waitFor();
+    assert.equal((await errors(page)).length, 1, 'one sentence for each');
+  }
+  assert.equal(await page.locator('#errors img').count(), 0, 'names are text');
+  await page.setInputFiles('#files', join(source, 'examples/soup.glb'));
+  await sceneShown(page, 'soup');
+}));
+
+test('a scene of which nothing can be drawn is background', () => visit('', async (page) => {
+  const off = Buffer.from('OFF\n3 1 0\nnan nan nan\n0 1 0\n1 0 0\n3 0 1 2\n');
+  await page.setInputFiles('#files', { name: 'nan.off', mimeType: 'text/plain', buffer: off });
+  await sceneShown(page, 'nan');
+  assert.match(await page.textContent('#plan'), /corners that are not finite/);
+}));
+
+test('no file outside of the site is served', async () => {
+  for (const path of ['..%2f..%2f..%2fCMakeLists.txt', '%2e%2e/%2e%2e/CMakeLists.txt', '%00', '%', 'examples/../../scene_template.html', 'nothing'])
+    assert.equal((await fetch(server.address + path)).status, 404, path);
+  assert.equal((await fetch(server.address, { method: 'POST' })).status, 405);
+});

@@ -1,0 +1,189 @@
+// Looking around with a mouse, keys and fingers, as far as the camera in the page's address tells.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { distance, length, middle, minus, picture, sceneShown, stage, view, viewChanged } from './support.mjs';
+
+const { visit } = await stage();
+
+/** A visit to the example at rest; `act` gets the page, the view and the canvas's middle. */
+const looking = (act, context) => () => visit('?scene=soup.glb', async (page) => {
+  await sceneShown(page, 'soup');
+  await act(page, await view(page), await middle(page));
+}, context);
+
+async function drag(page, { x, y }, dx, dy, options = {}) {
+  await page.mouse.move(x, y);
+  await page.mouse.down(options);
+  await page.mouse.move(x + dx, y + dy, { steps: 5 });
+  await page.mouse.up(options);
+}
+
+const reach = ({ eye, target }) => distance(eye, target);
+/** Numbers in an address have five decimals. */
+const near = (a, b, what) => assert.ok(distance(a, b) < 1e-3, `${what}: ${a} and ${b}`);
+
+function assertTurned(before, after) {
+  near(before.target, after.target, 'the target stays');
+  assert.ok(Math.abs(reach(after) - reach(before)) < 1e-3, 'the distance stays');
+  assert.ok(distance(before.eye, after.eye) > 0.02, 'the eye moves');
+}
+
+function assertMovedAlong(before, after) {
+  near(minus(after.eye, before.eye), minus(after.target, before.target), 'eye and target move alike');
+  assert.ok(distance(before.target, after.target) > 0.02, 'they move');
+}
+
+test('a drag turns the scene', looking(async (page, before, at) => {
+  await drag(page, at, 80, 20);
+  assertTurned(before, await viewChanged(page, before));
+}));
+
+test('right drag and Shift drag move the scene along', looking(async (page, before, at) => {
+  await drag(page, at, 60, 0, { button: 'right' });
+  const moved = await viewChanged(page, before);
+  assertMovedAlong(before, moved);
+  await page.keyboard.down('Shift');
+  await drag(page, at, 0, 60);
+  await page.keyboard.up('Shift');
+  assertMovedAlong(moved, await viewChanged(page, moved));
+}));
+
+test('the wheel goes nearer and farther, towards the pointer', looking(async (page, before, { x, y, box }) => {
+  await page.mouse.move(x, y);
+  await page.mouse.wheel(0, -300);
+  const nearer = await viewChanged(page, before);
+  assert.ok(Math.abs(reach(nearer) / reach(before) - 0.9 ** 3) < 1e-3, `three steps of a tenth: ${reach(nearer) / reach(before)}`);
+  near(nearer.target, before.target, 'from the middle the target stays');
+  await page.mouse.wheel(0, 300);
+  const back = await viewChanged(page, nearer);
+  near(back.eye, before.eye, 'back where it was');
+  await page.mouse.move(box.x + 10, y);
+  await page.mouse.wheel(0, -300);
+  const aside = await viewChanged(page, back);
+  assert.ok(distance(aside.target, before.target) > 0.1, 'beside the middle the target moves');
+}));
+
+test('a double click brings a point to the centre', looking(async (page, before, { x, y }) => {
+  await page.mouse.dblclick(x - 40, y + 10);
+  const after = await viewChanged(page, before);
+  assert.ok(distance(after.target, before.target) > 0.05, 'another target');
+}));
+
+test('keys on the picture', looking(async (page, before) => {
+  await page.focus('#canvas');
+  await page.keyboard.press('ArrowRight');
+  const turned = await viewChanged(page, before);
+  assertTurned(before, turned);
+  await page.keyboard.press('Shift+ArrowUp');
+  const moved = await viewChanged(page, turned);
+  assertMovedAlong(turned, moved);
+  await page.keyboard.press('+');
+  const nearer = await viewChanged(page, moved);
+  assert.ok(reach(nearer) < reach(moved), 'plus is nearer');
+  await page.keyboard.press('-');
+  assert.ok(reach(await viewChanged(page, nearer)) > reach(nearer), 'minus is farther');
+}));
+
+test('keys that fly, for as long as they are held', looking(async (page, before) => {
+  await page.focus('#canvas');
+  await page.keyboard.down('w');
+  await page.waitForTimeout(500);
+  await page.keyboard.up('w');
+  const after = await viewChanged(page, before);
+  const ahead = minus(before.target, before.eye), way = minus(after.eye, before.eye);
+  const along = way.reduce((sum, value, axis) => sum + value * ahead[axis], 0) / (length(way) * length(ahead));
+  assert.ok(along > 0.999, `straight ahead: ${along}`);
+  assert.ok(await page.isChecked('input[name=mode][value=fly]'), 'the panel says that it flies');
+  await page.waitForTimeout(300);
+  near((await view(page)).eye, after.eye, 'and stands still after');
+}));
+
+test('digits, F, R and M', looking(async (page, before) => {
+  await page.keyboard.press('1');
+  const front = await viewChanged(page, before);
+  await page.keyboard.press('5');
+  const top = await viewChanged(page, front);
+  const down = minus(top.target, top.eye);
+  assert.ok(-down[2] / length(down) > 0.98, `5 looks from the top: ${down}`);
+  await page.keyboard.press('r');
+  near((await viewChanged(page, top)).eye, before.eye, 'R is the first view');
+  await page.keyboard.press('m');
+  assert.ok(await page.isChecked('input[name=mode][value=fly]'));
+  await page.keyboard.press('f');
+  assert.ok(await page.isChecked('input[name=mode][value=orbit]'), 'F shows all, to be turned');
+}));
+
+test('views, cameras and saved views of the panel', looking(async (page, before) => {
+  await page.click('#camera-next');  // the first one, from which the scene is seen already
+  await page.click('#camera-next');
+  const camera = await viewChanged(page, before);
+  await page.fill('#view-name', 'mine');
+  await page.press('#view-name', 'Enter');
+  await page.click('#named-views button:text-is("Back")');
+  const back = await viewChanged(page, camera);
+  await page.click('#saved .go:has-text("mine")');
+  near((await viewChanged(page, back)).eye, camera.eye, 'the saved view');
+  await page.reload();
+  await sceneShown(page, 'soup');
+  near((await view(page)).eye, camera.eye, 'a reload keeps the view');
+  assert.deepEqual(await page.locator('#saved .go').allTextContents(), ['mine'], 'and what was saved');
+}));
+
+test('looks, with what their colours mean', looking(async (page) => {
+  const colors = await picture(page);
+  await page.keyboard.press('v');
+  await page.waitForFunction(() => location.hash.includes('look='));
+  assert.ok(!colors.equals(await picture(page)), 'another picture');
+  await page.evaluate(() => { document.getElementById('look').closest('details').open = true; });
+  for (const look of ['depth', 'normals', 'overdraw', 'triangle-id']) {
+    await page.selectOption('#look', look);
+    await page.waitForFunction((wanted) => location.hash.includes(`look=${wanted}`), look);
+  }
+  await page.selectOption('#look', 'color');
+  await page.waitForFunction(() => !location.hash.includes('look='));
+  assert.ok(colors.equals(await picture(page)), 'and the colours again');
+}));
+
+// -- fingers ----------------------------------------------------------------------------------------
+
+const phone = { viewport: { width: 390, height: 700 }, hasTouch: true, isMobile: true };
+
+/** Moves fingers in straight lines: [[from, to], ..], each {x, y}. */
+async function swipe(page, lines) {
+  const client = await page.context().newCDPSession(page);
+  const steps = 6;
+  const at = (part) => lines.map(([from, to], id) =>
+    ({ id, x: from.x + part * (to.x - from.x), y: from.y + part * (to.y - from.y) }));
+  await client.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: at(0) });
+  for (let step = 1; step <= steps; ++step)
+    await client.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: at(step / steps) });
+  await client.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+}
+
+test('one finger turns', looking(async (page, before, { x, y }) => {
+  await swipe(page, [[{ x, y }, { x: x + 80, y }]]);
+  assertTurned(before, await viewChanged(page, before));
+}, phone));
+
+test('two fingers pinch, which doubles the size of what is between them', looking(async (page, before, { x, y }) => {
+  await swipe(page, [[{ x: x - 40, y }, { x: x - 80, y }], [{ x: x + 40, y }, { x: x + 80, y }]]);
+  const after = await viewChanged(page, before);
+  assert.ok(Math.abs(reach(after) / reach(before) - 0.5) < 0.01, `half the distance: ${reach(after) / reach(before)}`);
+  near(after.target, before.target, 'the middle stays');
+}, phone));
+
+test('two fingers move the scene along', looking(async (page, before, { x, y }) => {
+  await swipe(page, [[{ x: x - 40, y }, { x: x - 40, y: y + 60 }], [{ x: x + 40, y }, { x: x + 40, y: y + 60 }]]);
+  const after = await viewChanged(page, before);
+  // Fingers are told of one after the other, so their distance trembles on the way.
+  assert.ok(Math.abs(reach(after) / reach(before) - 1) < 0.02, 'the distance stays');
+  assert.ok(distance(before.target, after.target) > 0.1, 'the target moves');
+}, phone));
+
+test('two taps bring a point to the centre', looking(async (page, before, { x, y }) => {
+  await page.touchscreen.tap(x - 30, y);
+  await page.touchscreen.tap(x - 30, y);
+  const after = await viewChanged(page, before);
+  assert.ok(distance(after.target, before.target) > 0.05, 'another target');
+}, phone));

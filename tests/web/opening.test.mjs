@@ -1,0 +1,175 @@
+// Every way to a scene: links, files, folders, the gallery, addresses; what is seen on the way; and how
+// a person stops it.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { distance, middle, picture, programs, sceneShown, scratch, source, stage, view } from './support.mjs';
+
+const example = join(source, 'examples/soup.glb');
+const bytes = readFileSync(example);
+const folder = scratch();
+const diffsoup = join(folder, 'bowl');
+execFileSync(join(programs, 'tureen'), ['convert', example, diffsoup], { stdio: 'ignore' });
+
+/** Connections that a test holds back, by path; `rest` lets the rest of the bytes go. */
+const held = new Map();
+/** Sends the beginning of the example and no more until it is told to. */
+function stalling(part) {
+  return (request, response) => {
+    const at = Math.round(part * bytes.length);
+    response.writeHead(200, { 'content-type': 'model/gltf-binary', 'content-length': bytes.length });
+    response.write(bytes.subarray(0, at));
+    const connection = { closed: false, rest: () => response.end(bytes.subarray(at)) };
+    response.on('close', () => { connection.closed = !response.writableFinished; });
+    held.set(new URL(request.url, 'http://site').pathname, connection);
+  };
+}
+
+/** A 256-ms drizzle without end, whose length nobody says. */
+function drizzle(request, response) {
+  response.writeHead(200, { 'content-type': 'model/gltf-binary' });
+  let at = 0;
+  const timer = setInterval(() => response.write(bytes.subarray(at, at += 4096)), 256);
+  const connection = { closed: false };
+  response.on('close', () => {
+    clearInterval(timer);
+    connection.closed = true;
+  });
+  held.set('/drizzle.glb', connection);
+}
+
+const { visit } = await stage({
+  routes: { '/tenth.glb': stalling(0.02), '/half.glb': stalling(0.5), '/slow.glb': stalling(0.3), '/drizzle.glb': drizzle },
+});
+
+const waitFor = async (what, meaning) => {
+  for (let waited = 0; !what(); waited += 50) {
+    assert.ok(waited < 10_000, meaning);
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+};
+
+test('a link carries scene, camera and look',
+     () => visit('?scene=soup.glb#eye=3,-4,2&target=0,0,0.5&up=0,0,1&fov=30&look=normals', async (page) => {
+  await sceneShown(page, 'soup');
+  const { eye, target, fov, hash } = await view(page);
+  assert.deepEqual([eye, target, fov], [[3, -4, 2], [0, 0, 0.5], 30]);
+  assert.ok(hash.includes('look=normals'));
+}));
+
+test('a link\'s camera that cannot be read is told of, and the scene is shown',
+     () => visit('?scene=soup.glb#eye=1,2&target=0,0,0', async (page) => {
+  await sceneShown(page, 'soup');
+  await page.locator('#notices', { hasText: 'needs eye and target' }).waitFor();
+}));
+
+test('the gallery, and Back again', () => visit('', async (page) => {
+  await page.click('#gallery-list button');
+  await sceneShown(page, 'soup');
+  assert.match(page.url(), /\?scene=soup\.glb#eye=/);
+  assert.ok(await page.isHidden('#start'));
+  await page.goBack();
+  await page.waitForFunction(() => document.body.classList.contains('empty'));
+  assert.ok(await page.isVisible('#start'), 'the card is back');
+  await page.goForward();
+  await sceneShown(page, 'soup');
+}));
+
+test('an address that is typed', () => visit('', async (page) => {
+  await page.fill('#address', 'soup.glb');
+  await page.press('#address', 'Enter');
+  await sceneShown(page, 'soup');
+}));
+
+test('a file that is picked', () => visit('', async (page) => {
+  const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.click('#choose-files')]);
+  await chooser.setFiles(example);
+  await sceneShown(page, 'soup');
+  assert.doesNotMatch(page.url(), /scene=/, 'a file has no address');
+}));
+
+test('a folder that is picked', () => visit('', async (page) => {
+  await page.setInputFiles('#folder', diffsoup);
+  await sceneShown(page, 'bowl');
+  assert.match(await page.textContent('#facts'), /7,000 triangles/);
+}));
+
+/** A drop as the system does it. */
+async function drop(page, path) {
+  const { x, y } = await middle(page);
+  const client = await page.context().newCDPSession(page);
+  const data = { items: [], files: [path], dragOperationsMask: 1 };
+  for (const type of ['dragEnter', 'dragOver']) await client.send('Input.dispatchDragEvent', { type, x, y, data });
+  assert.ok(await page.isVisible('#drop-here'), 'the page says that it takes it');
+  await client.send('Input.dispatchDragEvent', { type: 'drop', x, y, data });
+  assert.ok(await page.isHidden('#drop-here'));
+}
+
+test('a file that is dropped', () => visit('', async (page) => {
+  await drop(page, example);
+  await sceneShown(page, 'soup');
+}));
+
+test('a folder that is dropped', () => visit('', async (page) => {
+  await drop(page, diffsoup);
+  await sceneShown(page, 'bowl');
+}));
+
+test('a download that is cancelled leaves what was there before', () => visit('?scene=soup.glb', async (page) => {
+  await sceneShown(page, 'soup');
+  const before = await picture(page);
+  await page.keyboard.press('o');
+  await page.fill('#address', 'drizzle.glb');
+  await page.press('#address', 'Enter');
+  await page.locator('#loading-what', { hasText: 'kB' }).waitFor();
+  assert.equal(await page.getAttribute('#progress', 'aria-valuenow'), null, 'how much is to come is not known');
+  await page.click('#cancel');
+  await page.locator('#loading').waitFor({ state: 'hidden' });
+  await waitFor(() => held.get('/drizzle.glb').closed, 'the server is told');
+  await waitFor(() => page.workers().length === 0, 'the loader is gone');
+  assert.equal(await page.textContent('#scene-title'), 'soup');
+  await page.waitForTimeout(500);
+  assert.ok(before.equals(await picture(page)), 'the picture is what it was');
+}));
+
+test('the bar says how much has come', () => visit('?scene=slow.glb', async (page) => {
+  await page.locator('#loading-what', { hasText: ' of ' }).waitFor();
+  const now = Number(await page.getAttribute('#progress', 'aria-valuenow'));
+  assert.ok(now > 0 && now < 60, `a part of it: ${now} %`);
+  await page.click('#cancel');
+  await page.locator('#start').waitFor();
+  await waitFor(() => held.get('/slow.glb').closed, 'the server is told');
+}));
+
+test('another scene takes the place of one that is on its way', () => visit('?scene=tenth.glb', async (page) => {
+  await page.locator('#loading').waitFor();
+  await page.setInputFiles('#files', example);
+  await sceneShown(page, 'soup');
+  await waitFor(() => held.get('/tenth.glb').closed, 'nobody waits for the first one');
+  assert.equal(page.workers().length, 0);
+}));
+
+test('a first picture before all has come, which can be turned', () => visit('?scene=half.glb', async (page) => {
+  await page.locator('#loading-what', { hasText: 'a first picture of 7,000 triangles' }).waitFor();
+  await page.waitForTimeout(500);
+  const first = await picture(page);
+  assert.ok(await page.isHidden('#start'));
+  const { x, y } = await middle(page);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 120, y, { steps: 4 });
+  await page.mouse.up();
+  await page.waitForTimeout(500);
+  const turned = await picture(page);
+  assert.ok(!first.equals(turned), 'a drag turns the first picture');
+  held.get('/half.glb').rest();
+  await sceneShown(page, 'soup');
+  const after = await view(page);
+  assert.ok(!turned.equals(await picture(page)), 'the texels have come');
+  await page.keyboard.press('r');
+  await page.waitForFunction((hash) => location.hash !== hash, after.hash);
+  assert.ok(distance((await view(page)).eye, after.eye) > 0.1, 'the view that was turned to had stayed');
+}));

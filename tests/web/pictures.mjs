@@ -1,0 +1,49 @@
+// How two pictures are held against each other, and what is left for eyes when they differ.
+
+import assert from 'node:assert/strict';
+import { writeFileSync } from 'node:fs';
+import { writePng } from './png.mjs';
+import { evidence, evidenceOf } from './support.mjs';
+
+/** By how much pixels differ: how many at all, how many by more than a step, and the mean square. */
+function differences(expected, actual) {
+  let off = 0, offByMore = 0, squares = 0;
+  for (let i = 0; i < actual.pixels.length; i += 4) {
+    let largest = 0;
+    for (let c = i; c < i + 4; ++c) {
+      const by = Math.abs(actual.pixels[c] - expected.pixels[c]);
+      largest = Math.max(largest, by);
+      if (c < i + 3) squares += by * by;
+    }
+    off += largest > 0;
+    offByMore += largest > 1;
+  }
+  const pixels = actual.pixels.length / 4;
+  return { off, offByMore, pixels, psnr: 10 * Math.log10((255 * 255) / (squares / (3 * pixels))) };
+}
+
+function leave(name, expected, actual) {
+  const folder = evidenceOf(`${name}-browser`);
+  const enlarged = actual.pixels.map((value, i) => (i % 4 === 3 ? 255 : Math.min(255, 16 * Math.abs(value - expected.pixels[i]))));
+  const pictures = { expected, actual, difference: { ...actual, pixels: enlarged } };
+  for (const [what, picture] of Object.entries(pictures)) writeFileSync(folder.file(`${what}.png`), writePng(picture));
+}
+
+function compare(name, expected, actual, isGood) {
+  assert.deepEqual([actual.width, actual.height], [expected.width, expected.height], `${name}: sizes`);
+  const { off, offByMore, pixels, psnr } = differences(expected, actual);
+  if (isGood({ off, offByMore, pixels, psnr })) return;
+  leave(name, expected, actual);
+  assert.fail(`${name} differs: of ${pixels} pixels ${off} are off, ${offByMore} by more than a step, ` +
+              `${psnr.toFixed(1)} dB; the pictures are in ${evidence}/${name}-browser`);
+}
+
+/** The budget of native goldens (tests/support/golden.hpp): 1 pixel in 300 off at all, 1 in 3,000 by
+ *  more than a step, which is what llvmpipe shows between models of processors, with room. */
+export function assertSame(name, expected, actual) {
+  compare(name, expected, actual, ({ off, offByMore, pixels }) => off * 300 <= pixels && offByMore * 3000 <= pixels);
+}
+
+export function assertAlike(name, expected, actual, decibels) {
+  compare(name, expected, actual, ({ psnr }) => psnr >= decibels);
+}

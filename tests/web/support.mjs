@@ -1,0 +1,170 @@
+// What the browser tests share: the site on a server of its own, a browser, and visits that fail when
+// a page complains or reaches for anybody else.
+//
+//   const { visit, server } = await stage();         one browser a file; both end with its tests
+//   test('..', () => visit('?scene=soup.glb', async (page) => { .. }));
+
+import assert from 'node:assert/strict';
+import { mkdirSync, mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { dirname, join } from 'node:path';
+import { after } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { chromium } from '../../web/node_modules/playwright-core/index.mjs';
+import { serve } from '../../web/serve.mjs';
+
+export const source = dirname(dirname(dirname(fileURLToPath(import.meta.url))));
+/** What `./dev web` has made. */
+export const built = process.env.TUREEN_WEB ?? join(source, 'build/web/out');
+/** The programs that the same sources make for this machine. */
+export const programs = process.env.TUREEN_PROGRAMS ?? join(source, 'build/release/bin');
+/** Where failing tests leave pictures. */
+export const evidence = process.env.TUREEN_EVIDENCE ?? join(source, 'build/release/golden-variants');
+
+/** A browser under test may be slow, on two cores that also draw; it is not to hang. */
+export const patience = 60_000;
+
+/** How pages are asked whether something has come: not once a frame, which hidden ones have not. */
+export const often = { polling: 100 };
+
+const quiet = ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking',
+               '--disable-component-update', '--disable-sync'];
+/** What draws in place of a GPU. llvmpipe is what the native goldens are drawn with. */
+export const backends = {
+  llvmpipe: ['--use-gl=angle', '--use-angle=gl-egl', '--ignore-gpu-blocklist'],
+  swiftshader: ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+  none: ['--disable-gpu', '--disable-software-rasterizer', '--disable-3d-apis'],
+};
+
+/** A folder that is gone after the file's tests. */
+export function scratch() {
+  const folder = mkdtempSync(join(tmpdir(), 'tureen-web-'));
+  after(() => rmSync(folder, { recursive: true, force: true }));
+  return folder;
+}
+
+/** Where a failing test leaves what it saw. */
+export function evidenceOf(name) {
+  const folder = join(evidence, name.replace(/[^\w.-]+/g, '_'));
+  rmSync(folder, { recursive: true, force: true });
+  return {
+    file(base) {
+      mkdirSync(folder, { recursive: true });
+      return join(folder, base);
+    },
+  };
+}
+
+/**
+ * `routes`: answers by path, as {'/slow.glb': (request, response) => ..}, instead of the site's files.
+ * `folder`: served instead of the site.
+ */
+export async function stage({ backend = 'llvmpipe', routes = {}, folder = join(built, 'site'), flags = [] } = {}) {
+  const server = await serve(folder, {
+    first(request, response) {
+      const route = routes[new URL(request.url, 'http://site').pathname];
+      if (route) route(request, response);
+      return route !== undefined;
+    },
+  });
+  const browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: [...quiet, ...backends[backend], ...flags],
+  });
+  after(async () => {
+    await browser.close();
+    await server.close();
+  });
+
+  /**
+   * Opens an address in a profile of its own and hands the page over. Fails when the page writes an
+   * error to the console that is none of `expected`, throws, or asks any other server for anything
+   * but `friends`.
+   */
+  async function visit(address, body, { expected = [], friends = [], ...context } = {}) {
+    const profile = await browser.newContext({ viewport: { width: 800, height: 500 }, ...context });
+    profile.setDefaultTimeout(patience);
+    const complaints = [], strangers = [];
+    const own = (url) => [server.address, ...friends].some((origin) => url.startsWith(origin)) ||
+      /^(blob|data|file|about):/.test(url);
+    profile.on('console', (message) => {
+      const text = `${message.text()} (${message.location().url})`;
+      if (message.type() === 'error' && !expected.some((pattern) => pattern.test(text))) complaints.push(text);
+    });
+    profile.on('weberror', (error) => complaints.push(error.error().stack));
+    profile.on('request', (request) => { if (!own(request.url())) strangers.push(request.url()); });
+    try {
+      const page = await profile.newPage();
+      await page.goto(new URL(address, server.address).href);
+      await body(page, profile);
+      assert.deepEqual(complaints, [], 'the page complains');
+      assert.deepEqual(strangers, [], 'the page asks others');
+    } finally {
+      await profile.close();
+    }
+  }
+  return { browser, server, visit };
+}
+
+// -- what a person sees of the page -----------------------------------------------------------------
+
+/** A scene is shown, whole. Fails at once with the page's own sentence where it says that none comes. */
+export async function sceneShown(page, name) {
+  await page.waitForFunction((wanted) => {
+    const title = document.getElementById('scene-title')?.textContent;
+    const whole = document.getElementById('loading')?.hidden && !document.body.classList.contains('empty');
+    return (title && whole && (!wanted || title === wanted)) || document.querySelector('[role=alert] p');
+  }, name, often);
+  assert.deepEqual(await errors(page), []);
+}
+
+/** The sentences that the page shows as errors. */
+export const errors = (page) => page.locator('#errors .message p').allTextContents();
+/** Waits for one and returns it. */
+export async function errorShown(page) {
+  await page.locator('#errors .message p').first().waitFor();
+  return (await errors(page))[0];
+}
+export const noticeShown = (page, part) => page.locator('#notices .message', { hasText: part }).waitFor();
+
+/** The camera as the page's address has it, once it has come to rest there. */
+export async function view(page) {
+  const readOut = () => {
+    const parts = new URLSearchParams(location.hash.slice(1));
+    const vector = (name) => parts.get(name)?.split(',').map(Number);
+    return { eye: vector('eye'), target: vector('target'), up: vector('up'), fov: Number(parts.get('fov')), hash: location.hash };
+  };
+  await page.waitForFunction(() => location.hash.includes('eye='), null, often);
+  for (let before = '';;) {
+    const now = await page.evaluate(readOut);
+    if (now.hash === before) return now;
+    before = now.hash;
+    await page.waitForTimeout(400);  // more than a frame takes
+  }
+}
+
+/** Waits until the address says another view than `before`, and returns that. */
+export async function viewChanged(page, before) {
+  await page.waitForFunction((hash) => location.hash !== hash, before.hash, often);
+  return view(page);
+}
+
+/** The picture alone, as the screen has it: without what lies over it. A PNG. */
+export async function picture(page) {
+  const show = (visibility) => page.evaluate((how) => {
+    for (const over of document.querySelectorAll('.corner, .loading, .messages')) over.style.visibility = how;
+  }, visibility);
+  await show('hidden');
+  const png = await page.locator('#canvas').screenshot();
+  await show('');
+  return png;
+}
+
+export const minus = (a, b) => a.map((value, axis) => value - b[axis]);
+export const length = (a) => Math.hypot(...a);
+export const distance = (a, b) => length(minus(a, b));
+
+/** The canvas's middle, in the page's pixels. */
+export async function middle(page) {
+  const box = await page.locator('#canvas').boundingBox();
+  return { x: box.x + box.width / 2, y: box.y + box.height / 2, box };
+}
