@@ -6,7 +6,7 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { distance, middle, picture, programs, sceneShown, scratch, source, stage, view } from './support.mjs';
+import { distance, middle, patience, picture, programs, sceneShown, scratch, source, stage, view } from './support.mjs';
 
 const example = join(source, 'examples/soup.glb');
 const bytes = readFileSync(example);
@@ -47,7 +47,7 @@ const { visit } = await stage({
 
 const waitFor = async (what, meaning) => {
   for (let waited = 0; !what(); waited += 50) {
-    assert.ok(waited < 10_000, meaning);
+    assert.ok(waited < patience, meaning);
     await new Promise((resolve) => setTimeout(resolve, 50));
   }
 };
