@@ -56,6 +56,8 @@ class CanvasViewer implements Viewer {
   private background_: Vec3 = [0, 0, 0];
   private gliding_ = true;
   private lost = false;
+  /** Whether the view has been asked to move since it last came to rest. */
+  private moved = false;
   private frameAsked = 0;
   private lastFrame: number | null = null;
 
@@ -211,6 +213,7 @@ class CanvasViewer implements Viewer {
   private move(name: string, given: unknown = null): void {
     if (this.lost) return;
     this.engine.call(name, given);
+    this.moved = true;
     this.ask();
   }
 
@@ -225,6 +228,7 @@ class CanvasViewer implements Viewer {
   fly(direction: Vec3, factor: number): void { this.move('fly', [direction, factor]); }
   focus(x: number, y: number): boolean {
     const found = this.engine.call<boolean>('focus', [x, y, this.canvas.clientWidth, this.canvas.clientHeight]);
+    this.moved = true;
     this.ask();
     return found;
   }
@@ -318,10 +322,12 @@ class CanvasViewer implements Viewer {
       this.lastFrame = now;
       this.ask();
     } else {
-      const moved = this.lastFrame !== null;
       this.lastFrame = null;
       this.times.stop();
-      if (moved && this.shown) this.emit('view', this.getView());
+      if (this.moved && this.shown) {
+        this.moved = false;
+        this.emit('view', this.getView());
+      }
     }
   }
 
