@@ -16,11 +16,11 @@ TexelLayout TexelLayout::of(const DeviceLimits& limits) {
 }
 
 TexelLayout TexelLayout::fitted(std::uint64_t most_texels) const {
-  constexpr int fewest_row_bits = 4, most_layers = 64;
-  const std::uint64_t rows = most_texels >> row_bits;
+  const std::uint64_t rows = (most_texels >> row_bits) + 1;
   TexelLayout layout = *this;
-  while (layout.layer_bits > fewest_row_bits &&
-         (rows >> (layout.layer_bits - 1)) < std::uint64_t(std::min(most_layers, max_layers)))
+  if (rows <= std::uint64_t(1) << layer_bits) return layout;
+  const auto most_layers = std::uint64_t(std::min(64, max_layers));
+  while (layout.layer_bits > 0 && (rows >> (layout.layer_bits - 1)) < most_layers)
     --layout.layer_bits;
   return layout;
 }

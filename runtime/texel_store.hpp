@@ -24,8 +24,9 @@ struct TexelLayout {
   int max_layers = 256;
 
   static TexelLayout of(const DeviceLimits& limits);
-  /// With layers so small that a store of so many texels has 32 to 64 of them: what the last one
-  /// wastes is then at most a thirty-second. Layers have at least 16 rows.
+  /// For a store of so many texels that does not fit into one layer, which is as high as its
+  /// contents: with layers so low that it has 32 to 64 of them and the last one wastes at most a
+  /// thirty-second.
   TexelLayout fitted(std::uint64_t most_texels) const;
   std::uint64_t texels_per_layer() const { return std::uint64_t(1) << (row_bits + layer_bits); }
   /// The most texels that one store can hold: shaders count them in 32 bits.
