@@ -145,7 +145,7 @@ test('the bar says how much has come', () => visit('?scene=slow.glb', async (pag
 }));
 
 test('another scene takes the place of one that is on its way', () => visit('?scene=tenth.glb', async (page) => {
-  await page.locator('#loading').waitFor();
+  await waitFor(() => held.has('/tenth.glb'), 'it is asked for');
   await page.setInputFiles('#files', example);
   await sceneShown(page, 'soup');
   await waitFor(() => held.get('/tenth.glb').closed, 'nobody waits for the first one');
@@ -153,7 +153,8 @@ test('another scene takes the place of one that is on its way', () => visit('?sc
 }));
 
 test('a first picture before all has come, which can be turned', () => visit('?scene=half.glb', async (page) => {
-  await page.locator('#loading-what', { hasText: 'a first picture of 7,000 triangles' }).waitFor();
+  await page.locator('body:not(.empty)').waitFor();
+  assert.ok(await page.isVisible('#loading'), 'the rest is on its way');
   await page.waitForTimeout(500);
   const first = await picture(page);
   assert.ok(await page.isHidden('#start'));
