@@ -115,20 +115,22 @@ async function makeSite(folder, engine, parts) {
   write(folder, 'models.json', gallery(folder));
 }
 
-/** The page with everything in it. What asks for import.meta.url gets an address that is never
- *  fetched: a worker from a Blob has none that others could be relative to. */
-async function makeTemplate(engine) {
-  const inFile = {
-    format: 'iife', alias: { 'tureen-engine': join(engine, 'tureen.js') }, define: { 'import.meta.url': '"file:///"' },
-  };
-  const script = await bundle(from('page/single_file.ts'), inFile);
-  const worker = await bundle(from('viewer/loader_worker.ts'), inFile);
+/** A script that imports nothing: the worker is started from a Blob, and in the single file all is in
+ *  one. What asks for import.meta.url gets an address that is never fetched: a Blob has none that others
+ *  could be relative to. */
+const selfContained = (entry, engine) => bundle(from(entry), {
+  format: 'iife', alias: { 'tureen-engine': join(engine, 'tureen.js') }, define: { 'import.meta.url': '"file:///"' },
+});
+
+/** The page with everything in it. */
+async function makeTemplate(engine, parts) {
+  const script = await selfContained('page/single_file.ts', engine);
   const style = await bundle(from('page/style.css'));
   if (/<\/script|<!--/i.test(script)) fail('The script of the single file has what ends a script in HTML.');
   const part = (id, bytes) => `<script type="application/octet-stream;base64" id="${id}">` +
     `${Buffer.from(bytes).toString('base64')}</script>\n`;
   const hash = createHash('sha256').update(script).digest('base64');
-  const parts64 = part('engine', readFileSync(join(engine, 'tureen.wasm'))) + part('worker', worker);
+  const parts64 = part('engine', readFileSync(join(engine, 'tureen.wasm'))) + part('worker', parts.worker);
 
   let page = text(from('page/index.html'));
   page = replaceOnce(page, '<link rel="stylesheet" href="style.css">', `<style>\n${style}</style>`);
@@ -176,11 +178,11 @@ async function main() {
   const parts = {
     engine: await bundle(join(engine, 'tureen.js'), { format: 'esm' }),
     viewer: await module('package/index.ts'),
-    worker: await module('viewer/loader_worker.ts'),
+    worker: await selfContained('viewer/loader_worker.ts', engine),
   };
   for (const folder of [site, npm]) rmSync(folder, { recursive: true, force: true });
   await makeSite(site, engine, parts);
-  write(out, 'scene_template.html', await makeTemplate(engine));
+  write(out, 'scene_template.html', await makeTemplate(engine, parts));
   makePackage(npm, engine, parts);
   weigh(site);
 }

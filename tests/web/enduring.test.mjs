@@ -138,7 +138,7 @@ test('without a network the page goes on', () => visit('?scene=soup.glb', async 
 }, { expected: [/ERR_INTERNET_DISCONNECTED/] }));
 
 // The loader's script is fetched anew for each scene.
-test('without a network files are opened', { todo: 'keep the loader\'s script' }, () => visit('?scene=soup.glb', async (page, profile) => {
+test('without a network files are opened', () => visit('?scene=soup.glb', async (page, profile) => {
   await sceneShown(page, 'soup');
   await profile.setOffline(true);
   await page.setInputFiles('#files', other);

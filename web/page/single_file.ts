@@ -33,7 +33,7 @@ function partsOf(): Assets {
       if (!engine) throw new Error('This page is not whole: its engine is missing.');
       return engine.slice().buffer;  // whoever gets it may hand it on to a worker
     },
-    loaderWorker: () => new Worker(script),
+    loaderWorker: async () => new Worker(script),
   };
 }
 

@@ -5,20 +5,25 @@ import { ViewerError } from './types.js';
 export interface Assets {
   /** The bytes of tureen.wasm. */
   wasm(): Promise<ArrayBuffer>;
-  /** A new worker that runs the loader. */
-  loaderWorker(): Worker;
+  /** A new worker that runs the loader. Rejects with ViewerError where its script cannot be had. */
+  loaderWorker(): Promise<Worker>;
 }
 
-/** Files at this address; beside this script where none is given. */
+async function fetched(url: URL): Promise<Response> {
+  const response = await fetch(url).catch(() => null);
+  if (!response?.ok) throw new ViewerError(`A part of the viewer, ${url.href}, cannot be had.`, 'network');
+  return response;
+}
+
+/** Files at this address; beside this script where none is given. All are fetched at once and kept, so
+ *  that scenes can be opened when the network has gone. */
 export function assetsAt(address?: string): Assets {
   const base = address === undefined ? import.meta.url : new URL(address.replace(/\/?$/, '/'), document.baseURI);
+  const script = fetched(new URL('loader_worker.js', base))
+    .then(async (response) => URL.createObjectURL(new Blob([await response.text()], { type: 'text/javascript' })));
+  script.catch(() => {});  // who wants a worker is told
   return {
-    async wasm() {
-      const url = new URL('tureen.wasm', base);
-      const response = await fetch(url).catch(() => null);
-      if (!response?.ok) throw new ViewerError(`The engine, ${url.href}, cannot be had.`, 'network');
-      return response.arrayBuffer();
-    },
-    loaderWorker: () => new Worker(new URL('loader_worker.js', base), { type: 'module' }),
+    wasm: async () => (await fetched(new URL('tureen.wasm', base))).arrayBuffer(),
+    loaderWorker: async () => new Worker(await script),
   };
 }

@@ -34,20 +34,24 @@ export class Loading {
   /** Resolves when the scene is shown. Rejects with ViewerError. */
   async run(program: WebAssembly.Module, source: SceneSource, limits: unknown): Promise<void> {
     const toLoad = sourceToLoad(source);
-    const worker = this.assets.loaderWorker();
+    let worker: Worker | null = null;
     try {
       await new Promise<void>((resolve, reject) => {
         this.end = (error) => { if (error) reject(error); else resolve(); };
-        worker.onerror = (event) => {
-          event.preventDefault();
-          this.end!(new ViewerError(`The loader cannot run: ${event.message || 'its script cannot be had'}.`, 'device'));
-        };
-        worker.onmessage = ({ data }: MessageEvent<FromLoader>) => this.hear(data, worker);
-        worker.postMessage({ kind: 'load', program, source: toLoad, limits } satisfies ToLoader);
+        void this.assets.loaderWorker().then((started) => {
+          worker = started;
+          if (!this.end) return started.terminate();  // cancelled meanwhile
+          started.onerror = (event) => {
+            event.preventDefault();
+            this.end?.(new ViewerError(`The loader cannot run: ${event.message || 'its script is not whole'}.`, 'device'));
+          };
+          started.onmessage = ({ data }: MessageEvent<FromLoader>) => this.hear(data, started);
+          started.postMessage({ kind: 'load', program, source: toLoad, limits } satisfies ToLoader);
+        }, reject);
       });
     } finally {
       this.end = null;
-      worker.terminate();
+      (worker as Worker | null)?.terminate();
     }
   }
 
