@@ -30,6 +30,7 @@ export class Loading {
   private readonly bar = block('progress-bar');
   private current: AbortController | null = null;
   private preview = '';
+  private progressNow: LoadProgress = { stage: 'download', fraction: null, loadedBytes: 0, totalBytes: null };
   private readonly listeners: (() => void)[] = [];
 
   constructor(private readonly viewer: Viewer, private readonly messages: Messages) {
@@ -37,6 +38,7 @@ export class Loading {
     viewer.on('progress', (progress) => this.show(progress));
     viewer.on('preview', ({ triangles }) => {
       this.preview = `; a first picture of ${trianglesText(triangles)} stands`;
+      this.show(this.progressNow);  // or a download that stalls would never say so
     });
   }
 
@@ -82,6 +84,7 @@ export class Loading {
   }
 
   private show(progress: LoadProgress): void {
+    this.progressNow = progress;
     const { stage, fraction, loadedBytes, totalBytes } = progress;
     const bytes = stage !== 'download' || loadedBytes === 0 ? '' :
       totalBytes ? `, ${bytesText(loadedBytes)} of ${bytesText(totalBytes)}` : `, ${bytesText(loadedBytes)}`;
