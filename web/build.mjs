@@ -134,7 +134,9 @@ async function makeTemplate(engine, parts) {
 
   let page = text(from('page/index.html'));
   page = replaceOnce(page, '<link rel="stylesheet" href="style.css">', `<style>\n${style}</style>`);
-  page = replaceOnce(page, '<link rel="modulepreload" href="tureen.js">\n', '');
+  for (const early of ['<link rel="modulepreload" href="tureen.js">', '<link rel="preload" href="tureen.wasm" as="fetch" crossorigin>',
+                       '<link rel="preload" href="loader_worker.js" as="fetch" crossorigin>'])
+    page = replaceOnce(page, `${early}\n`, '');
   page = replaceOnce(page, '<script type="module" src="page.js"></script>\n', '');
   page = replaceOnce(page, "script-src 'self' 'wasm-unsafe-eval'; style-src 'self'",
                      `script-src 'sha256-${hash}' 'wasm-unsafe-eval' blob:; style-src 'unsafe-inline'`);

@@ -4,7 +4,7 @@
 set -uo pipefail
 
 bin=build/release/bin out=build/bench data=../shared/data
-all_parts=(load frames leave_out growth tradeoff agreement step)
+all_parts=(load frames leave_out growth tradeoff agreement step browser)
 quick='' processor='' check='' ficus='' fox='' photographs=''
 parts=() done_parts=() skipped=() failed=()
 
@@ -21,6 +21,7 @@ Measures and writes tables, plots and pages into build/bench; all parts without 
   tradeoff    tureen tradeoff: error against run time, on every scene there is
   agreement   how well GL agrees with the oracle
   step        what a training step costs
+  browser     bench.html in Chromium on two rasterisers, memory, and how long the first picture takes
 
   --quick        everything small: whether it works, not a measurement
   --processor-time
@@ -207,6 +208,18 @@ part_step() {
   local size=(400 400 12)
   [[ -z $quick ]] || size=(64 64 1)
   measure step "$bin/training_benchmark" "${size[@]}"
+}
+
+part_browser() {
+  [[ -e build/web/out/site/bench.html && -e web/node_modules/playwright-core ]] ||
+    { skip "browser: the page is not built; ./dev web builds it"; return; }
+  command -v "${CHROMIUM:-chromium}" >/dev/null || { skip "browser: there is no chromium"; return; }
+  # The cloud covers a third of the picture, like the soup that the authors' page was timed with.
+  local cloud=$out/scenes/cloud_third.glb imports=() file
+  "$bin/make_cutout_cloud" "$cloud" --coverage third || { skip "browser: its scene could not be written"; return; }
+  measure browser node tests/bench/browser_benchmark.mjs "$out/browser" "$cloud" examples/soup.glb ${quick:+--quick}
+  for file in "$out"/browser/*.json; do imports+=(--import "$file"); done
+  measure browser-tables "$bin/tureen" bench "${imports[@]}" -o "$out/browser/tables"
 }
 
 mkdir -p "$out/scenes"

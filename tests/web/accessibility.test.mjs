@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { errorShown, sceneShown, source, stage, view, viewChanged } from './support.mjs';
+import { errorShown, pick, sceneShown, source, stage, view, viewChanged } from './support.mjs';
 
 const axe = readFileSync(join(source, 'web/node_modules/axe-core/axe.min.js'), 'utf8');
 const { visit } = await stage();
@@ -35,7 +35,7 @@ async function walk(page) {
   await page.click('#open-help');
   await assertAccessible(page, 'the help');
   await page.keyboard.press('Escape');
-  await page.setInputFiles('#files', { name: 'bad.glb', mimeType: 'model/gltf-binary', buffer: Buffer.from('glTF, or not') });
+  await pick(page, { name: 'bad.glb', mimeType: 'model/gltf-binary', buffer: Buffer.from('glTF, or not') });
   await errorShown(page);
   await page.click('#open-start');
   await assertAccessible(page, 'an error, and the start over a scene');

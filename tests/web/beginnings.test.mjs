@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { brotliCompressSync } from 'node:zlib';
-import { built, middle, picture, programs, sceneShown, scratch, source, stage, viewChanged, view } from './support.mjs';
+import { built, middle, pick, picture, programs, sceneShown, scratch, source, stage, view, viewChanged } from './support.mjs';
 
 const folder = scratch();
 const { visit } = await stage();
@@ -32,7 +32,7 @@ test('a page of one file, from the disk', () => {
     await page.mouse.up();
     await page.waitForTimeout(500);
     assert.ok(!before.equals(await picture(page)), 'it turns');
-    await page.setInputFiles('#files', join(source, 'examples/soup.glb'));
+    await pick(page, join(source, 'examples/soup.glb'));
     await sceneShown(page, 'soup');
     await page.selectOption('#look', 'depth', { force: true });
     await page.locator('#legend').waitFor();
@@ -41,7 +41,7 @@ test('a page of one file, from the disk', () => {
 
 test('a template without a scene opens files', () => visit(pathToFileURL(join(built, 'scene_template.html')).href, async (page) => {
   await page.locator('#start').waitFor();
-  await page.setInputFiles('#files', join(source, 'examples/soup.glb'));
+  await pick(page, join(source, 'examples/soup.glb'));
   await sceneShown(page, 'soup');
 }));
 

@@ -79,7 +79,9 @@ test('events that are subscribed to, until they are not', framed('&scene=soup.gl
 test('only the picture is there', framed('&scene=soup.glb', async (page) => {
   const inside = page.frameLocator('#frame');
   await framedScene(page);
-  for (const part of ['header', '#panel', '#start']) assert.ok(await inside.locator(part).isHidden(), part);
+  for (const part of ['.actions', '#panel', '#start']) assert.ok(await inside.locator(part).isHidden(), part);
+  // The heading is heard, and takes no more than a pixel.
+  assert.deepEqual(await inside.locator('header').evaluate(({ offsetWidth, offsetHeight }) => [offsetWidth, offsetHeight]), [1, 1]);
   assert.deepEqual(await inside.locator('#canvas').evaluate(({ clientWidth, clientHeight }) => [clientWidth, clientHeight]), [480, 320]);
 }));
 

@@ -6,7 +6,7 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { distance, errorShown, middle, noticeShown, often, picture, programs, sceneShown, scratch, source, stage, view, viewChanged } from './support.mjs';
+import { distance, errorShown, middle, noticeShown, often, pick, picture, programs, sceneShown, scratch, source, stage, view, viewChanged } from './support.mjs';
 
 const folder = scratch(), other = join(folder, 'UvTexturesMlp.glb');
 execFileSync(join(programs, 'make_golden_scenes'), [join(source, 'examples/soup.glb'), folder]);
@@ -141,7 +141,7 @@ test('without a network the page goes on', () => visit('?scene=soup.glb', async 
 test('without a network files are opened', () => visit('?scene=soup.glb', async (page, profile) => {
   await sceneShown(page, 'soup');
   await profile.setOffline(true);
-  await page.setInputFiles('#files', other);
+  await pick(page, other);
   await sceneShown(page, 'UvTexturesMlp');
   await profile.setOffline(false);
 }, { expected: [/ERR_INTERNET_DISCONNECTED/] }));
@@ -175,7 +175,7 @@ test('a hidden tab moves nothing, opens scenes, and shows them when it is seen',
 
   const shown = await picture(page);
   await page.evaluate(() => hide(true));
-  await page.setInputFiles('#files', other);
+  await pick(page, other);
   await sceneShown(page, 'UvTexturesMlp');
   await page.evaluate(() => hide(false));
   await page.waitForTimeout(500);

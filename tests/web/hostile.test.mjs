@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { errors, errorShown, picture, sceneShown, source, stage } from './support.mjs';
+import { errors, errorShown, pick, picture, sceneShown, source, stage } from './support.mjs';
 
 const example = readFileSync(join(source, 'examples/soup.glb'));
 const answer = (bytes, type = 'model/gltf-binary') => (request, response) =>
@@ -63,7 +63,7 @@ for (const [address, sentence, complaint] of cases) {
 test('a bad one leaves the scene that is shown', () => visit('?scene=soup.glb', async (page) => {
   await sceneShown(page, 'soup');
   const before = await picture(page);
-  await page.setInputFiles('#files', { name: 'garbage.glb', mimeType: 'model/gltf-binary', buffer: garbage });
+  await pick(page, { name: 'garbage.glb', mimeType: 'model/gltf-binary', buffer: garbage });
   assert.match(await errorShown(page), /garbage\.glb/);
   assert.equal(await page.textContent('#scene-title'), 'soup');
   await page.click('#errors button');
@@ -79,18 +79,18 @@ test('files that are no scene', () => visit('', async (page) => {
     '<img src=x onerror=alert(1)>.glb': garbage,
   };
   for (const [name, buffer] of Object.entries(files)) {
-    await page.setInputFiles('#files', { name, mimeType: 'application/octet-stream', buffer });
+    await pick(page, { name, mimeType: 'application/octet-stream', buffer });
     await page.locator('#errors .message p', { hasText: name }).waitFor();
     assert.equal((await errors(page)).length, 1, 'one sentence for each');
   }
   assert.equal(await page.locator('#errors img').count(), 0, 'names are text');
-  await page.setInputFiles('#files', join(source, 'examples/soup.glb'));
+  await pick(page, join(source, 'examples/soup.glb'));
   await sceneShown(page, 'soup');
 }));
 
 test('a scene of which nothing can be drawn is background', () => visit('', async (page) => {
   const off = Buffer.from('OFF\n3 1 0\nnan nan nan\n0 1 0\n1 0 0\n3 0 1 2\n');
-  await page.setInputFiles('#files', { name: 'nan.off', mimeType: 'text/plain', buffer: off });
+  await pick(page, { name: 'nan.off', mimeType: 'text/plain', buffer: off });
   await sceneShown(page, 'nan');
   assert.match(await page.textContent('#plan'), /corners that are not finite/);
 }));

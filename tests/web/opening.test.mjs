@@ -6,7 +6,7 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { distance, middle, patience, picture, programs, sceneShown, scratch, source, stage, view } from './support.mjs';
+import { distance, middle, patience, pick, picture, programs, sceneShown, scratch, source, stage, view } from './support.mjs';
 
 const example = join(source, 'examples/soup.glb');
 const bytes = readFileSync(example);
@@ -92,7 +92,7 @@ test('a file that is picked', () => visit('', async (page) => {
 }));
 
 test('a folder that is picked', () => visit('', async (page) => {
-  await page.setInputFiles('#folder', diffsoup);
+  await pick(page, diffsoup, '#choose-folder');
   await sceneShown(page, 'bowl');
   assert.match(await page.textContent('#facts'), /7,000 triangles/);
 }));
@@ -146,7 +146,7 @@ test('the bar says how much has come', () => visit('?scene=slow.glb', async (pag
 
 test('another scene takes the place of one that is on its way', () => visit('?scene=tenth.glb', async (page) => {
   await waitFor(() => held.has('/tenth.glb'), 'it is asked for');
-  await page.setInputFiles('#files', example);
+  await pick(page, example);
   await sceneShown(page, 'soup');
   await waitFor(() => held.get('/tenth.glb').closed, 'nobody waits for the first one');
   assert.equal(page.workers().length, 0);

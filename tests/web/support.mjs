@@ -7,15 +7,12 @@
 import assert from 'node:assert/strict';
 import { mkdirSync, mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { dirname, join } from 'node:path';
+import { join } from 'node:path';
 import { after } from 'node:test';
-import { fileURLToPath } from 'node:url';
-import { chromium } from '../../web/node_modules/playwright-core/index.mjs';
 import { serve } from '../../web/serve.mjs';
+import { built, launch, source } from './browser.mjs';
 
-export const source = dirname(dirname(dirname(fileURLToPath(import.meta.url))));
-/** What `./dev web` has made. */
-export const built = process.env.TUREEN_WEB ?? join(source, 'build/web/out');
+export { built, source };
 /** The programs that the same sources make for this machine. */
 export const programs = process.env.TUREEN_PROGRAMS ?? join(source, 'build/release/bin');
 /** Where failing tests leave pictures. */
@@ -26,15 +23,6 @@ export const patience = 60_000;
 
 /** How pages are asked whether something has come: not once a frame, which hidden ones have not. */
 export const often = { polling: 100 };
-
-const quiet = ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking',
-               '--disable-component-update', '--disable-sync'];
-/** What draws in place of a GPU. llvmpipe is what the native goldens are drawn with. */
-export const backends = {
-  llvmpipe: ['--use-gl=angle', '--use-angle=gl-egl', '--ignore-gpu-blocklist'],
-  swiftshader: ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-  none: ['--disable-gpu', '--disable-software-rasterizer', '--disable-3d-apis'],
-};
 
 /** A folder that is gone after the file's tests. */
 export function scratch() {
@@ -67,9 +55,7 @@ export async function stage({ backend = 'llvmpipe', routes = {}, folder = join(b
       return route !== undefined;
     },
   });
-  const browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: [...quiet, ...backends[backend], ...flags],
-  });
+  const browser = await launch(backend, flags);
   after(async () => {
     await browser.close();
     await server.close();
@@ -115,6 +101,16 @@ export async function sceneShown(page, name) {
     return (title && whole && (!wanted || title === wanted)) || document.querySelector('[role=alert] p');
   }, name, often);
   assert.deepEqual(await errors(page), []);
+}
+
+/** Picks files, or a folder, by the card's buttons, once the page has them. */
+export async function pick(page, files, button = '#choose-files') {
+  const card = page.locator('#start');
+  if (!(await page.locator('body.empty').count())) await page.click('#open-start');
+  await card.waitFor();
+  const chooser = page.waitForEvent('filechooser');
+  await page.click(button);
+  await (await chooser).setFiles(files);
 }
 
 /** The sentences that the page shows as errors. */

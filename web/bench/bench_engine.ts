@@ -130,12 +130,13 @@ export class BenchEngine {
   /** Its number is how many there were before. Rejects with ViewerError and the signal's reason. */
   async add(files: Files, signal: AbortSignal, tell: (progress: LoadProgress) => void): Promise<AddedScene> {
     let added: AddedScene | null = null;
-    const loading = new Loading(this.assets, {
+    const program = Promise.resolve(this.program), limits = Promise.resolve(this.device.limits);
+    const loading = new Loading(this.assets, program, limits, files);
+    const load = loading.run({
       progress: tell,
       preview: () => {},
       scene: (scene) => (added = this.unpack(scene)) !== null,
     });
-    const load = loading.run(this.program, files, this.device.limits);
     try {
       await Promise.race([load, aborted(signal), aborted(this.lost.signal)]);
     } finally {

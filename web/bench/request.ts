@@ -10,10 +10,18 @@ export interface Size {
   readonly height: number;
 }
 
+/** A set that an address can name. `recorded`: the scene's own cameras. */
+export interface CameraSet {
+  readonly kind: 'hemisphere' | 'orbit' | 'recorded';
+  readonly count: number;
+}
+
+const isSet = (kind: string): kind is CameraSet['kind'] => ['hemisphere', 'orbit', 'recorded'].includes(kind);
+
 /** Where frames are looked at from. Of a path as many cameras as are asked for, evenly in time; of a
  *  list the first ones. */
 export type CameraChoice =
-  | { readonly kind: 'hemisphere' | 'orbit'; readonly count: number }
+  | CameraSet
   | { readonly kind: 'file'; readonly count: number; readonly name: string; readonly text: string };
 
 export interface BenchRequest {
@@ -36,7 +44,7 @@ export interface AddressRequest {
   readonly scenes: readonly string[];
   readonly grid: boolean;
   readonly copies: number;
-  readonly set: { readonly kind: 'hemisphere' | 'orbit'; readonly count: number };
+  readonly set: CameraSet;
   readonly sizes: readonly Size[];
   readonly rounds: number;
   readonly published: boolean;
@@ -77,8 +85,8 @@ export function readAddress(query: string): AddressRequest {
   const given = new URLSearchParams(query);
   const flag = (name: string) => given.has(name) && given.get(name) !== '0';
   const [kind = '', count = '8'] = (given.get('set') ?? 'hemisphere').split(':');
-  if (kind !== 'hemisphere' && kind !== 'orbit')
-    throw usage(`“${kind}” is no set of cameras: there are hemisphere:8 and orbit:8, with any number.`);
+  if (!isSet(kind))
+    throw usage(`“${kind}” is no set of cameras: there are hemisphere:8, orbit:8 and recorded:8, with any number.`);
   return {
     scenes: given.getAll('scenes').flatMap((list) => list.split(',')).filter(Boolean),
     grid: flag('grid'),

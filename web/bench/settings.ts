@@ -15,6 +15,7 @@ const usualSizes: readonly Size[] = [
 const cameraHints: Readonly<Record<CameraChoice['kind'], string>> = {
   hemisphere: 'Spread evenly over the upper half of a sphere around the scene (Fibonacci).',
   orbit: 'On a circle around the scene, looking down a little.',
+  recorded: 'The first of the cameras that the scene itself holds, mostly those of its photographs.',
   file: 'A camera path, cameras of Tureen or a transforms.json: of a path evenly in time, of a list the first ones.',
 };
 

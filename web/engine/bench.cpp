@@ -105,11 +105,21 @@ int count_of(const std::string& set) {
   return count;
 }
 
-std::vector<Camera> named_set(const std::string& set, const Subject& subject, const Lens& lens) {
-  if (set.rfind("hemisphere", 0) == 0) return hemisphere(subject, count_of(set), lens);
+std::vector<Camera> first_of(std::vector<Camera> cameras, int count, const Lens& lens) {
+  if (cameras.size() > std::size_t(count)) cameras.resize(std::size_t(count));
+  for (Camera& camera : cameras) camera = resized(camera, lens.width, lens.height);
+  return cameras;
+}
+
+std::vector<Camera> named_set(const std::string& set, const BenchScene& scene, const Lens& lens) {
+  const int count = count_of(set);
+  if (set.rfind("hemisphere", 0) == 0) return hemisphere(scene.subject, count, lens);
   if (set.rfind("orbit", 0) == 0)
-    return orbit(subject, count_of(set), {three_quarter_view.azimuth, orbit_elevation}, lens);
-  throw UsageError("views are \"hemisphere:N\", \"orbit:N\" or a file, not \"" + set + "\"");
+    return orbit(scene.subject, count, {three_quarter_view.azimuth, orbit_elevation}, lens);
+  if (set.rfind("recorded", 0) != 0)
+    throw UsageError("views are \"hemisphere:N\", \"orbit:N\", \"recorded:N\" or a file, not \"" + set + "\"");
+  if (scene.recorded.empty()) throw UsageError("the scene has no cameras of its own");
+  return first_of(scene.recorded, count, lens);
 }
 
 /// Of a path as many as are asked for, evenly in time; of recorded cameras the first ones.
@@ -124,9 +134,7 @@ std::vector<Camera> cameras_in(const std::string& text, int count, const Lens& l
       cameras.push_back(path.at(path.begin() + path.duration() * i / end, lens.width, lens.height));
   } catch (const InputError&) {
     Input as_cameras = Input::memory("the camera file", bytes);
-    cameras = read_cameras(as_cameras).cameras;
-    if (cameras.size() > std::size_t(count)) cameras.resize(std::size_t(count));
-    for (Camera& camera : cameras) camera = resized(camera, lens.width, lens.height);
+    cameras = first_of(read_cameras(as_cameras).cameras, count, lens);
   }
   if (cameras.empty()) throw UsageError("the camera file has no cameras");
   return cameras;
@@ -139,7 +147,7 @@ Json set_cameras(const Json& arguments) {
   const auto file = arguments.find("file");
   scene.cameras = file != arguments.end()
                       ? cameras_in(file->get<std::string>(), arguments.at("count"), lens)
-                      : named_set(arguments.at("set").get<std::string>(), scene.subject, lens);
+                      : named_set(arguments.at("set").get<std::string>(), scene, lens);
   return scene.cameras.size();
 }
 

@@ -1,7 +1,8 @@
 // All ways to a scene end here: what is opened, whether the page's address can carry it, and from
 // where it is looked at first.
 
-import type { SceneSource, SceneSummary, Viewer } from '../viewer/types.js';
+import { urlOf } from '../viewer/loading.js';
+import { ViewerError, type SceneSource, type SceneSummary, type Viewer } from '../viewer/types.js';
 import type { AddressBar } from './address_bar.js';
 import type { LinkedView } from './camera_link.js';
 import type { Loading } from './loading.js';
@@ -19,6 +20,16 @@ export const fetchedProtocols: readonly string[] = ['http:', 'https:', 'blob:', 
 
 const noView: LinkedView = { pose: null, look: null, defect: null };
 
+/** A scene by its address, relative to the page's. Throws ViewerError where pages cannot fetch it. */
+export function sourceAt(address: string): { readonly url: string } {
+  const url = urlOf({ url: address }), protocol = new URL(url).protocol;
+  if (protocol === 'file:')
+    throw new ViewerError('A page that was opened from the disk cannot fetch files; drop the scene on it instead.', 'usage');
+  if (!fetchedProtocols.includes(protocol))
+    throw new ViewerError(`Scenes are fetched by http and https, not by ${protocol.slice(0, -1)}.`, 'usage');
+  return { url };
+}
+
 export class Openings {
   private origin_: Origin | null = null;
   private readonly listeners: (() => void)[] = [];
@@ -33,10 +44,15 @@ export class Openings {
   onOpened(listener: () => void): void { this.listeners.push(listener); }
 
   /** By an address, relative to the page's. */
-  openAddress(address: string, view: LinkedView = noView): Promise<boolean> {
-    const url = this.resolve(address);
-    if (!url) return Promise.resolve(false);
-    return this.open({ url }, { kind: 'address', address }, view);
+  async openAddress(address: string, view: LinkedView = noView): Promise<boolean> {
+    let source;
+    try {
+      source = sourceAt(address);
+    } catch (error) {
+      this.messages.thrown(error);
+      return false;
+    }
+    return this.open(source, { kind: 'address', address }, view);
   }
 
   openFiles(source: SceneSource, view: LinkedView = noView): Promise<boolean> {
@@ -56,22 +72,6 @@ export class Openings {
     } catch (error) {
       this.messages.thrown(error);
     }
-  }
-
-  private resolve(address: string): string | null {
-    let url: URL;
-    try {
-      url = new URL(address, location.href);
-    } catch {
-      this.messages.error(`“${address}” is no address of a scene.`);
-      return null;
-    }
-    if (url.protocol === 'file:')
-      this.messages.error('A page that was opened from the disk cannot fetch files; drop the scene on it instead.');
-    else if (!fetchedProtocols.includes(url.protocol))
-      this.messages.error(`Scenes are fetched by http and https, not by ${url.protocol.slice(0, -1)}.`);
-    else return url.href;
-    return null;
   }
 
   private async open(source: SceneSource, origin: Origin, view: LinkedView): Promise<boolean> {

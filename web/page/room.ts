@@ -9,7 +9,7 @@ import { answerEmbedder } from './embed.js';
 import { FullScreen } from './full_screen.js';
 import { Loading } from './loading.js';
 import { Messages } from './messages.js';
-import { Openings } from './openings.js';
+import { Openings, sourceAt } from './openings.js';
 import { Panel } from './panel.js';
 import { CamerasSection } from './sections/cameras.js';
 import { DrawingSection } from './sections/drawing.js';
@@ -28,6 +28,15 @@ export interface RoomOptions {
   readonly assets?: Assets;
   /** A scene that is part of the page. */
   readonly scene?: SceneSource | null;
+}
+
+/** What the page will open, where that can be fetched; what is wrong with it is said when it is opened. */
+function fetchable(address: string): SceneSource | null {
+  try {
+    return sourceAt(address);
+  } catch {
+    return null;
+  }
 }
 
 /** Says in place of the picture why there is none. */
@@ -146,21 +155,29 @@ export async function openRoom(options: RoomOptions = {}): Promise<void> {
   window.addEventListener('error', (event) => messages.thrown(event.error ?? event.message));
   window.addEventListener('unhandledrejection', (event) => messages.thrown(event.reason));
 
+  // Until there is somewhere to take it, what is dropped must not replace the page.
+  const starting = new AbortController();
+  for (const event of ['dragover', 'drop'])
+    window.addEventListener(event, (drag) => drag.preventDefault(), { signal: starting.signal });
+
+  const bar = new AddressBar(embedded);
+  const wanted = bar.scene();
   let viewer: Viewer;
   try {
-    viewer = await createViewer(byId('canvas', HTMLCanvasElement), options.assets ? { assets: options.assets } : {});
+    const expected = wanted ? fetchable(wanted) : options.scene;
+    viewer = await createViewer(byId('canvas', HTMLCanvasElement),
+                                { ...(options.assets && { assets: options.assets }), ...(expected && { expected }) });
   } catch (error) {
     return explain(error);
   }
+  starting.abort();
   obeyReducedMotion(viewer);
   markEmpty(viewer);
   tellOfContext(viewer, messages);
   viewer.on('notice', (sentence) => messages.notice(sentence));
 
-  const bar = new AddressBar(embedded);
   const loading = new Loading(viewer, messages);
   const openings = new Openings(viewer, loading, messages, bar);
-  const wanted = bar.scene();
   const start = embedded ? null : new Start(viewer, openings, loading, messages);
   if (!start) {
     answerEmbedder(viewer, loading);

@@ -32,8 +32,8 @@ async function request(url: string): Promise<Response> {
   return response;
 }
 
-/** Calls `arrived` with each piece that comes. Rejects with ViewerError. */
-export async function download(url: string, arrived: (arrival: Arrival) => void): Promise<Uint8Array<ArrayBuffer>> {
+/** Calls `arrived` with each piece that comes, and waits for it before the next. Rejects with ViewerError. */
+export async function download(url: string, arrived: (arrival: Arrival) => void | Promise<void>): Promise<Uint8Array<ArrayBuffer>> {
   const response = await request(url);
   const total = announced(response);
   let memory = new Uint8Array(total ?? firstGuess), size = 0;
@@ -50,7 +50,7 @@ export async function download(url: string, arrived: (arrival: Arrival) => void)
     }
     memory.set(value, size);
     size += value.length;
-    arrived({ bytes: memory.subarray(0, size), total });
+    await arrived({ bytes: memory.subarray(0, size), total });
   }
   return memory.subarray(0, size);
 }

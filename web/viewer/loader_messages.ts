@@ -39,7 +39,9 @@ export interface PreparedScene {
 }
 
 export type ToLoader =
-  | { readonly kind: 'load'; readonly program: WebAssembly.Module; readonly source: SourceToLoad; readonly limits: unknown }
+  | { readonly kind: 'load'; readonly program: WebAssembly.Module; readonly source: SourceToLoad }
+  /** Of the device, once it is there: what is prepared depends on them. */
+  | { readonly kind: 'limits'; readonly limits: unknown }
   /** The device had no memory for it: prepare it with a lower lattice level. */
   | { readonly kind: 'lower' };
 

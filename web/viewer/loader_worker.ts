@@ -25,7 +25,7 @@ class Loader {
   private total: number | null = null;
   private told = { stage: '', permille: -1 };
 
-  constructor(private readonly engine: Engine, private readonly limits: unknown, private readonly from: 'files' | 'url') {}
+  constructor(private readonly engine: Engine, private readonly limits: Promise<unknown>, private readonly from: 'files' | 'url') {}
 
   async load(source: SourceToLoad): Promise<void> {
     const files = 'url' in source ? await this.fetched(source.url, source.name) : await this.opened(source);
@@ -33,27 +33,27 @@ class Loader {
     const begin = performance.now();
     this.description = readWith<SceneDescription>(this.engine, 'read', files);
     this.readMs = performance.now() - begin;
-    this.send();
+    await this.send();
   }
 
   /** A lattice level less than last time. */
-  lower(): void {
+  async lower(): Promise<void> {
     const level = this.level ?? this.engine.call<number | null>('lattice_level') ?? 0;
     if (level === 0)
       throw new ViewerError('This device has not enough memory for the scene, at no lattice level.', 'device');
     this.level = level - 1;
-    this.send();
+    await this.send();
   }
 
   private async fetched(url: string, name: string): Promise<OpenedFiles> {
     const preview = new Preview(this.engine, name);
-    const bytes = await download(url, ({ bytes: prefix, total }) => {
+    const bytes = await download(url, async ({ bytes: prefix, total }) => {
       this.loaded = prefix.length;
       this.total = total;
       this.tell('download', total === null ? null : prefix.length / total);
       if (prefix.length === total) return;  // a picture of the whole comes as soon
       const description = preview.read(prefix);
-      if (description) post({ kind: 'preview', scene: this.prepared(description, false) });
+      if (description) post({ kind: 'preview', scene: await this.prepared(description, false) });
     });
     return oneFile(name, bytes);
   }
@@ -63,26 +63,26 @@ class Loader {
     return openFiles(files, name);
   }
 
-  private send(): void {
+  private async send(): Promise<void> {
     this.engine.onProgress = (fraction) => this.tell('prepare', fraction);
-    const scene = this.prepared(this.description!, this.description!.promise !== null);
+    const scene = await this.prepared(this.description!, this.description!.promise !== null);
     this.tell('upload', 0);
     post({ kind: 'scene', scene });
   }
 
-  private prepared(description: SceneDescription, quick: boolean): PreparedScene {
-    const begin = performance.now();
-    const faithful = this.packed(false), prepareMs = performance.now() - begin;
+  private async prepared(description: SceneDescription, quick: boolean): Promise<PreparedScene> {
+    const limits = await this.limits, begin = performance.now();
+    const faithful = this.packed(limits, false), prepareMs = performance.now() - begin;
     return {
       description, level: this.level, readMs: this.readMs, prepareMs,
-      faithful, quick: quick ? this.packed(true) : null,
+      faithful, quick: quick ? this.packed(limits, true) : null,
     };
   }
 
   /** The engine's memory grows while it prepares, so its buffer is looked at anew for each block. */
-  private packed(preset: boolean): Parcel {
+  private packed(limits: unknown, preset: boolean): Parcel {
     const level = this.level === null ? {} : { level: this.level };
-    const blobs = this.engine.call<{ size: number; grain: number }[]>('prepare', { limits: this.limits, preset, ...level });
+    const blobs = this.engine.call<{ size: number; grain: number }[]>('prepare', { limits, preset, ...level });
     const head = this.engine.buffer().slice().buffer;
     return { head, blobs: blobs.map(({ size, grain }, blob) => this.blob(blob, size, grain)) };
   }
@@ -116,12 +116,17 @@ function post(message: FromLoader): void {
 }
 
 let loader: Loader | null = null;
+let giveLimits: (limits: unknown) => void;
+const limits = new Promise<unknown>((resolve) => { giveLimits = resolve; });
 
 async function obey(message: ToLoader): Promise<void> {
-  if (message.kind === 'lower') return loader!.lower();
-  const engine = await Engine.create(message.program);
-  loader = new Loader(engine, message.limits, 'url' in message.source ? 'url' : 'files');
-  await loader.load(message.source);
+  switch (message.kind) {
+    case 'load':
+      loader = new Loader(await Engine.create(message.program), limits, 'url' in message.source ? 'url' : 'files');
+      return loader.load(message.source);
+    case 'limits': return giveLimits(message.limits);
+    case 'lower': return loader!.lower();
+  }
 }
 
 self.onmessage = ({ data }: MessageEvent<ToLoader>) => {

@@ -4,8 +4,6 @@ import type { Assets } from './assets.js';
 import type { FromLoader, PreparedScene, SourceToLoad, ToLoader } from './loader_messages.js';
 import { ViewerError, type LoadProgress, type SceneSource } from './types.js';
 
-const cancelled = () => new ViewerError('Loading was cancelled.', 'cancelled');
-
 export interface LoadingEvents {
   progress(progress: LoadProgress): void;
   preview(scene: PreparedScene): void;
@@ -13,9 +11,18 @@ export interface LoadingEvents {
   scene(scene: PreparedScene): boolean;
 }
 
+/** Whole, where it is relative to the page's. Throws ViewerError. */
+export function urlOf({ url }: { readonly url: string }): string {
+  try {
+    return new URL(url, document.baseURI).href;
+  } catch {
+    throw new ViewerError(`“${url}” is no address of a scene.`, 'usage');
+  }
+}
+
 function sourceToLoad(source: SceneSource): SourceToLoad {
   if ('url' in source) {
-    const url = new URL(source.url, document.baseURI).href;
+    const url = urlOf(source);
     const file = decodeURIComponent(new URL(url).pathname.split('/').pop() ?? '');
     return { url, name: source.name || file || 'scene' };
   }
@@ -26,47 +33,68 @@ function sourceToLoad(source: SceneSource): SourceToLoad {
   return { files, name: source.name || files[0]!.path };
 }
 
+/** It begins when it is made, with what needs no graphics device; what comes of it waits for who runs it. */
 export class Loading {
-  private end: ((error: ViewerError | null) => void) | null = null;
+  private readonly shown: Promise<void>;
+  private settle!: { resolve(): void; reject(why: unknown): void };
+  private events: LoadingEvents | null = null;
+  private worker: Worker | null = null;
+  private readonly unheard: FromLoader[] = [];
+  private over = false;
 
-  constructor(private readonly assets: Assets, private readonly events: LoadingEvents) {}
-
-  /** Resolves when the scene is shown. Rejects with ViewerError. */
-  async run(program: WebAssembly.Module, source: SceneSource, limits: unknown): Promise<void> {
-    const toLoad = sourceToLoad(source);
-    let worker: Worker | null = null;
-    try {
-      await new Promise<void>((resolve, reject) => {
-        this.end = (error) => { if (error) reject(error); else resolve(); };
-        void this.assets.loaderWorker().then((started) => {
-          worker = started;
-          if (!this.end) return started.terminate();  // cancelled meanwhile
-          started.onerror = (event) => {
-            event.preventDefault();
-            this.end?.(new ViewerError(`The loader cannot run: ${event.message || 'its script is not whole'}.`, 'device'));
-          };
-          started.onmessage = ({ data }: MessageEvent<FromLoader>) => this.hear(data, started);
-          started.postMessage({ kind: 'load', program, source: toLoad, limits } satisfies ToLoader);
-        }, reject);
-      });
-    } finally {
-      this.end = null;
-      (worker as Worker | null)?.terminate();
-    }
+  /** `limits`: of the device, which preparing waits for. */
+  constructor(assets: Assets, program: Promise<WebAssembly.Module>, limits: Promise<unknown>, source: SceneSource) {
+    this.shown = new Promise((resolve, reject) => { this.settle = { resolve, reject }; });
+    this.shown.catch(() => {});  // who runs it is told
+    this.begin(assets, program, limits, source).catch((error: unknown) => this.end(error));
   }
 
-  cancel(): void { this.end?.(cancelled()); }
+  /** Resolves when the scene is shown. Rejects with ViewerError. Once. */
+  run(events: LoadingEvents): Promise<void> {
+    this.events = events;
+    for (const message of this.unheard) this.hear(message);
+    return this.shown;
+  }
 
-  private hear(message: FromLoader, worker: Worker): void {
-    if (!this.end) return;
+  cancel(): void { this.end(new ViewerError('Loading was cancelled.', 'cancelled')); }
+
+  private async begin(assets: Assets, program: Promise<WebAssembly.Module>, limits: Promise<unknown>,
+                      source: SceneSource): Promise<void> {
+    const toLoad = sourceToLoad(source);
+    const worker = this.worker = await assets.loaderWorker();
+    if (this.over) return worker.terminate();  // cancelled meanwhile
+    const tell = (message: ToLoader) => worker.postMessage(message);
+    worker.onerror = (event) => {
+      event.preventDefault();
+      this.end(new ViewerError(`The loader cannot run: ${event.message || 'its script is not whole'}.`, 'device'));
+    };
+    worker.onmessage = ({ data }: MessageEvent<FromLoader>) => {
+      if (this.events) this.hear(data);
+      else this.unheard.push(data);
+    };
+    tell({ kind: 'load', program: await program, source: toLoad });
+    tell({ kind: 'limits', limits: await limits });
+  }
+
+  private end(error: unknown = null): void {
+    if (this.over) return;
+    this.over = true;
+    this.worker?.terminate();
+    if (error === null) this.settle.resolve();
+    else this.settle.reject(error);
+  }
+
+  private hear(message: FromLoader): void {
+    if (this.over) return;
+    const events = this.events!;
     try {
       switch (message.kind) {
-        case 'progress': return this.events.progress(message.progress);
-        case 'preview': return this.events.preview(message.scene);
+        case 'progress': return events.progress(message.progress);
+        case 'preview': return events.preview(message.scene);
         case 'error': return this.end(new ViewerError(message.error.message, message.error.kind));
         case 'scene':
-          if (this.events.scene(message.scene)) this.end(null);
-          else worker.postMessage({ kind: 'lower' } satisfies ToLoader);
+          if (events.scene(message.scene)) this.end();
+          else this.worker!.postMessage({ kind: 'lower' } satisfies ToLoader);
       }
     } catch (error) {
       this.end(error instanceof ViewerError ? error : new ViewerError(String(error), 'device'));

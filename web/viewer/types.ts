@@ -210,6 +210,8 @@ export interface ViewerOptions {
   /** Where tureen.wasm and the loader's worker lie; beside the script where it is not given. Or how
    *  to get them. */
   readonly assets?: string | Assets;
+  /** What `load` will be asked for first: it arrives while the viewer starts, and so is shown sooner. */
+  readonly expected?: SceneSource;
   /** Whether pointers, wheel and keys on the canvas move the view; true. */
   readonly controls?: boolean;
   readonly background?: Vec3;

@@ -6,7 +6,7 @@ import { attachControls } from './controls.js';
 import { compile, Engine } from './engine.js';
 import { FrameTimes } from './frame_times.js';
 import type { PreparedScene } from './loader_messages.js';
-import { Loading } from './loading.js';
+import { Loading, urlOf } from './loading.js';
 import { ResolutionKeeper } from './resolution.js';
 import { download } from './download.js';
 import { oneFile, openFiles, readWith } from './scene_files.js';
@@ -20,8 +20,8 @@ import {
 export async function createViewer(canvas: HTMLCanvasElement, options: ViewerOptions = {}): Promise<Viewer> {
   const { assets } = options;
   const parts = typeof assets === 'object' ? assets : assetsAt(assets);
-  const viewer = new CanvasViewer(canvas, parts, await compile(parts));
-  await viewer.start();
+  const viewer = new CanvasViewer(canvas, parts, compile(parts));
+  await viewer.start(options.expected ?? null);
   if (options.background) viewer.background = options.background;
   if (options.resolution) viewer.resolution = options.resolution;
   if (options.controls !== false) viewer.detach = attachControls(canvas, viewer);
@@ -34,12 +34,20 @@ interface Device {
   readonly max_picture_side: number;
 }
 
+/** Whether both are the same file of a server, or the same files of this computer. */
+const isSame = (a: SceneSource, b: SceneSource) =>
+  a === b || ('url' in a && 'url' in b && urlOf(a) === urlOf(b) && a.name === b.name);
+
 /** What has no other end than the viewer's. */
 type Listeners = { [E in keyof ViewerEvents]?: Set<(what: ViewerEvents[E]) => void> };
 
 class CanvasViewer implements Viewer {
   detach: (() => void) | null = null;
 
+  /** Once there is an engine and a device. */
+  private started!: Promise<void>;
+  /** What arrives before it is asked for. */
+  private expected: { readonly source: SceneSource; readonly loading: Loading } | null = null;
   private engine!: Engine;
   private device!: Device;
   private readonly listeners: Listeners = {};
@@ -62,12 +70,14 @@ class CanvasViewer implements Viewer {
   private lastFrame: number | null = null;
 
   constructor(readonly canvas: HTMLCanvasElement, private readonly assets: Assets,
-              private readonly program: WebAssembly.Module) {
+              private readonly program: Promise<WebAssembly.Module>) {
     this.observer = new ResizeObserver(() => this.ask());
   }
 
-  async start(): Promise<void> {
-    await this.startEngine();
+  async start(expected: SceneSource | null): Promise<void> {
+    this.started = this.startEngine();
+    if (expected) this.expected = { source: expected, loading: this.begin(expected) };
+    await this.started;
     this.observer.observe(this.canvas);
     const signal = this.ending.signal;
     this.canvas.addEventListener('webglcontextlost', (event) => {
@@ -84,7 +94,7 @@ class CanvasViewer implements Viewer {
   }
 
   private async startEngine(): Promise<void> {
-    const engine = await Engine.create(this.program);
+    const engine = await Engine.create(await this.program);
     engine.takeCanvas(this.canvas);
     this.engine = engine;
     this.device = engine.call<Device>('start');
@@ -120,16 +130,16 @@ class CanvasViewer implements Viewer {
   async load(source: SceneSource, options: { readonly signal?: AbortSignal } = {}): Promise<SceneSummary> {
     this.loading?.cancel();
     this.previewed = false;
-    const loading = this.loading = new Loading(this.assets, {
-      progress: (progress) => this.emit('progress', progress),
-      preview: (scene) => this.showPreview(scene),
-      scene: (scene) => this.showScene(scene, source),
-    });
+    const loading = this.loading = this.begin(source);
     const cancel = () => loading.cancel();
     options.signal?.addEventListener('abort', cancel);
     try {
       if (options.signal?.aborted) throw new ViewerError('Loading was cancelled.', 'cancelled');
-      await loading.run(this.program, source, this.device.limits);
+      await loading.run({
+        progress: (progress) => this.emit('progress', progress),
+        preview: (scene) => this.showPreview(scene),
+        scene: (scene) => this.showScene(scene, source),
+      });
     } catch (error) {
       if (this.previewed && this.loading === loading && !this.lost) this.engine.call('drop_preview');
       throw error;
@@ -139,6 +149,14 @@ class CanvasViewer implements Viewer {
       this.ask();
     }
     return this.shown!;
+  }
+
+  private begin(source: SceneSource): Loading {
+    const { expected } = this;
+    this.expected = null;
+    if (expected && isSame(expected.source, source)) return expected.loading;
+    expected?.loading.cancel();
+    return new Loading(this.assets, this.program, this.started.then(() => this.device.limits), source);
   }
 
   private showPreview(scene: PreparedScene): void {
@@ -269,7 +287,7 @@ class CanvasViewer implements Viewer {
     const source = this.source;
     if (!source) throw new ViewerError('There is no scene to look into.', 'usage');
     const name = this.shown!.name;
-    const files = 'url' in source ? oneFile(name, await download(new URL(source.url, document.baseURI).href, () => {}))
+    const files = 'url' in source ? oneFile(name, await download(urlOf(source), () => {}))
                                   : await openFiles(source.files, source.name ?? name);
     if (this.source !== source) throw new ViewerError('Another scene is shown by now.', 'cancelled');
     readWith(this.engine, 'open_inspector', files);
@@ -347,6 +365,7 @@ class CanvasViewer implements Viewer {
     this.detach?.();
     this.observer.disconnect();
     this.loading?.cancel();
+    this.expected?.loading.cancel();
     cancelAnimationFrame(this.frameAsked);
     if (!this.lost) this.engine.call('clear');
   }

@@ -1,0 +1,124 @@
+// What docs/benchmarks.md says of browsers: frame times of bench.html in Chromium, against the published
+// pipeline in the same page, on both of the rasterisers that draw without a GPU; what a scene holds in
+// memory; and how long the first picture takes.
+//
+//   node browser_benchmark.mjs OUT SCENE.glb.. [--quick]
+//
+// OUT gets SCENE-RASTERISER.json for `tureen bench --import`, and standard output a table of the rest.
+
+import { copyFileSync, mkdirSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { basename, extname, join } from 'node:path';
+import { parseArgs } from 'node:util';
+import { serve } from '../../web/serve.mjs';
+import { built, launch } from '../web/browser.mjs';
+
+const { positionals: [out, ...scenes], values: { quick } } =
+  parseArgs({ allowPositionals: true, options: { quick: { type: 'boolean', default: false } } });
+if (!out || scenes.length === 0) {
+  console.error('use: browser_benchmark.mjs OUT SCENE.glb.. [--quick]');
+  process.exit(2);
+}
+
+const size = quick ? '160x90' : '1280x720', rounds = quick ? 1 : 5, openings = quick ? 1 : 7;
+/** Of one page. The published pipeline takes half a second a frame on two cores. */
+const patience = 20 * 60_000;
+
+const median = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
+const megabytes = (bytes) => (bytes / 1e6).toFixed(1);
+
+async function inPage(browser, address, body) {
+  const profile = await browser.newContext({ viewport: { width: 1280, height: 720 } });
+  profile.setDefaultTimeout(patience);
+  try {
+    const page = await profile.newPage();
+    return await body(page, () => page.goto(address));
+  } finally {
+    await profile.close();
+  }
+}
+
+/** What bench.html says when it is asked by a link. */
+const measured = (browser, site, query) => inPage(browser, `${site}bench.html?${query}&run=1`, async (page, open) => {
+  await open();
+  return page.evaluate(() => window.tureenBench);
+});
+
+/** Milliseconds from the beginning of the visit until a first picture stands on the screen, and until the
+ *  whole scene does, in a profile that has nothing stored. */
+const opened = (browser, site, scene) => inPage(browser, `${site}?${scene}`, async (page, open) => {
+  await page.addInitScript(() => {
+    const times = window.openingTimes = {};
+    const look = () => {
+      const { body } = document, loading = document.getElementById('loading');
+      if (!body || !loading || body.classList.contains('empty')) return;
+      const stamp = (what) => {
+        if (what in times) return;
+        times[what] = 0;
+        // The frame after next begins when this one has been drawn.
+        requestAnimationFrame(() => requestAnimationFrame(() => { times[what] = performance.now(); }));
+      };
+      stamp('first');
+      if (loading.hidden) stamp('whole');
+    };
+    new MutationObserver(look).observe(document, { subtree: true, childList: true, attributes: true });
+  });
+  await open();
+  await page.waitForFunction(() => window.openingTimes.first > 0 && window.openingTimes.whole > 0);
+  return page.evaluate(() => window.openingTimes);
+});
+
+/** The site with the scenes beside it, and nothing else of the disk. */
+function siteWith() {
+  const folder = mkdtempSync(join(tmpdir(), 'tureen-site-'));
+  for (const name of readdirSync(join(built, 'site')))
+    if (extname(name)) copyFileSync(join(built, 'site', name), join(folder, name));
+  for (const scene of scenes) copyFileSync(scene, join(folder, basename(scene)));
+  return folder;
+}
+
+/** Frame times beside the published pipeline's: of the scene's own cameras where it has some. */
+async function frames(browser, site, scene) {
+  const ask = (set) => measured(browser, site, `${scene}&published=1&set=${set}:8&size=${size}&rounds=${rounds}`);
+  try {
+    return await ask('recorded');
+  } catch (error) {
+    if (!error.message.includes('no cameras of its own')) throw error;
+    return ask('hemisphere');
+  }
+}
+
+/** What the scene holds where nothing else is drawn. */
+async function memory(browser, site, scene) {
+  const { scenes: [alone] } = await measured(browser, site, `${scene}&published=0&set=hemisphere:1&size=16x16&rounds=1`);
+  return { device: alone.configurations[0].device_bytes, wasm: alone.wasm_bytes };
+}
+
+async function openingTimes(browser, site, scene) {
+  const times = [];
+  for (let i = 0; i < openings; ++i) times.push(await opened(browser, site, scene));
+  return { first: median(times.map(({ first }) => first)), whole: median(times.map(({ whole }) => whole)) };
+}
+
+mkdirSync(out, { recursive: true });
+const folder = siteWith(), server = await serve(folder);
+console.log('| scene | drawn by | on the device, MB | WebAssembly, MB | first picture, ms | whole scene, ms |');
+console.log('|---|---|---|---|---|---|');
+try {
+  for (const rasteriser of ['llvmpipe', 'swiftshader']) {
+    const browser = await launch(rasteriser);
+    for (const path of scenes) {
+      const name = basename(path, extname(path)), file = encodeURIComponent(basename(path));
+      console.error(`${name} on ${rasteriser}`);
+      const result = await frames(browser, server.address, `scenes=${file}`);
+      writeFileSync(join(out, `${name}-${rasteriser}.json`), JSON.stringify(result, null, 1) + '\n');
+      const { device, wasm } = await memory(browser, server.address, `scenes=${file}`);
+      const { first, whole } = await openingTimes(browser, server.address, `scene=${file}`);
+      console.log(`| ${name} | ${rasteriser} | ${megabytes(device)} | ${megabytes(wasm)} | ${Math.round(first)} | ${Math.round(whole)} |`);
+    }
+    await browser.close();
+  }
+} finally {
+  await server.close();
+  rmSync(folder, { recursive: true });
+}

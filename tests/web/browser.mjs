@@ -1,0 +1,23 @@
+// Chromium without a GPU, and where things lie, for whoever drives the page: tests and benchmarks.
+
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { chromium } from '../../web/node_modules/playwright-core/index.mjs';
+
+export const source = dirname(dirname(dirname(fileURLToPath(import.meta.url))));
+/** What `./dev web` has made. */
+export const built = process.env.TUREEN_WEB ?? join(source, 'build/web/out');
+
+const quiet = ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking',
+               '--disable-component-update', '--disable-sync'];
+/** What draws in place of a GPU. llvmpipe is what the native goldens are drawn with. */
+const backends = {
+  llvmpipe: ['--use-gl=angle', '--use-angle=gl-egl', '--ignore-gpu-blocklist'],
+  swiftshader: ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+  none: ['--disable-gpu', '--disable-software-rasterizer', '--disable-3d-apis'],
+};
+
+/** CHROMIUM names another than Debian's. */
+export const launch = (backend, flags = []) => chromium.launch({
+  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: [...quiet, ...backends[backend], ...flags],
+});

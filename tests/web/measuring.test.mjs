@@ -1,0 +1,65 @@
+// bench.html, driven by its link; and what it gives away, read by `tureen bench --import`.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { often, programs, scratch, stage } from './support.mjs';
+
+const { visit, server } = await stage();
+const folder = scratch();
+
+/** What the page has measured, once it has. It is asked again and again, because a question that a page
+ *  never answers has no end. */
+async function measured(page) {
+  await page.waitForFunction(() => {
+    void window.tureenBench.then((file) => { window.benchFile = file; }, (error) => { window.benchFile = { error: String(error) }; });
+    return window.benchFile;
+  }, null, often);
+  const file = await page.evaluate(() => window.benchFile);
+  assert.equal(file.error, undefined);
+  return file;
+}
+
+const small = 'set=hemisphere:2&size=160x90&rounds=2&run=1';
+const both = `bench.html?scenes=soup.glb&published=1&${small}`;
+
+test('a link measures, and the program reads what came of it',
+     () => visit(both, async (page) => {
+  const result = await measured(page);
+  const [scene] = result.scenes, [measurement] = scene.measurements;
+  assert.equal(scene.triangles, 7000);
+  assert.deepEqual(measurement.entrants.map(({ configuration }) => configuration), ['tureen', 'published']);
+  for (const { frame_ms } of measurement.entrants) {
+    assert.equal(frame_ms.length, 2, 'two rounds');
+    assert.ok(frame_ms.every((round) => round.length === 2 && round.every((ms) => ms > 0)));
+  }
+  assert.match(result.device.renderer, /llvmpipe/);
+  assert.ok(result.device.software);
+
+  const file = join(folder, 'browser.json'), out = join(folder, 'tables');
+  writeFileSync(file, JSON.stringify(result));
+  execFileSync(join(programs, 'tureen'), ['bench', '--import', file, '-o', out], { stdio: 'ignore' });
+  const bench = JSON.parse(readFileSync(join(out, 'bench.json'), 'utf8'));
+  assert.ok(JSON.stringify(bench).includes(measurement.entrants[0].pixels_hash), 'the same pixels');
+}));
+
+test('both pipelines draw the same scene, each time the same pixels',
+     () => visit(both, async (page) => {
+  const hashes = (file) => file.scenes[0].measurements[0].entrants.map(({ pixels_hash }) => pixels_hash);
+  const first = hashes(await measured(page));
+  await page.goto(new URL(both, server.address).href);
+  assert.deepEqual(hashes(await measured(page)), first);
+}));
+
+test('fourteen models fit on a grid', () => visit(`bench.html?scenes=soup.glb&grid=1&copies=14&${small}`, async (page) => {
+  const { scenes } = await measured(page);
+  const grid = scenes.find(({ configurations }) => configurations.some(({ name }) => name === 'grid'));
+  assert.ok(grid, 'the grid is among what was measured');
+  assert.ok(grid.wasm_bytes < 64e6, `of WebAssembly: ${grid.wasm_bytes}`);
+}));
+
+test('a scene that is not there is told of', () => visit(`bench.html?scenes=nowhere.glb&${small}`, async (page) => {
+  await page.locator('[role=alert]', { hasText: 'nowhere.glb' }).waitFor();
+}, { expected: [/404/] }));
