@@ -154,7 +154,7 @@ test('another scene takes the place of one that is on its way', () => visit('?sc
 
 test('a first picture before all has come, which can be turned', () => visit('?scene=half.glb', async (page) => {
   await page.locator('body:not(.empty)').waitFor();
-  assert.ok(await page.isVisible('#loading'), 'the rest is on its way');
+  await page.locator('#loading').waitFor();  // the rest is on its way
   await page.waitForTimeout(500);
   const first = await picture(page);
   assert.ok(await page.isHidden('#start'));

@@ -106,7 +106,7 @@ export async function sceneShown(page, name) {
 /** Picks files, or a folder, by the card's buttons, once the page has them. */
 export async function pick(page, files, button = '#choose-files') {
   const card = page.locator('#start');
-  if (!(await page.locator('body.empty').count())) await page.click('#open-start');
+  if (await card.isHidden()) await page.click('#open-start');
   await card.waitFor();
   const chooser = page.waitForEvent('filechooser');
   await page.click(button);

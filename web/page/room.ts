@@ -185,6 +185,7 @@ export async function openRoom(options: RoomOptions = {}): Promise<void> {
     start.attachDrop();
     furnish(viewer, messages, loading, openings, bar, start);
     followAddress(viewer, openings, bar, start);
+    block('actions').inert = false;
   }
   if (wanted) await openings.openAddress(wanted, bar.view());
   else if (options.scene) await openings.openPart(options.scene, bar.view());
