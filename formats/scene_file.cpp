@@ -13,6 +13,7 @@
 #include "formats/mobilenerf.hpp"
 #include "formats/off.hpp"
 #include "formats/ply.hpp"
+#include "formats/stray_content.hpp"
 #include "formats/tureen_glb.hpp"
 
 namespace tureen {
@@ -124,6 +125,8 @@ std::string listed(Can&& can) {
 const Format& format_to_read(const Candidate& candidate) {
   for (const Format& format : formats())
     if (format.read && format.recognises(candidate)) return format;
+  if (const auto stray = stray_content(candidate.head); stray && !candidate.is_folder)
+    throw InputError({candidate.path.string(), {}, {}}, *stray);
   const std::string extension = extension_of(candidate.path);
   for (const Format& format : formats())
     if (format.read && !candidate.is_folder && has_extension(format, extension)) return format;

@@ -37,9 +37,9 @@ TEST(SceneFile, TellsFormatsByContentBeforeName) {
 
 TEST(SceneFile, AsksTheNameWhereTheContentSaysNothing) {
   const TemporaryFolder folder;
-  write_text(folder / "a.OFF", "");
+  write_text(folder / "a.OFF", "# a comment and nothing else\n");
   EXPECT_THAT(input_error([&] { read_scene(folder / "a.OFF"); }),
-              HasSubstr("a.OFF:1: the file is empty, OFF or COFF is expected"));
+              HasSubstr("a.OFF:2: the file is empty, OFF or COFF is expected"));
 }
 
 TEST(SceneFile, ListsWhatIsReadWhereNothingFits) {
@@ -55,6 +55,22 @@ TEST(SceneFile, ListsWhatIsReadWhereNothingFits) {
   EXPECT_THAT(input_error([&] { read_scene(folder / ""); }),
               HasSubstr("not a folder of a kind that we read: "));
   EXPECT_THAT(input_error([&] { read_scene(folder / "nothing"); }), HasSubstr("no such file"));
+}
+
+TEST(SceneFile, SaysWhatAFileIsThatIsNoScene) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const char* name, const char* content) {
+    write_text(folder / name, content);
+    return input_error([&] { read_scene(folder / name); });
+  };
+  for (const char* name : {"stray.glb", "stray.off", "stray.ply", "stray.pt", "stray.txt"}) {
+    EXPECT_THAT(refusal(name, ""), HasSubstr(std::string(name) + ": the file is empty"));
+    EXPECT_THAT(refusal(name, "\n <!DOCTYPE HTML><title>404</title>"), HasSubstr("a page of the web"));
+    EXPECT_THAT(refusal(name, "version https://git-lfs.github.com/spec/v1\n"), HasSubstr("git lfs pull"));
+    EXPECT_THAT(refusal(name, "\x89PNG\r\n\x1A\n"), HasSubstr("a picture"));
+    EXPECT_THAT(refusal(name, "\x1F\x8B\x08"), HasSubstr("gunzip"));
+  }
+  EXPECT_THAT(refusal("noise.glb", "noise"), HasSubstr("byte 0: neither a GLB"));
 }
 
 TEST(SceneFile, FindsMobileNerfByItsFolderAndByItsObj) {

@@ -6,11 +6,12 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
+import { readPng } from './png.mjs';
 import { distance, errorShown, middle, noticeShown, often, pick, picture, programs, sceneShown, scratch, source, stage, view, viewChanged } from './support.mjs';
 
 const folder = scratch(), other = join(folder, 'UvTexturesMlp.glb');
 execFileSync(join(programs, 'make_golden_scenes'), [join(source, 'examples/soup.glb'), folder]);
-const { visit } = await stage({
+const { visit, server } = await stage({
   routes: { '/UvTexturesMlp.glb': (request, response) => response.writeHead(200).end(readFileSync(other)) },
 });
 
@@ -81,6 +82,40 @@ test('fifty scenes one after the other leave nothing behind', () => visit('', as
   assert.ok(after.heap - before.heap < 1_000_000, `JavaScript's heap: ${before.heap} and ${after.heap} bytes`);
   assert.ok(after.nodes - before.nodes < 100, `elements: ${before.nodes} and ${after.nodes}`);
   assert.equal(after.listeners, before.listeners, 'listeners');
+}));
+
+/** Makes a device that has no memory for larger texel stores than this: runs in the page before its scripts. */
+function shortOfMemory(mostBytes) {
+  const gl = WebGL2RenderingContext.prototype, { texImage3D, getError } = gl;
+  let missing = false;
+  gl.texImage3D = function (...given) {
+    const [, , , width, height, depth] = given;
+    if (4 * width * height * depth > mostBytes) missing = true;
+    else texImage3D.apply(this, given);
+  };
+  gl.getError = function () {
+    const error = missing ? this.OUT_OF_MEMORY : getError.call(this);
+    missing = false;
+    return error;
+  };
+}
+
+// Of the example's 7000 faces, a store of 8-bit texels takes 1.26 MB at level 3, 0.43 MB at level 2 and
+// 0.1 MB at level 0.
+test('without memory for all of a scene a lower lattice level is drawn, and said', () => visit('', async (page, profile) => {
+  await profile.addInitScript(shortOfMemory, 500_000);
+  await page.goto(new URL('?scene=soup.glb', server.address).href);
+  await sceneShown(page, 'soup');
+  await noticeShown(page, 'This device has not enough memory for the whole scene: it is drawn with lattice level 2.');
+  const { pixels } = readPng(await picture(page));
+  assert.ok(new Set(pixels).size > 100, 'there is a picture');
+}));
+
+test('without memory for any level of it the page says so, and goes on', () => visit('', async (page, profile) => {
+  await profile.addInitScript(shortOfMemory, 50_000);
+  await page.goto(new URL('?scene=soup.glb', server.address).href);
+  assert.match(await errorShown(page), /not enough memory for the scene, at no lattice level/);
+  await page.locator('#start').waitFor();
 }));
 
 test('the device is lost and comes back, with scene, view and look', () => visit('?scene=soup.glb', async (page) => {
