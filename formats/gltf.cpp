@@ -214,7 +214,8 @@ class Importer {
 GlbContainer read_json_file(Input& input) {
   const auto bytes = input.read_rest();
   if (!is_gltf(bytes))
-    input.fail_at(0, "neither a GLB, which begins with \"glTF\", nor glTF, which is JSON with an \"asset\"");
+    input.fail_at(
+        0, "neither a GLB, which begins with \"glTF\", nor glTF, which is JSON with an \"asset\"");
   GlbContainer glb;
   glb.json = parse_json(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()),
                         input.name());

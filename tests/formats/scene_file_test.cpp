@@ -65,8 +65,10 @@ TEST(SceneFile, SaysWhatAFileIsThatIsNoScene) {
   };
   for (const char* name : {"stray.glb", "stray.off", "stray.ply", "stray.pt", "stray.txt"}) {
     EXPECT_THAT(refusal(name, ""), HasSubstr(std::string(name) + ": the file is empty"));
-    EXPECT_THAT(refusal(name, "\n <!DOCTYPE HTML><title>404</title>"), HasSubstr("a page of the web"));
-    EXPECT_THAT(refusal(name, "version https://git-lfs.github.com/spec/v1\n"), HasSubstr("git lfs pull"));
+    EXPECT_THAT(refusal(name, "\n <!DOCTYPE HTML><title>404</title>"),
+                HasSubstr("a page of the web"));
+    EXPECT_THAT(refusal(name, "version https://git-lfs.github.com/spec/v1\n"),
+                HasSubstr("git lfs pull"));
     EXPECT_THAT(refusal(name, "\x89PNG\r\n\x1A\n"), HasSubstr("a picture"));
     EXPECT_THAT(refusal(name, "\x1F\x8B\x08"), HasSubstr("gunzip"));
   }

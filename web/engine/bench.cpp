@@ -117,7 +117,8 @@ std::vector<Camera> named_set(const std::string& set, const BenchScene& scene, c
   if (set.rfind("orbit", 0) == 0)
     return orbit(scene.subject, count, {three_quarter_view.azimuth, orbit_elevation}, lens);
   if (set.rfind("recorded", 0) != 0)
-    throw UsageError("views are \"hemisphere:N\", \"orbit:N\", \"recorded:N\" or a file, not \"" + set + "\"");
+    throw UsageError("views are \"hemisphere:N\", \"orbit:N\", \"recorded:N\" or a file, not \"" +
+                     set + "\"");
   if (scene.recorded.empty()) throw UsageError("the scene has no cameras of its own");
   return first_of(scene.recorded, count, lens);
 }
