@@ -1,5 +1,7 @@
 #include "cli/tradeoff_study.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -8,6 +10,7 @@
 
 #include "cli/tradeoff_measurer.hpp"
 #include "cli/tradeoff_pictures.hpp"
+#include "runtime/benchmark.hpp"
 #include "runtime/visibility_count.hpp"
 
 namespace tureen::cli {
@@ -119,6 +122,7 @@ void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& 
   note_skipped(panel, rest);
   measurer.measure(jobs_of(panel.knobs, rest.configurations, true), "knobs combined");
   find_front(panel);
+  if (auto warning = spread_warning(panel.aa_spread)) panel.notes.push_back(*std::move(warning));
 }
 
 void study_antialiasing(const StudyScene& scene, const StudyOptions& options, Study& study) {
@@ -134,6 +138,7 @@ void study_antialiasing(const StudyScene& scene, const StudyOptions& options, St
   measurer.measure(jobs_of(panel.knobs, star.configurations, true), "antialiasing");
   find_ranges(panel);
   find_front(panel);
+  if (auto warning = spread_warning(panel.aa_spread)) panel.notes.push_back(*std::move(warning));
 }
 
 }  // namespace
@@ -153,6 +158,17 @@ Candidates candidates(const Panel& panel) {
     result.index.push_back(i);
   }
   return result;
+}
+
+std::optional<std::string> spread_warning(double aa_spread) {
+  if (aa_spread <= BenchmarkOptions{}.stable_within) return std::nullopt;
+  return fmt::format(
+      "one configuration differs from itself by {:.0f} %: what lies within twice that is no "
+      "difference, "
+      "and another run may choose otherwise; a quiet machine, more --rounds or --processor-time "
+      "tell "
+      "more apart",
+      100 * aa_spread);
 }
 
 Study run_study(const StudyScene& scene, const StudyOptions& options) {

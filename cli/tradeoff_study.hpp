@@ -122,6 +122,11 @@ struct StudyScene {
   std::span<const Camera> counting;  // by which the triangle budget chooses
 };
 
+/// What to think of the times where one configuration differs from itself by more than warming up
+/// calls stable (BenchmarkOptions::stable_within): then who is cheapest is partly chance.
+/// `aa_spread` is a fraction.
+std::optional<std::string> spread_warning(double aa_spread);
+
 /// Throws what Renderer throws for the defaults; a configuration that alone cannot be drawn is
 /// skipped with the reason.
 Study run_study(const StudyScene& scene, const StudyOptions& options);

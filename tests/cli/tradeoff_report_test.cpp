@@ -143,6 +143,11 @@ TEST(TradeoffReport, CsvHasALineForEachConfiguration) {
   EXPECT_EQ(std::count(head.begin(), head.end(), ','), std::count(first.begin(), first.end(), ','));
 }
 
+TEST(TradeoffReport, TimesOfABusyMachineAreWarnedOf) {
+  EXPECT_FALSE(spread_warning(0.05));
+  EXPECT_THAT(spread_warning(0.234).value_or(""), HasSubstr("differs from itself by 23 %"));
+}
+
 TEST(TradeoffReport, TheChoiceIsASentence) {
   TradeoffReport made = report();
   EXPECT_THAT(choice_sentence(made), HasSubstr("4 bits, 9.00 ms at 50.00 dB; the defaults take "
