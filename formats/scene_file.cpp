@@ -2,7 +2,6 @@
 #include "formats/scene_file.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <span>
 
@@ -120,6 +119,17 @@ std::string listed(Can&& can) {
   return text;
 }
 
+/// Its first bytes lie in `head`.
+Candidate candidate_at(const std::filesystem::path& path, std::vector<std::byte>& head) {
+  std::error_code ignored;  // what is wrong with the path, Input::open says
+  Candidate candidate{path, std::filesystem::is_directory(path, ignored), {}};
+  if (candidate.is_folder) return candidate;
+  Input input = Input::open(path);
+  head.resize(head_size);
+  candidate.head = std::span(head).first(input.read_some(head));
+  return candidate;
+}
+
 /// By content first; by name where no format recognises the content, so that the reader that the
 /// name promises says what is wrong with it.
 const Format& format_to_read(const Candidate& candidate) {
@@ -138,14 +148,17 @@ const Format& format_to_read(const Candidate& candidate) {
 
 }  // namespace
 
+bool is_scene(const std::filesystem::path& path) {
+  std::vector<std::byte> head;
+  const Candidate candidate = candidate_at(path, head);
+  return std::any_of(formats().begin(), formats().end(), [&](const Format& format) {
+    return format.read && format.recognises(candidate);
+  });
+}
+
 Scene read_scene(const std::filesystem::path& path, const ReadOptions& options) {
-  std::error_code ignored;  // what is wrong with the path, Input::open says
-  Candidate candidate{path, std::filesystem::is_directory(path, ignored), {}};
-  std::array<std::byte, head_size> head;
-  if (!candidate.is_folder) {
-    Input input = Input::open(path);
-    candidate.head = std::span(head).first(input.read_some(head));
-  }
+  std::vector<std::byte> head;
+  const Candidate candidate = candidate_at(path, head);
   const Format& format = format_to_read(candidate);
   Scene scene = format.read(path, options);
 

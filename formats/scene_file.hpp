@@ -20,6 +20,9 @@ struct ReadOptions {
   std::function<void(double)> progress;
 };
 
+/// Whether a reader recognises what lies there by its content. Throws InputError where it cannot be opened.
+bool is_scene(const std::filesystem::path& path);
+
 /// Reads any scene that we know: .glb/.gltf (ours and foreign), .off, .ply, a DiffSoup export
 /// folder, a MobileNeRF folder (or its .obj), a .pt checkpoint. The scene has no defect().
 /// Throws InputError.

@@ -33,10 +33,9 @@ void use_texture_sampling(unsigned unit) { glBindSampler(unit, 0); }
 
 void wait_for_device(unsigned framebuffer) {
 #ifdef __EMSCRIPTEN__
-  if (framebuffer == 0) return;
   std::uint8_t pixel[4];
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glReadBuffer(framebuffer == 0 ? GL_BACK : GL_COLOR_ATTACHMENT0);
   use_plain_pixel_transfer();
   glReadPixels(0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel);
 #else

@@ -99,6 +99,7 @@ test('a folder that is picked', () => visit('', async (page) => {
 
 /** A drop as the system does it. */
 async function drop(page, path) {
+  await page.locator('#actions:not([inert])').waitFor();  // before that nothing is taken
   const { x, y } = await middle(page);
   const client = await page.context().newCDPSession(page);
   const data = { items: [], files: [path], dragOperationsMask: 1 };

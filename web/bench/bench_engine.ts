@@ -4,7 +4,7 @@
 import { assetsAt, type Assets } from '../viewer/assets.js';
 import { compile, Engine } from '../viewer/engine.js';
 import type { PreparedScene, SceneDescription } from '../viewer/loader_messages.js';
-import { Loading } from '../viewer/loading.js';
+import { isShortage, Loading } from '../viewer/loading.js';
 import { openFiles, readWith } from '../viewer/scene_files.js';
 import { ViewerError, type LoadProgress, type SceneFile } from '../viewer/types.js';
 import { setName, type CameraChoice, type Size } from './request.js';
@@ -135,7 +135,15 @@ export class BenchEngine {
     const load = loading.run({
       progress: tell,
       preview: () => {},
-      scene: (scene) => (added = this.unpack(scene)) !== null,
+      scene: (scene) => {
+        try {
+          added = this.unpack(scene);
+          return null;
+        } catch (error) {
+          if (isShortage(error) && !this.isLost) return error.message;
+          throw error;
+        }
+      },
     });
     try {
       await Promise.race([load, aborted(signal), aborted(this.lost.signal)]);
@@ -146,17 +154,13 @@ export class BenchEngine {
     return added!;
   }
 
-  /** Null where the device has no memory for it. */
-  private unpack({ description, faithful, level, readMs, prepareMs }: PreparedScene): AddedScene | null {
+  private unpack({ description, faithful, level, readMs, prepareMs }: PreparedScene): AddedScene {
     this.engine.setBuffer(new Uint8Array(faithful.head));
     this.engine.call('take_head', { preset: false });
     this.engine.setBlobs(faithful.blobs);
     try {
       const facts = this.engine.call<Omit<Pipeline, 'plan_ms'>>('bench_add_scene', { scene: description });
       return { description, level, readMs, pipeline: { ...facts, plan_ms: prepareMs } };
-    } catch (error) {
-      if (error instanceof ViewerError && error.kind === 'device' && !this.isLost) return null;
-      throw error;
     } finally {
       this.engine.setBlobs([]);
     }
@@ -203,6 +207,6 @@ export class BenchEngine {
     this.canvas.width = width;
     this.canvas.height = height;
     this.canvas.hidden = false;
-    this.engine.call('bench_show', { cells: cells.map((cell) => ({ ...cell, published: false, camera })), width, height });
+    this.engine.call('bench_show', { cells: cells.map((cell) => ({ ...cell, camera })), width, height });
   }
 }

@@ -1,9 +1,10 @@
 // A request from its scenes' bytes to frame times: each scene at each size, one after the other; or
 // all of them on a grid, as one frame.
 
+import { nameOf, urlOf } from '../viewer/addresses.js';
 import { download } from '../viewer/download.js';
+import { lowerLevelSentence } from '../viewer/scene_summary.js';
 import { ViewerError, type SceneSource } from '../viewer/types.js';
-import { nameOf } from '../page/loading.js';
 import type { AddedScene, BenchEngine, Cell, Entrant, Files, Pipeline, RunResult } from './bench_engine.js';
 import { clockStepMs } from './clock.js';
 import { setName, sizeText, type BenchRequest, type Size } from './request.js';
@@ -108,7 +109,7 @@ export class Measuring {
   private async files(source: SceneSource, tell: Tell): Promise<Files> {
     const name = nameOf(source);
     if ('files' in source) return { files: source.files, name };
-    const url = new URL(source.url, document.baseURI).href;
+    const url = urlOf(source);
     let files = this.fetched.get(url);
     if (!files) {
       tell('downloading', 0);
@@ -148,7 +149,7 @@ export class Measuring {
   private notes(added: readonly AddedScene[]): string[] {
     return distinct(added.flatMap(({ description, level }) => [
       ...description.notes,
-      ...(level === null ? [] : [`This device has not enough memory for the whole scene: it is drawn with lattice level ${level}.`]),
+      ...(level === null ? [] : [lowerLevelSentence(level)]),
       ...(description.promise ? ['Its preset is not obeyed: frames are drawn faithfully.'] : []),
     ]));
   }

@@ -4,7 +4,7 @@
 import { block, button, input, make } from '../page/dom.js';
 import { sourceOfDropped, sourceOfPicked } from '../page/files.js';
 import { readModels } from '../page/gallery.js';
-import { nameOf } from '../page/loading.js';
+import { nameOf } from '../viewer/addresses.js';
 import type { Messages } from '../page/messages.js';
 import { bytesText, trianglesText } from '../page/numbers.js';
 import type { SceneSource } from '../viewer/types.js';

@@ -12,6 +12,7 @@
 #include "runtime/camera_sets.hpp"
 #include "soup/error.hpp"
 #include "web/engine/page_view.hpp"
+#include "web/engine/scene_path.hpp"
 #include "web/engine/unpacking.hpp"
 
 namespace tureen::web {
@@ -81,11 +82,10 @@ Json add_scene(const Json& arguments) {
   return result;
 }
 
-/// {"scene", "folder", "path"}: the same scene drawn by the published pipeline.
+/// {"scene", "folder", "paths"}: the same scene drawn by the published pipeline.
 Json add_published(const Json& arguments) {
   BenchScene& to = scene_at(arguments.at("scene"));
-  std::filesystem::current_path(arguments.at("folder").get<std::string>());
-  Scene scene = read_scene(arguments.at("path").get<std::string>());
+  Scene scene = read_scene(scene_path(arguments));
   RenderOptions options{.background = glm::vec4(scene.info.background, 1.0f)};
   options.plan.pipeline = PipelineKind::published;
   const TriangleSoup& soup = opaque_soup(scene);
@@ -149,7 +149,7 @@ Json set_cameras(const Json& arguments) {
   scene.cameras = file != arguments.end()
                       ? cameras_in(file->get<std::string>(), arguments.at("count"), lens)
                       : named_set(arguments.at("set").get<std::string>(), scene, lens);
-  return scene.cameras.size();
+  return nullptr;
 }
 
 // -- runs ---------------------------------------------------------------------------------------
@@ -274,13 +274,12 @@ Json result(const Json&) {
           {"entrants", entrants}};
 }
 
-/// {"cells": [{"scene", "published", "camera", "x", "y", "width", "height"}], "width", "height"}
+/// {"cells": [{"scene", "camera", "x", "y", "width", "height"}], "width", "height"}
 Json show(const Json& arguments) {
   page_view().clear_canvas(arguments.at("width"), arguments.at("height"));
   for (const Json& cell : arguments.at("cells")) {
     BenchScene& scene = scene_at(cell.at("scene"));
-    const bool published = cell.at("published").get<bool>() && scene.published.has_value();
-    Renderer& renderer = published ? *scene.published : scene.tureen;
+    Renderer& renderer = scene.tureen;
     const auto& cameras = scene.cameras;
     if (cameras.empty()) continue;
     const Camera& camera = cameras[cell.at("camera").get<std::size_t>() % cameras.size()];

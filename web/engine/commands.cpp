@@ -30,6 +30,15 @@ void pull_block(std::size_t blob, std::uint64_t offset, std::span<std::byte> out
 
 namespace {
 
+constexpr const char* no_memory = "there is not enough memory for this scene in a page";
+
+/// JSON for the next command. JavaScript writes it here: on the stack, which is where Emscripten's own
+/// strings go, a scene of many cameras would not fit.
+std::string& arguments() {
+  static std::string text;
+  return text;
+}
+
 Commands all_commands() {
   Commands commands = loader_commands();
   commands.merge(viewer_commands());
@@ -42,18 +51,20 @@ Json failure(const char* kind, const std::string& message) {
 }
 
 /// Every error becomes a value: an exception that reached JavaScript would be a number there.
-Json run(const std::string& name, const char* arguments) {
+Json run(const std::string& name, const std::string& given) {
   static const Commands commands = all_commands();
   try {
-    return {{"result", commands.at(name)(Json::parse(arguments))}};
+    return {{"result", commands.at(name)(Json::parse(given))}};
   } catch (const InputError& error) {
     return failure("input", error.what());
   } catch (const UsageError& error) {
     return failure("usage", error.what());
+  } catch (const DeviceLimitError& error) {
+    return failure("memory", error.what());
   } catch (const Error& error) {
     return failure("device", error.what());
   } catch (const std::bad_alloc&) {
-    return failure("memory", "there is not enough memory for this scene in a page");
+    return failure("memory", no_memory);
   } catch (const std::exception& error) {
     return failure("usage", name + ": " + error.what());
   }
@@ -63,11 +74,25 @@ Json run(const std::string& name, const char* arguments) {
 
 extern "C" {
 
+/// Makes room for so many bytes of JSON, UTF-8, for the next command; 0 where there is no memory.
+EMSCRIPTEN_KEEPALIVE char* tureen_arguments(int size) {
+  try {
+    arguments().resize(std::size_t(size));
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+  return arguments().data();
+}
+
 /// {"result": ..} or {"error": {"kind", "message"}}; good until the next call.
-EMSCRIPTEN_KEEPALIVE const char* tureen_call(const char* name, const char* arguments) {
+EMSCRIPTEN_KEEPALIVE const char* tureen_call(const char* name) {
   static std::string answer;
-  // Names in files need not be UTF-8.
-  answer = run(name, arguments).dump(-1, ' ', false, Json::error_handler_t::replace);
+  try {
+    // Names in files need not be UTF-8.
+    answer = run(name, arguments()).dump(-1, ' ', false, Json::error_handler_t::replace);
+  } catch (const std::bad_alloc&) {
+    answer = failure("memory", no_memory).dump();
+  }
   return answer.c_str();
 }
 

@@ -1,5 +1,5 @@
 // Reads a scene and prepares it for a device that another instance has.
-#include <filesystem>
+#include <algorithm>
 #include <optional>
 
 #include "formats/scene_file.hpp"
@@ -9,6 +9,7 @@
 #include "runtime/up_axis.hpp"
 #include "web/engine/commands.hpp"
 #include "web/engine/prepared_archive.hpp"
+#include "web/engine/scene_path.hpp"
 
 namespace tureen::web {
 
@@ -81,13 +82,11 @@ Json take(Scene scene) {
   return describe(*loader().scene);
 }
 
-/// {"folder", "path"}: any scene, in the file system of this instance; the path is relative to the
-/// folder, and so are those that errors name.
+/// {"folder", "paths"}: any scene, in the file system of this instance.
 Json read(const Json& arguments) {
-  std::filesystem::current_path(arguments.at("folder").get<std::string>());
   ReadOptions options;
   options.progress = report_progress;
-  return take(read_scene(arguments.at("path").get<std::string>(), options));
+  return take(read_scene(scene_path(arguments), options));
 }
 
 /// {"name"}; the buffer holds the first bytes of a file. How many of them a preview takes; 0 where
@@ -113,7 +112,7 @@ Json prepare(const Json& arguments) {
   if (arguments.at("preset").get<bool>()) options.plan.preset = scene.preset;
   if (const auto level = arguments.find("level"); level != arguments.end()) {
     RenderPreset preset = options.plan.preset.value_or(RenderPreset());
-    preset.lattice_level = level->get<int>();
+    preset.lattice_level = std::min(preset.lattice_level, level->get<int>());
     options.plan.preset = preset;
   }
   PreparedSoup prepared =

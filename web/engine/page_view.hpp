@@ -41,7 +41,6 @@ class PageView {
   void look(Inspection what, const FeatureChoice& features);
   bool has_inspector() const { return inspector_.has_value(); }
   void set_inspector(Inspector inspector);
-  Inspection shown_look() const { return look_; }
   Legend legend() const;
 
   /// Of what is shown; where nothing is, of nothing in particular.

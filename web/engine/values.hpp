@@ -1,5 +1,5 @@
-// Between the page's JSON and our types. What is missing or of another type throws UsageError: only
-// our own script speaks here, so it is a sentence for its author.
+// Between the page's JSON and our types. What is missing or of another type throws nlohmann::json's
+// exceptions: only our own script speaks here, so it is a sentence for its author.
 #pragma once
 
 #include <glm/vec3.hpp>

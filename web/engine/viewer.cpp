@@ -1,7 +1,8 @@
 // What the page asks of a PageView, command by command.
+#include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <memory>
+#include <numbers>
 
 #include "formats/scene_file.hpp"
 #include "runtime/preset_check.hpp"
@@ -9,6 +10,7 @@
 #include "soup/error.hpp"
 #include "web/engine/commands.hpp"
 #include "web/engine/page_view.hpp"
+#include "web/engine/scene_path.hpp"
 #include "web/engine/unpacking.hpp"
 
 namespace tureen::web {
@@ -107,6 +109,8 @@ Json set_pose(const Json& arguments) {
   const glm::dvec3 eye = vector_of(pose.at("eye")), target = vector_of(pose.at("target"));
   const glm::dvec3 up = vector_of(pose.at("up"));
   const double distance = glm::length(target - eye), fov = pose.at("fov");
+  if (!(distance > 0 && std::isfinite(distance) && fov > 0 && fov < std::numbers::pi))
+    throw UsageError("a view looks from one point at another, at an angle between 0 and pi");
   ViewState state =
       state_of(look_at(eye, target, up, fov, any_side, any_side), glm::normalize(up), distance);
   state.roll += pose.at("roll").get<double>();
@@ -211,12 +215,9 @@ Json background(const Json& color) {
   return nullptr;
 }
 
-/// {"folder", "path"}: the scene again, for looks that want more of it than the renderer has.
+/// {"folder", "paths"}: the scene again, for looks that want more of it than the renderer has.
 Json open_inspector(const Json& arguments) {
-  std::filesystem::current_path(arguments.at("folder").get<std::string>());
-  ReadOptions options;
-  options.progress = report_progress;
-  Scene scene = read_scene(arguments.at("path").get<std::string>(), options);
+  Scene scene = read_scene(scene_path(arguments));
   opaque_soup(scene);
   view().set_inspector(
       Inspector(view().context(), std::get<TriangleSoup>(scene.primitives), scene.origin));

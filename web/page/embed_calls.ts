@@ -1,12 +1,12 @@
 // What an embedding page can call, and the checks on what it hands over. Names, order and meaning
 // are those of Viewer (viewer/types.ts); a property becomes setX.
 
+import { urlOf } from '../viewer/addresses.js';
 import {
   namedViews, ViewerError, type NamedView, type Resolution, type SceneFile, type SceneSource, type Vec3, type Viewer,
   type ViewerEvents, type ViewPose,
 } from '../viewer/types.js';
 import type { Loading } from './loading.js';
-import { fetchedProtocols } from './openings.js';
 import { isPose, isVector } from './saved_views.js';
 
 const eventNames: readonly (keyof ViewerEvents)[] =
@@ -53,10 +53,7 @@ function source(value: unknown): SceneSource {
   const named = name === undefined ? {} : { name: text(name, 'name') };
   if (Array.isArray(files)) return { files: files.map(file), ...named };
   if (typeof url !== 'string') refuse('A scene is {url} or {files: [{path, data}]}.');
-  if (!URL.canParse(url, location.href)) refuse(`“${url}” is no address.`);
-  const { href, protocol } = new URL(url, location.href);
-  if (!fetchedProtocols.includes(protocol)) refuse('Scenes are fetched by http and https.');
-  return { url: href, ...named };
+  return { url: urlOf({ url }), ...named };
 }
 
 function resolution(value: unknown): Resolution {

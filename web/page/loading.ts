@@ -1,6 +1,7 @@
 // Opening a scene: its progress, in words and as a bar, the button that stops it, and the sentence
 // when it fails. A new load takes the place of the one before.
 
+import { nameOf } from '../viewer/addresses.js';
 import type { LoadProgress, LoadStage, SceneSource, SceneSummary, Viewer } from '../viewer/types.js';
 import { block, button } from './dom.js';
 import type { Messages } from './messages.js';
@@ -9,18 +10,6 @@ import { bytesText, trianglesText } from './numbers.js';
 const stageText: Readonly<Record<LoadStage, string>> = {
   download: 'downloading', read: 'reading', prepare: 'preparing', upload: 'handing over to the graphics device',
 };
-
-/** The last part of an address or the name of what was picked. */
-export function nameOf(source: SceneSource): string {
-  if (source.name) return source.name;
-  if ('files' in source) return source.files[0]?.path ?? 'the scene';
-  const path = source.url.replace(/[?#].*$/s, '').replace(/\/+$/, '');
-  try {
-    return decodeURIComponent(path.slice(path.lastIndexOf('/') + 1)) || source.url;
-  } catch {
-    return path.slice(path.lastIndexOf('/') + 1);
-  }
-}
 
 export class Loading {
   private readonly card = block('loading');

@@ -1,8 +1,8 @@
 // All ways to a scene end here: what is opened, whether the page's address can carry it, and from
 // where it is looked at first.
 
-import { urlOf } from '../viewer/loading.js';
-import { ViewerError, type SceneSource, type SceneSummary, type Viewer } from '../viewer/types.js';
+import { urlOf } from '../viewer/addresses.js';
+import type { SceneSource, SceneSummary, Viewer } from '../viewer/types.js';
 import type { AddressBar } from './address_bar.js';
 import type { LinkedView } from './camera_link.js';
 import type { Loading } from './loading.js';
@@ -15,20 +15,7 @@ export type Origin =
   /** It is part of the page. */
   | { readonly kind: 'page' };
 
-/** Of addresses that a scene may have. */
-export const fetchedProtocols: readonly string[] = ['http:', 'https:', 'blob:', 'data:'];
-
 const noView: LinkedView = { pose: null, look: null, defect: null };
-
-/** A scene by its address, relative to the page's. Throws ViewerError where pages cannot fetch it. */
-export function sourceAt(address: string): { readonly url: string } {
-  const url = urlOf({ url: address }), protocol = new URL(url).protocol;
-  if (protocol === 'file:')
-    throw new ViewerError('A page that was opened from the disk cannot fetch files; drop the scene on it instead.', 'usage');
-  if (!fetchedProtocols.includes(protocol))
-    throw new ViewerError(`Scenes are fetched by http and https, not by ${protocol.slice(0, -1)}.`, 'usage');
-  return { url };
-}
 
 export class Openings {
   private origin_: Origin | null = null;
@@ -47,7 +34,7 @@ export class Openings {
   async openAddress(address: string, view: LinkedView = noView): Promise<boolean> {
     let source;
     try {
-      source = sourceAt(address);
+      source = { url: urlOf({ url: address }) };
     } catch (error) {
       this.messages.thrown(error);
       return false;

@@ -1,5 +1,6 @@
 // The page: makes a viewer of the canvas and puts everything around it.
 
+import { urlOf } from '../viewer/addresses.js';
 import type { Assets } from '../viewer/assets.js';
 import { namedViews, ViewerError, type SceneSource, type Viewer } from '../viewer/types.js';
 import { createViewer } from '../viewer/viewer.js';
@@ -9,7 +10,7 @@ import { answerEmbedder } from './embed.js';
 import { FullScreen } from './full_screen.js';
 import { Loading } from './loading.js';
 import { Messages } from './messages.js';
-import { Openings, sourceAt } from './openings.js';
+import { Openings } from './openings.js';
 import { Panel } from './panel.js';
 import { CamerasSection } from './sections/cameras.js';
 import { DrawingSection } from './sections/drawing.js';
@@ -33,7 +34,7 @@ export interface RoomOptions {
 /** What the page will open, where that can be fetched; what is wrong with it is said when it is opened. */
 function fetchable(address: string): SceneSource | null {
   try {
-    return sourceAt(address);
+    return { url: urlOf({ url: address }) };
   } catch {
     return null;
   }
@@ -69,12 +70,13 @@ function markEmpty(viewer: Viewer): void {
 }
 
 function tellOfContext(viewer: Viewer, messages: Messages): void {
-  const lost = 'The browser took the graphics device away. The scene comes back as soon as the device does.';
+  const lost = () => 'The browser took the graphics device away.' +
+    (viewer.scene ? ' The scene comes back as soon as the device does.' : '');
   let takeAway = () => {};
   viewer.on('context', (what) => {
     takeAway();
-    if (what === 'lost') takeAway = messages.error(lost);
-    else messages.notice('The graphics device is back, and so is the scene.');
+    if (what === 'lost') takeAway = messages.error(lost());
+    else messages.notice(`The graphics device is back${viewer.scene ? ', and so is the scene' : ''}.`);
   });
 }
 

@@ -15,13 +15,21 @@ async function fetched(url: URL): Promise<Response> {
   return response;
 }
 
+const known = new Map<string, Assets>();
+
 /** Files at this address; beside this script where none is given. All are fetched at once and kept, so
  *  that scenes can be opened when the network has gone. */
 export function assetsAt(address?: string): Assets {
-  const base = address === undefined ? import.meta.url : new URL(address.replace(/\/?$/, '/'), document.baseURI);
+  const base = address === undefined ? import.meta.url : new URL(address.replace(/\/?$/, '/'), document.baseURI).href;
+  const assets = known.get(base) ?? fetchedFrom(base);
+  known.set(base, assets);
+  return assets;
+}
+
+function fetchedFrom(base: string): Assets {
   const script = fetched(new URL('loader_worker.js', base))
     .then(async (response) => URL.createObjectURL(new Blob([await response.text()], { type: 'text/javascript' })));
-  script.catch(() => {});  // who wants a worker is told
+  script.catch(() => { known.delete(base); });  // who wants a worker is told; the next one may have better luck
   return {
     wasm: async () => (await fetched(new URL('tureen.wasm', base))).arrayBuffer(),
     loaderWorker: async () => new Worker(await script),

@@ -32,11 +32,19 @@ async function request(url: string): Promise<Response> {
   return response;
 }
 
+function room(url: string, bytes: number): Uint8Array<ArrayBuffer> {
+  try {
+    return new Uint8Array(bytes);
+  } catch {
+    throw new ViewerError(`There is not enough memory for the ${bytes.toLocaleString('en')} bytes of ${url}.`, 'memory');
+  }
+}
+
 /** Calls `arrived` with each piece that comes, and waits for it before the next. Rejects with ViewerError. */
 export async function download(url: string, arrived: (arrival: Arrival) => void | Promise<void>): Promise<Uint8Array<ArrayBuffer>> {
   const response = await request(url);
-  const total = announced(response);
-  let memory = new Uint8Array(total ?? firstGuess), size = 0;
+  let total = announced(response), size = 0;
+  let memory = room(url, total ?? firstGuess);
   const reader = response.body!.getReader();
   for (;;) {
     const { done, value } = await reader.read().catch(() => {
@@ -44,13 +52,19 @@ export async function download(url: string, arrived: (arrival: Arrival) => void 
     });
     if (done) break;
     if (size + value.length > memory.length) {
-      const larger = new Uint8Array(Math.max(2 * memory.length, size + value.length));
+      total = null;  // of another server it is not told that it packs what it sends
+      const larger = room(url, Math.max(2 * memory.length, size + value.length));
       larger.set(memory.subarray(0, size));
       memory = larger;
     }
     memory.set(value, size);
     size += value.length;
-    await arrived({ bytes: memory.subarray(0, size), total });
+    try {
+      await arrived({ bytes: memory.subarray(0, size), total });
+    } catch (error) {
+      void reader.cancel().catch(() => {});  // the server need not go on
+      throw error;
+    }
   }
   return memory.subarray(0, size);
 }

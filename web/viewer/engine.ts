@@ -5,7 +5,7 @@ import createTureen, { type TureenModule } from 'tureen-engine';
 import type { Assets } from './assets.js';
 import { ViewerError } from './types.js';
 
-type Failure = { readonly kind: ViewerError['kind'] | 'memory'; readonly message: string };
+type Failure = { readonly kind: ViewerError['kind']; readonly message: string };
 
 /** A scene's bytes on their way to the device: web/engine/prepared_archive.hpp. */
 export interface Parcel {
@@ -13,12 +13,17 @@ export interface Parcel {
   readonly blobs: readonly ArrayBuffer[];
 }
 
-let compiled: Promise<WebAssembly.Module> | null = null;
+const compiled = new WeakMap<Assets, Promise<WebAssembly.Module>>();
+const utf8 = new TextEncoder();
 
-/** The program, compiled once for all instances. */
+/** The program, compiled once for all instances. Rejects with ViewerError. */
 export function compile(assets: Assets): Promise<WebAssembly.Module> {
-  const program = compiled ??= assets.wasm().then((bytes) => WebAssembly.compile(bytes));
-  program.catch(() => { compiled = null; });  // the next viewer may have better luck
+  let program = compiled.get(assets);
+  if (!program) {
+    program = assets.wasm().then((bytes) => WebAssembly.compile(bytes));
+    compiled.set(assets, program);
+    program.catch(() => { compiled.delete(assets); });  // the next viewer may have better luck
+  }
   return program;
 }
 
@@ -28,14 +33,19 @@ export class Engine {
 
   private constructor(private readonly module: TureenModule) {}
 
+  /** Rejects with ViewerError where there is no memory for another instance. */
   static async create(program: WebAssembly.Module): Promise<Engine> {
     let engine: Engine | null = null;
-    const module = await createTureen({
-      instantiateWasm: (imports, done) => {
-        void WebAssembly.instantiate(program, imports).then((instance) => done(instance, program));
-        return {};
-      },
-      onProgress: (fraction) => engine?.onProgress?.(fraction),
+    const module = await new Promise<TureenModule>((resolve, reject) => {
+      createTureen({
+        instantiateWasm: (imports, done) => {
+          WebAssembly.instantiate(program, imports).then((instance) => done(instance, program), reject);
+          return {};
+        },
+        onProgress: (fraction) => engine?.onProgress?.(fraction),
+      }).then(resolve, reject);
+    }).catch((error: unknown) => {
+      throw new ViewerError(`The engine cannot start: ${String(error)}.`, 'memory');
     });
     return engine = new Engine(module);
   }
@@ -44,17 +54,20 @@ export class Engine {
   call<T = null>(name: string, given: unknown = null): T {
     const answer = JSON.parse(this.ask(name, given)) as { result: T } | { error: Failure };
     if ('result' in answer) return answer.result;
-    const { kind, message } = answer.error;
-    throw new ViewerError(message, kind === 'memory' ? 'device' : kind);
+    throw new ViewerError(answer.error.message, answer.error.kind);
   }
 
   private ask(name: string, given: unknown): string {
+    const json = utf8.encode(JSON.stringify(given));
     try {
-      return this.module.ccall('tureen_call', 'string', ['string', 'string'], [name, JSON.stringify(given)]);
+      const at = this.module.ccall('tureen_arguments', 'number', ['number'], [json.length]);
+      if (at === 0) throw new RangeError('no room for what it is asked');
+      this.module.HEAPU8.set(json, at);
+      return this.module.ccall('tureen_call', 'string', ['string'], [name]);
     } catch (trap) {
       // What WebAssembly does where memory cannot grow, or the stack ends.
       throw new ViewerError(`The engine has stopped (${trap instanceof Error ? trap.message : String(trap)}): ` +
-                            'most likely there is not enough memory for this scene.', 'device');
+                            'most likely there is not enough memory for this scene.', 'memory');
     }
   }
 
@@ -62,7 +75,7 @@ export class Engine {
   setBuffer(bytes: Uint8Array): void {
     const at = this.module.ccall('tureen_buffer', 'number', ['number'], [bytes.length]);
     if (at === 0 && bytes.length > 0)
-      throw new ViewerError('There is not enough memory for this scene in a page.', 'device');
+      throw new ViewerError('There is not enough memory for this scene in a page.', 'memory');
     this.module.HEAPU8.set(bytes, at);
   }
 
@@ -85,8 +98,19 @@ export class Engine {
     }
   }
 
-  removeFiles(folder: string, files: Iterable<string>): void {
-    for (const path of files) this.module.FS.unlink(`${folder}/${path}`);
+  /** The folder itself stays: it is where the engine is. */
+  emptyFolder(folder: string): void {
+    const { FS } = this.module;
+    for (const name of FS.readdir(folder)) {
+      if (name === '.' || name === '..') continue;
+      const path = `${folder}/${name}`;
+      if (!FS.isDir(FS.stat(path).mode)) {
+        FS.unlink(path);
+      } else {
+        this.emptyFolder(path);
+        FS.rmdir(path);
+      }
+    }
   }
 
   /** Makes the canvas's context this engine's. Throws ViewerError where there is no WebGL2. */
@@ -103,6 +127,6 @@ export class Engine {
   get memoryBytes(): number { return this.module.HEAPU8.length; }
 }
 
-export const noWebGl2 =
+const noWebGl2 =
   'This browser gives no WebGL2, which drawing needs. A newer browser has it, or the same one with ' +
   'hardware acceleration switched on in its settings.';

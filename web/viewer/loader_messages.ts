@@ -43,7 +43,7 @@ export type ToLoader =
   /** Of the device, once it is there: what is prepared depends on them. */
   | { readonly kind: 'limits'; readonly limits: unknown }
   /** The device had no memory for it: prepare it with a lower lattice level. */
-  | { readonly kind: 'lower' };
+  | { readonly kind: 'lower'; readonly why: string };
 
 export type FromLoader =
   | { readonly kind: 'progress'; readonly progress: LoadProgress }

@@ -36,11 +36,12 @@ class Loader {
     await this.send();
   }
 
-  /** A lattice level less than last time. */
-  async lower(): Promise<void> {
-    const level = this.level ?? this.engine.call<number | null>('lattice_level') ?? 0;
-    if (level === 0)
-      throw new ViewerError('This device has not enough memory for the scene, at no lattice level.', 'device');
+  /** A lattice level less than last time; `why` is what the device says. */
+  async lower(why: string): Promise<void> {
+    const level = this.level ?? this.engine.call<number | null>('lattice_level');
+    if (!level)
+      throw new ViewerError(`This device has not enough memory for the scene${level === 0 ? ', at no lattice level' : ''}: ${why}`,
+                            'memory');
     this.level = level - 1;
     await this.send();
   }
@@ -125,7 +126,7 @@ async function obey(message: ToLoader): Promise<void> {
       loader = new Loader(await Engine.create(message.program), limits, 'url' in message.source ? 'url' : 'files');
       return loader.load(message.source);
     case 'limits': return giveLimits(message.limits);
-    case 'lower': return loader!.lower();
+    case 'lower': return loader!.lower(message.why);
   }
 }
 

@@ -1,5 +1,6 @@
 // One load under way: the worker that does it, and what it says.
 
+import { fileNameOf, urlOf } from './addresses.js';
 import type { Assets } from './assets.js';
 import type { FromLoader, PreparedScene, SourceToLoad, ToLoader } from './loader_messages.js';
 import { ViewerError, type LoadProgress, type SceneSource } from './types.js';
@@ -7,24 +8,15 @@ import { ViewerError, type LoadProgress, type SceneSource } from './types.js';
 export interface LoadingEvents {
   progress(progress: LoadProgress): void;
   preview(scene: PreparedScene): void;
-  /** Puts the scene on the device; false asks for it with a lower lattice level. */
-  scene(scene: PreparedScene): boolean;
-}
-
-/** Whole, where it is relative to the page's. Throws ViewerError. */
-export function urlOf({ url }: { readonly url: string }): string {
-  try {
-    return new URL(url, document.baseURI).href;
-  } catch {
-    throw new ViewerError(`“${url}” is no address of a scene.`, 'usage');
-  }
+  /** Puts the scene on the device. Where that has no memory for it, why: then it comes again, with a
+   *  lower lattice level. */
+  scene(scene: PreparedScene): string | null;
 }
 
 function sourceToLoad(source: SceneSource): SourceToLoad {
   if ('url' in source) {
     const url = urlOf(source);
-    const file = decodeURIComponent(new URL(url).pathname.split('/').pop() ?? '');
-    return { url, name: source.name || file || 'scene' };
+    return { url, name: source.name || fileNameOf(url) || 'scene' };
   }
   if (source.files.length === 0) throw new ViewerError('There is no file to open.', 'usage');
   const files = source.files.map(({ path, data }) => ({ path: path.replace(/^\/+/, ''), data }));
@@ -32,6 +24,9 @@ function sourceToLoad(source: SceneSource): SourceToLoad {
     throw new ViewerError('A file of the scene has no name within its folder.', 'usage');
   return { files, name: source.name || files[0]!.path };
 }
+
+/** Then a lower lattice level may do. */
+export const isShortage = (error: unknown): error is ViewerError => error instanceof ViewerError && error.kind === 'memory';
 
 /** It begins when it is made, with what needs no graphics device; what comes of it waits for who runs it. */
 export class Loading {
@@ -56,7 +51,7 @@ export class Loading {
     return this.shown;
   }
 
-  cancel(): void { this.end(new ViewerError('Loading was cancelled.', 'cancelled')); }
+  cancel(why = new ViewerError('Loading was cancelled.', 'cancelled')): void { this.end(why); }
 
   private async begin(assets: Assets, program: Promise<WebAssembly.Module>, limits: Promise<unknown>,
                       source: SceneSource): Promise<void> {
@@ -92,9 +87,11 @@ export class Loading {
         case 'progress': return events.progress(message.progress);
         case 'preview': return events.preview(message.scene);
         case 'error': return this.end(new ViewerError(message.error.message, message.error.kind));
-        case 'scene':
-          if (events.scene(message.scene)) this.end();
-          else this.worker!.postMessage({ kind: 'lower' } satisfies ToLoader);
+        case 'scene': {
+          const why = events.scene(message.scene);
+          if (why === null) this.end();
+          else this.worker!.postMessage({ kind: 'lower', why } satisfies ToLoader);
+        }
       }
     } catch (error) {
       this.end(error instanceof ViewerError ? error : new ViewerError(String(error), 'device'));

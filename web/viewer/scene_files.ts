@@ -8,7 +8,7 @@ const folder = '/scene';
 
 export interface OpenedFiles {
   readonly bytes: ReadonlyMap<string, Uint8Array>;
-  /** What may be the scene, in this order: a folder of several files, or the one that names others. */
+  /** What may be the scene: a folder of several files, or else the one of them that names the others. */
   readonly paths: readonly [string, ...string[]];
 }
 
@@ -32,17 +32,10 @@ export async function openFiles(files: readonly SceneFile[], name: string): Prom
 /** Lets a command of the engine read them; they are gone from it afterwards. `more` goes with the
  *  command. Throws ViewerError. */
 export function readWith<T>(engine: Engine, command: string, files: OpenedFiles, more: object = {}): T {
-  engine.putFiles(folder, files.bytes);
-  const read = (path: string) => engine.call<T>(command, { ...more, folder, path });
   try {
-    const [first, second] = files.paths;
-    if (second === undefined) return read(first);
-    try {
-      return read(first);
-    } catch {
-      return read(second);
-    }
+    engine.putFiles(folder, files.bytes);
+    return engine.call<T>(command, { ...more, folder, paths: files.paths });
   } finally {
-    engine.removeFiles(folder, files.bytes.keys());
+    engine.emptyFolder(folder);
   }
 }

@@ -11,6 +11,9 @@ export interface ShownFacts {
   readonly device_bytes: number;
 }
 
+export const lowerLevelSentence = (level: number) =>
+  `This device has not enough memory for the whole scene: it is drawn with lattice level ${level}.`;
+
 export function sceneSummary({ description }: PreparedScene, facts: ShownFacts): SceneSummary {
   const { name, source, notes, triangles, appearance, cameras, background, subject, looks } = description;
   return {

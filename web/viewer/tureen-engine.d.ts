@@ -8,7 +8,11 @@ declare module 'tureen-engine' {
     FS: {
       mkdirTree(path: string): void;
       writeFile(path: string, bytes: Uint8Array, options: { canOwn: boolean }): void;
+      readdir(path: string): string[];
+      stat(path: string): { readonly mode: number };
+      isDir(mode: number): boolean;
       unlink(path: string): void;
+      rmdir(path: string): void;
     };
     GL: {
       createContext(canvas: HTMLCanvasElement, attributes: Record<string, unknown>): number;

@@ -99,7 +99,7 @@ export interface ViewPose {
 }
 
 /** Resolution of the picture: a factor of the screen's own pixels, 0.25..1 and 2 for four samples a
- *  pixel, or the factor that holds a frame rate. */
+ *  pixel (what lies beyond is brought within), or the factor that holds a frame rate above 0. */
 export type Resolution = number | { readonly targetFps: number };
 
 export interface FrameStats {
@@ -129,18 +129,20 @@ export interface ViewerEvents {
   notice: string;
   /** A frame was drawn. Use it sparingly. */
   frame: FrameStats;
-  /** The view has come to rest after moving. */
+  /** The view has come to rest after it was asked to move. */
   view: ViewPose;
   /** The GL context was lost, or is back and the scene with it. */
   context: 'lost' | 'restored';
 }
 
-/** What went wrong, in a sentence that may be shown. `place` names file and byte or line. */
+/** input: a file is broken or of no kind that is read; the sentence says where. network: an address cannot
+ *  be had. memory: the device or the page has not enough. device: it fails otherwise. no-webgl2: there is
+ *  none. cancelled: by the caller or a later load. usage: something was asked for that there is not. */
+export type ErrorKind = 'input' | 'network' | 'memory' | 'device' | 'no-webgl2' | 'cancelled' | 'usage';
+
+/** What went wrong, in a sentence that may be shown. */
 export class ViewerError extends Error {
-  constructor(
-    message: string,
-    readonly kind: 'input' | 'network' | 'device' | 'no-webgl2' | 'cancelled' | 'usage',
-  ) {
+  constructor(message: string, readonly kind: ErrorKind) {
     super(message);
     this.name = 'ViewerError';
   }
@@ -153,7 +155,8 @@ export interface Viewer {
 
   /** Replaces the scene once the new one is whole (its preview comes before). A load that is under
    *  way is cancelled by the next one and by the signal: its promise is rejected with 'cancelled'
-   *  and the scene before stays. Rejects with ViewerError. */
+   *  and the scene before stays. It makes way once the new one has arrived: where the device then cannot
+   *  take that, there is none. Rejects with ViewerError. */
   load(source: SceneSource, options?: { readonly signal?: AbortSignal }): Promise<SceneSummary>;
   /** Shows nothing. */
   clear(): void;
@@ -182,23 +185,26 @@ export interface Viewer {
   /** The first view. */
   home(): void;
   showNamedView(view: NamedView): void;
-  /** Index into SceneSummary.cameras. */
+  /** Index into SceneSummary.cameras. Throws ViewerError where there is none of this number. */
   showCamera(index: number): void;
   setUp(axis: Vec3): void;
   getView(): ViewPose;
-  /** `glide`: not at once. */
+  /** `glide`: not at once. Throws ViewerError where eye and target are the same point. */
   setView(pose: ViewPose, options?: { readonly glide?: boolean }): void;
+  /** The full vertical angle: above 0 and below pi. */
   fov: number;
 
   // Drawing.
   background: Vec3;
   resolution: Resolution;
   /** "color" is the scene as it is drawn. Other looks read the scene again, so it may take a
-   *  moment; rejects with ViewerError where the scene has it not. */
+   *  moment; a later call wins. `features`: what "features" shows as red, green and blue, `count` 1 to 3
+   *  from `first` below SceneSummary.featureCount. Rejects with ViewerError where the scene has it not. */
   show(look: string, features?: { readonly first: number; readonly count: number }): Promise<void>;
   readonly shownLook: string;
   readonly legend: readonly LegendEntry[];
-  /** A PNG of what is shown, of the given size or the canvas's. */
+  /** A PNG of what is shown, of the given size or the canvas's: at most as large as the device's
+   *  largest picture. Rejects with ViewerError. */
   screenshot(size?: { readonly width: number; readonly height: number }): Promise<Blob>;
   /** Draws again, at once. */
   draw(): void;

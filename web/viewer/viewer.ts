@@ -1,16 +1,17 @@
 // A viewer of a canvas: scenes that come from loaders, a view that controls move, and a frame
 // whenever something has changed.
 
+import { urlOf } from './addresses.js';
 import { assetsAt, type Assets } from './assets.js';
 import { attachControls } from './controls.js';
 import { compile, Engine } from './engine.js';
 import { FrameTimes } from './frame_times.js';
 import type { PreparedScene } from './loader_messages.js';
-import { Loading, urlOf } from './loading.js';
+import { isShortage, Loading } from './loading.js';
 import { ResolutionKeeper } from './resolution.js';
 import { download } from './download.js';
 import { oneFile, openFiles, readWith } from './scene_files.js';
-import { sceneSummary, type ShownFacts } from './scene_summary.js';
+import { lowerLevelSentence, sceneSummary, type ShownFacts } from './scene_summary.js';
 import {
   ViewerError, type FrameStats, type LegendEntry, type NamedView, type NavigationMode, type Resolution,
   type SceneSource, type SceneSummary, type Vec3, type Viewer, type ViewerEvents, type ViewerOptions, type ViewPose,
@@ -60,6 +61,8 @@ class CanvasViewer implements Viewer {
   private shown: SceneSummary | null = null;
   private previewed = false;
   private look_ = { look: 'color', features: { first: 0, count: 3 } };
+  private looksAsked = 0;
+  private opening: { readonly source: SceneSource | null; readonly done: Promise<void> } | null = null;
   private navigation: NavigationMode = 'orbit';
   private background_: Vec3 = [0, 0, 0];
   private gliding_ = true;
@@ -83,7 +86,9 @@ class CanvasViewer implements Viewer {
     this.canvas.addEventListener('webglcontextlost', (event) => {
       event.preventDefault();  // or it never comes back
       this.lost = true;
-      this.loading?.cancel();
+      this.previewed = false;
+      this.loading?.cancel(new ViewerError(
+        'The browser took the graphics device away while the scene was loading: open it again.', 'device'));
       this.emit('context', 'lost');
     }, { signal });
     this.canvas.addEventListener('webglcontextrestored', () => void this.restore(), { signal });
@@ -109,17 +114,21 @@ class CanvasViewer implements Viewer {
   private async restore(): Promise<void> {
     const view = this.shown ? this.getView() : null, source = this.source, look = this.look_;
     try {
-      await this.startEngine();
-      this.shown = null;
+      await (this.started = this.startEngine());
+      if (this.ending.signal.aborted) return;
       if (source) {
         await this.load(source);
         if (view) this.setView(view);
         if (look.look !== 'color') await this.show(look.look, look.features);
       }
-      this.emit('context', 'restored');
     } catch (error) {
-      this.emit('notice', error instanceof Error ? error.message : String(error));
+      // Another scene may have been asked for meanwhile; this one is gone then.
+      if (!(error instanceof ViewerError && error.kind === 'cancelled')) {
+        this.forgetScene();
+        this.emit('notice', error instanceof Error ? error.message : String(error));
+      }
     }
+    if (!this.lost) this.emit('context', 'restored');
     this.ask();
   }
 
@@ -128,20 +137,21 @@ class CanvasViewer implements Viewer {
   get scene(): SceneSummary | null { return this.shown; }
 
   async load(source: SceneSource, options: { readonly signal?: AbortSignal } = {}): Promise<SceneSummary> {
+    if (this.lost) throw new ViewerError('The browser has taken the graphics device away: there is nothing to draw with.', 'device');
     this.loading?.cancel();
-    this.previewed = false;
+    this.dropPreview();
     const loading = this.loading = this.begin(source);
     const cancel = () => loading.cancel();
+    if (options.signal?.aborted) cancel();
     options.signal?.addEventListener('abort', cancel);
     try {
-      if (options.signal?.aborted) throw new ViewerError('Loading was cancelled.', 'cancelled');
       await loading.run({
         progress: (progress) => this.emit('progress', progress),
         preview: (scene) => this.showPreview(scene),
         scene: (scene) => this.showScene(scene, source),
       });
     } catch (error) {
-      if (this.previewed && this.loading === loading && !this.lost) this.engine.call('drop_preview');
+      if (this.loading === loading) this.dropPreview();
       throw error;
     } finally {
       options.signal?.removeEventListener('abort', cancel);
@@ -160,27 +170,51 @@ class CanvasViewer implements Viewer {
   }
 
   private showPreview(scene: PreparedScene): void {
-    this.unpack(scene, 'preview');
+    try {
+      this.unpack(scene, 'preview');
+    } catch (error) {
+      // There is no memory for two; the whole scene takes the place of the one before.
+      if (isShortage(error)) return;
+      throw error;
+    }
     this.previewed = true;
     this.emit('preview', { triangles: scene.description.triangles });
   }
 
-  /** False where the device has no memory for it. */
-  private showScene(scene: PreparedScene, source: SceneSource): boolean {
+  /** What stood before it is there again. */
+  private dropPreview(): void {
+    if (!this.previewed) return;
+    this.previewed = false;
+    this.engine.call('drop_preview');
+    this.emit('scene', this.shown);
+    this.ask();
+  }
+
+  private forgetScene(): void {
+    if (!this.shown) return;
+    this.source = this.shown = null;
+    this.emit('scene', null);
+  }
+
+  /** Why the device has no memory for it, or null. */
+  private showScene(scene: PreparedScene, source: SceneSource): string | null {
     let facts;
     try {
       facts = this.unpack(scene, 'scene');
     } catch (error) {
-      if (error instanceof ViewerError && error.kind === 'device' && !this.lost) return false;
+      if (this.lost) throw error;
+      this.forgetScene();  // it made way
+      if (isShortage(error)) return error.message;
       throw error;
     }
+    this.previewed = false;
     this.source = source;
     this.look_ = { ...this.look_, look: 'color' };
     this.shown = sceneSummary(scene, facts);
     this.emit('scene', this.shown);
     if (scene.level !== null)
-      this.emit('notice', `This device has not enough memory for the whole scene: it is drawn with lattice level ${scene.level}.`);
-    return true;
+      this.emit('notice', lowerLevelSentence(scene.level));
+    return null;
   }
 
   private unpack(scene: PreparedScene, role: 'preview' | 'scene'): ShownFacts {
@@ -208,8 +242,10 @@ class CanvasViewer implements Viewer {
 
   clear(): void {
     this.loading?.cancel();
-    this.engine.call('clear');
+    if (!this.lost) this.engine.call('clear');
+    this.previewed = false;
     this.source = this.shown = null;
+    this.look_ = { ...this.look_, look: 'color' };
     this.emit('scene', null);
     this.ask();
   }
@@ -223,20 +259,30 @@ class CanvasViewer implements Viewer {
   }
 
   private emit<E extends keyof ViewerEvents>(event: E, what: ViewerEvents[E]): void {
-    this.listeners[event]?.forEach((listener) => listener(what));
+    for (const listener of [...this.listeners[event] ?? []]) {
+      try {
+        listener(what);
+      } catch (error) {
+        reportError(error);  // the caller's mistake, not the scene's
+      }
+    }
   }
 
   // -- looking around ---------------------------------------------------------------------------
 
-  private move(name: string, given: unknown = null): void {
+  private change(name: string, given: unknown): void {
     if (this.lost) return;
     this.engine.call(name, given);
-    this.moved = true;
     this.ask();
   }
 
+  private move(name: string, given: unknown = null): void {
+    this.change(name, given);
+    this.moved = true;
+  }
+
   get mode(): NavigationMode { return this.navigation; }
-  set mode(mode: NavigationMode) { this.navigation = mode; this.move('mode', mode); }
+  set mode(mode: NavigationMode) { this.navigation = mode; this.change('mode', mode); }
   orbit(dx: number, dy: number): void { this.move('orbit', [dx, dy]); }
   pan(dx: number, dy: number): void { this.move('pan', [dx, dy]); }
   look(dx: number, dy: number): void { this.move('turn_head', [dx, dy]); }
@@ -245,8 +291,9 @@ class CanvasViewer implements Viewer {
   get speed(): number { return this.engine.call<number>('speed'); }
   fly(direction: Vec3, factor: number): void { this.move('fly', [direction, factor]); }
   focus(x: number, y: number): boolean {
+    if (this.lost) return false;
     const found = this.engine.call<boolean>('focus', [x, y, this.canvas.clientWidth, this.canvas.clientHeight]);
-    this.moved = true;
+    if (found) this.moved = true;
     this.ask();
     return found;
   }
@@ -262,12 +309,12 @@ class CanvasViewer implements Viewer {
   get fov(): number { return this.getView().fov; }
   set fov(fov: number) { this.move('fov', fov); }
   get gliding(): boolean { return this.gliding_; }
-  set gliding(gliding: boolean) { this.gliding_ = gliding; this.move('gliding', gliding); }
+  set gliding(gliding: boolean) { this.gliding_ = gliding; this.change('gliding', gliding); }
 
   // -- drawing ----------------------------------------------------------------------------------
 
   get background(): Vec3 { return this.background_; }
-  set background(color: Vec3) { this.background_ = color; this.move('background', color); }
+  set background(color: Vec3) { this.background_ = color; this.change('background', color); }
 
   get resolution(): Resolution { return this.resolutionKeeper.resolution; }
   set resolution(resolution: Resolution) { this.resolutionKeeper.resolution = resolution; this.ask(); }
@@ -276,7 +323,13 @@ class CanvasViewer implements Viewer {
   get legend(): readonly LegendEntry[] { return this.engine.call<LegendEntry[]>('legend'); }
 
   async show(look: string, features = { first: 0, count: 3 }): Promise<void> {
-    if (look !== 'color' && !this.engine.call<boolean>('has_inspector')) await this.openInspector();
+    const mine = ++this.looksAsked;
+    if (look !== 'color' && !this.engine.call<boolean>('has_inspector')) {
+      if (this.opening?.source !== this.source || !this.opening)
+        this.opening = { source: this.source, done: this.openInspector().finally(() => { this.opening = null; }) };
+      await this.opening.done;
+      if (mine !== this.looksAsked) return;  // another was asked for since
+    }
     this.engine.call('look', { look, ...features });
     this.look_ = { look, features };
     this.drawFrame(performance.now());
@@ -351,7 +404,9 @@ class CanvasViewer implements Viewer {
 
   async screenshot(size?: { readonly width: number; readonly height: number }): Promise<Blob> {
     this.fit();
-    const { width, height } = size ?? this.canvas;
+    const { width, height } = size ?? this.canvas, most = this.device.max_picture_side;
+    if (![width, height].every((side) => Number.isInteger(side) && side >= 1 && side <= most))
+      throw new ViewerError(`A picture has sides of 1 to ${most} pixels, not ${width} and ${height}.`, 'usage');
     this.engine.call('picture', { width, height });
     const pixels = new Uint8ClampedArray(this.engine.buffer());
     this.ask();

@@ -1,0 +1,147 @@
+// The module's promises to a program that uses it: createViewer on a page of its own.
+
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { drawingPage, drawingRoutes } from './drawing.mjs';
+import { readPng } from './png.mjs';
+import { source, stage } from './support.mjs';
+
+const example = readFileSync(join(source, 'examples/soup.glb'));
+const answer = (bytes) => (request, response) => response.writeHead(200, { 'content-length': bytes.length }).end(bytes);
+
+/** The example with its cameras so often. */
+function withCameras(times) {
+  const size = example.readUInt32LE(12), json = JSON.parse(example.toString('utf8', 20, 20 + size));
+  const [extension] = Object.values(json.extensions);
+  extension.cameras = Array(times).fill(extension.cameras).flat();
+  const text = Buffer.from(JSON.stringify(json)), padded = Buffer.alloc(4 * Math.ceil(text.length / 4), ' ');
+  text.copy(padded);
+  const head = Buffer.from(example.subarray(0, 20)), rest = example.subarray(20 + size);
+  head.writeUInt32LE(20 + padded.length + rest.length, 8);
+  head.writeUInt32LE(padded.length, 12);
+  return Buffer.concat([head, padded, rest]);
+}
+
+/** Half of the example, and then nothing. */
+const stalled = (request, response) => {
+  response.writeHead(200, { 'content-length': example.length });
+  response.write(example.subarray(0, example.length / 2));
+};
+
+const guarded = `<!doctype html><html lang="en"><title>Guarded</title><link rel="icon" href="data:,">
+<canvas id="canvas" style="width: 64px; height: 48px"></canvas><script type="module" src="guarded.js"></script>`;
+const { visit, server } = await stage({ routes: {
+  ...drawingRoutes,
+  '/thousand.glb': answer(withCameras(11)),
+  '/half.glb': stalled,
+  '/far.off': answer(Buffer.from('OFF\n3 1 0\n100 100 100\n101 100 100\n100 101 100\n3 0 1 2\n')),
+  '/50%.glb': answer(example),
+  '/guarded.js': (request, response) => response.writeHead(200, { 'content-type': 'text/javascript' }).end(
+    `import { createViewer } from './viewer.js';
+     const source = { url: 'soup.glb' };
+     const viewer = await createViewer(document.getElementById('canvas'), { expected: source });
+     document.title = String((await viewer.load({ url: './soup.glb' })).triangles);`),
+  '/guarded.html': (request, response) => response.writeHead(200, {
+    'content-type': 'text/html',
+    'content-security-policy': "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src blob:; " +
+                               "connect-src 'self'; img-src data:; style-src 'unsafe-inline'",
+  }).end(guarded),
+} });
+
+/** What a call comes to: its result, or the kind and sentence of its error. */
+const tried = (page, body, given) => page.evaluate(async ([text, what]) => {
+  try {
+    return { result: await new Function('given', `return (async () => { ${text} })()`)(what) };
+  } catch (error) {
+    return { kind: error.kind, sentence: error.message };
+  }
+}, [body, given]);
+
+const onViewer = (body, options) => () => visit('drawing.html', async (page) => {
+  await drawingPage(page);
+  await body(page);
+}, options);
+
+const picture = (page) => tried(page, `
+  const bytes = new Uint8Array(await (await viewer.screenshot({ width: 64, height: 48 })).arrayBuffer());
+  return btoa(String.fromCharCode(...bytes));`).then(({ result }) => readPng(Buffer.from(result, 'base64')));
+const colours = ({ pixels }) => new Set(new Uint32Array(pixels.buffer.slice(pixels.byteOffset, pixels.byteOffset + pixels.length))).size;
+
+test('a scene of a thousand cameras', onViewer(async (page) => {
+  const { result } = await tried(page, `return (await viewer.load({ url: 'thousand.glb' })).cameras.length;`);
+  assert.ok(result > 900, `${result} cameras`);
+  assert.equal((await tried(page, `viewer.showCamera(${result - 1}); return (await viewer.load({ url: 'soup.glb' })).triangles;`)).result, 7000);
+  assert.equal((await tried(page, `viewer.showCamera(5000);`)).kind, 'usage');
+}));
+
+test('a first picture goes with its load', onViewer(async (page) => {
+  const begun = `const first = new Promise((resolve) => viewer.on('preview', resolve));
+    window.half = viewer.load({ url: 'half.glb' }).catch((error) => error.kind);
+    await first;`;
+  await tried(page, begun);
+  assert.ok(colours(await picture(page)) > 50, 'it is seen');
+  assert.equal((await tried(page, `return viewer.load({ url: 'nowhere.glb' });`)).kind, 'network');
+  assert.equal((await tried(page, 'return half;')).result, 'cancelled');
+  assert.equal((await tried(page, 'return viewer.scene;')).result, null);
+  assert.equal((await tried(page, 'await viewer.screenshot();')).kind, 'usage', 'it is gone');
+
+  // Another scene is looked at from where that is seen.
+  await tried(page, begun);
+  const { result } = await tried(page, `await viewer.load({ url: 'far.off' }); return viewer.getView();`);
+  assert.ok(result.target.every((value) => Math.abs(value - 100) < 2), `target: ${result.target}`);
+}, { expected: [/404/] }));
+
+test('what is cancelled before it begins leaves no worker', onViewer(async (page) => {
+  const { kind } = await tried(page, `return viewer.load({ url: 'soup.glb' }, { signal: AbortSignal.abort() });`);
+  assert.equal(kind, 'cancelled');
+  for (let tries = 0; page.workers().length > 0 && tries < 50; ++tries) await page.waitForTimeout(100);
+  assert.equal(page.workers().length, 0);
+}));
+
+test('an address that cannot be decoded names its file as it is', onViewer(async (page) => {
+  assert.equal((await tried(page, `return (await viewer.load({ url: '50%.glb' })).triangles;`)).result, 7000);
+  assert.equal((await tried(page, `return viewer.load({ url: 'http://[' });`)).kind, 'usage');
+}));
+
+test('what makes no sense is refused, and changes nothing', onViewer(async (page) => {
+  await tried(page, `await viewer.load({ url: 'soup.glb' });`);
+  for (const nonsense of ['viewer.resolution = { targetFps: -1 };', 'viewer.resolution = NaN;',
+                          'await viewer.screenshot({ width: 0, height: 10 });', 'await viewer.screenshot({ width: 1e9, height: 1 });',
+                          'const pose = viewer.getView(); viewer.setView({ ...pose, target: pose.eye });',
+                          `await viewer.show('everything');`])
+    assert.equal((await tried(page, nonsense)).kind, 'usage', nonsense);
+  assert.equal((await tried(page, 'viewer.draw(); return viewer.stats.scale;')).result, 1);
+}));
+
+test('of two looks the later one is shown', onViewer(async (page) => {
+  await tried(page, `await viewer.load({ url: 'soup.glb' });`);
+  const { result } = await tried(page, `await Promise.all([viewer.show('depth'), viewer.show('normals'), viewer.show('color')]); return viewer.shownLook;`);
+  assert.equal(result, 'color');
+}));
+
+test('setting what is no view is no movement', onViewer(async (page) => {
+  const { result } = await tried(page, `
+    await viewer.load({ url: 'soup.glb' });
+    let views = 0;
+    viewer.on('view', () => { ++views; });
+    viewer.background = [1, 0, 0];
+    viewer.mode = 'fly';
+    await new Promise((resolve) => setTimeout(resolve, 500));
+    const still = views;
+    viewer.orbit(30, 0);
+    await new Promise((resolve) => setTimeout(resolve, 500));
+    return [still, views];`);
+  assert.deepEqual(result, [0, 1]);
+}));
+
+test('an instance that does not start is told of', () => visit('models.json', async (page) => {
+  await page.addInitScript(() => { WebAssembly.instantiate = () => Promise.reject(new RangeError('out of memory')); });
+  await page.goto(server.address);
+  await page.locator('[role=alert]', { hasText: 'The engine cannot start: RangeError: out of memory' }).waitFor();
+}));
+
+test('a page with the policy that the package asks for', () => visit('guarded.html', async (page) => {
+  await page.waitForFunction(() => document.title === '7000', null, { polling: 100 });
+}));
