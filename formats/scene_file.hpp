@@ -20,7 +20,8 @@ struct ReadOptions {
   std::function<void(double)> progress;
 };
 
-/// Whether a reader recognises what lies there by its content. Throws InputError where it cannot be opened.
+/// Whether a reader recognises what lies there by its content. Throws InputError where it cannot be
+/// opened.
 bool is_scene(const std::filesystem::path& path);
 
 /// Reads any scene that we know: .glb/.gltf (ours and foreign), .off, .ply, a DiffSoup export

@@ -40,7 +40,7 @@ TexelSource color_source(std::uint64_t count, const char* what,
           }};
 }
 
-/// What the sources keep of soup and plan are pointers to their elements: either may be moved.
+/// The sources keep pointers to the soup and to elements of the plan: the plan may be moved.
 class Preparation {
  public:
   Preparation(const TriangleSoup& soup, const RenderPlan& plan, const TexelLayout& layout)

@@ -91,7 +91,7 @@ class BenchmarkRun {
   BenchmarkRun(std::span<const Entrant> entrants, std::span<const Camera> cameras,
                const BenchmarkOptions& options = {});
 
-  /// Times one sample. False when there is none left.
+  /// The next part: a warm-up, a sample or what comes between. False when there is none left.
   bool step();
   /// Of the samples, 0..1; 0 during warm-up.
   double fraction() const;

@@ -172,7 +172,7 @@ test('without a network the page goes on', () => visit('?scene=soup.glb', async 
   await sceneShown(page, 'soup');
 }, { expected: [/ERR_INTERNET_DISCONNECTED/] }));
 
-// The loader's script is fetched anew for each scene.
+// The loader's script is fetched once and kept.
 test('without a network files are opened', () => visit('?scene=soup.glb', async (page, profile) => {
   await sceneShown(page, 'soup');
   await profile.setOffline(true);

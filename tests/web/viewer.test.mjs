@@ -140,7 +140,7 @@ test('an instance that does not start is told of', () => visit('models.json', as
   await page.addInitScript(() => { WebAssembly.instantiate = () => Promise.reject(new RangeError('out of memory')); });
   await page.goto(server.address);
   await page.locator('[role=alert]', { hasText: 'The engine cannot start: RangeError: out of memory' }).waitFor();
-}));
+}, { expected: [/favicon/] }));
 
 test('a page with the policy that the package asks for', () => visit('guarded.html', async (page) => {
   await page.waitForFunction(() => document.title === '7000', null, { polling: 100 });

@@ -32,8 +32,8 @@ namespace {
 
 constexpr const char* no_memory = "there is not enough memory for this scene in a page";
 
-/// JSON for the next command. JavaScript writes it here: on the stack, which is where Emscripten's own
-/// strings go, a scene of many cameras would not fit.
+/// JSON for the next command. JavaScript writes it here: on the stack, which is where Emscripten's
+/// own strings go, a scene of many cameras would not fit.
 std::string& arguments() {
   static std::string text;
   return text;

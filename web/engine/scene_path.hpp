@@ -7,9 +7,9 @@
 
 namespace tureen::web {
 
-/// {"folder", "paths"}: the first of the paths, relative to the folder, that a reader recognises; else
-/// the last, whose reader says what is wrong. Makes the folder the current one, so that errors name
-/// files as the page does.
+/// {"folder", "paths"}: the first of the paths, relative to the folder, that a reader recognises;
+/// else the last, whose reader says what is wrong. Makes the folder the current one, so that errors
+/// name files as the page does.
 std::filesystem::path scene_path(const Json& arguments);
 
 }  // namespace tureen::web
