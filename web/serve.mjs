@@ -70,7 +70,7 @@ async function main() {
   console.log(`${folder} is served at ${address} until Ctrl-C`);
 }
 
-const sentences = { EADDRINUSE: 'The port is taken; another one: --port 8001', ENOENT: 'There is no such folder; ./dev web makes the site.' };
+const sentences = { EADDRINUSE: 'The port is taken: name another one.', ENOENT: 'There is no such folder; ./dev web makes the site.' };
 if (process.argv[1] === fileURLToPath(import.meta.url))
   main().catch((error) => {
     console.error(sentences[error.code] ?? error.message);

@@ -26,7 +26,8 @@ function save(name: string, type: string, content: string): void {
 
 class Bench {
   private readonly messages = new Messages();
-  private readonly settings = new Settings(this.messages, (request) => void this.measure(request));
+  private readonly settings = new Settings(
+    this.messages, (request) => void this.measure(request), (error) => this.fail(error));
   private engine: BenchEngine | null = null;
   private current: AbortController | null = null;
   private outcome: { file: BenchFile; scenes: readonly MeasuredScene[] } | null = null;
@@ -48,7 +49,7 @@ class Bench {
     try {
       await this.start();
     } catch (error) {
-      return this.messages.thrown(error);
+      return this.fail(error);
     }
     this.settings.ready = true;
     if (asked.run) this.settings.submit();
@@ -58,9 +59,15 @@ class Bench {
     try {
       return readAddress(location.search);
     } catch (error) {
-      this.messages.thrown(error);
+      this.fail(error);
       return readAddress('');
     }
+  }
+
+  /** Tells the person and the program that drives the page. */
+  private fail(error: unknown): void {
+    this.messages.thrown(error);
+    this.promise.reject(error);
   }
 
   /** An engine on a canvas of its own: one whose context was lost is left behind. */

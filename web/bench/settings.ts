@@ -25,7 +25,9 @@ export class Settings {
   private readonly sizes: { size: Size; box: HTMLInputElement }[] = [];
   private cameraFile: { name: string; text: string } | null = null;
 
-  constructor(private readonly messages: Messages, private readonly begin: (request: BenchRequest) => void) {
+  /** `refused` is told what is wrong with a request. */
+  constructor(private readonly messages: Messages, private readonly begin: (request: BenchRequest) => void,
+              private readonly refused: (why: unknown) => void) {
     this.scenes = new SceneList(messages);
     this.form.noValidate = true;  // sentences say more
     this.form.addEventListener('submit', (event) => {
@@ -58,7 +60,7 @@ export class Settings {
     try {
       request = this.request();
     } catch (error) {
-      return this.messages.thrown(error);
+      return this.refused(error);
     }
     this.begin(request);
   }

@@ -54,6 +54,14 @@ Json promise_of(const Scene& scene) {
           {"views", views}};
 }
 
+/// Without what options of the program would change: a page has none.
+Json notes_of(const Scene& scene) {
+  Json notes = Json::array();
+  for (const std::string& note : scene.info.notes)
+    notes.push_back(note.substr(0, note.find("; --")));
+  return notes;
+}
+
 Json describe(const Scene& scene) {
   const auto& soup = std::get<TriangleSoup>(scene.primitives);
   Subject subject = tureen::subject_of(scene);
@@ -63,7 +71,7 @@ Json describe(const Scene& scene) {
   for (const Camera& camera : scene.cameras) cameras.push_back(to_json(camera));
   return {{"name", scene.info.name},
           {"source", scene.info.source},
-          {"notes", scene.info.notes},
+          {"notes", notes_of(scene)},
           {"triangles", soup.triangles.size()},
           {"appearance", appearance_name(soup.appearance)},
           {"cameras", cameras},

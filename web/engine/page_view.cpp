@@ -24,11 +24,10 @@ PageView::PageView() : context_(gl::Context::external(nullptr, gl::Api::es)) {}
 PageView::Stage PageView::make_stage(Renderer renderer, ShownScene scene) const {
   renderer.set_background(glm::vec4(background_, 1.0f));
   CameraControls controls(scene.subject);
-  if (!scene.cameras.empty()) {
-    controls.set_first_view(scene.cameras.front());
-    controls.reset();
-    controls.arrive();
-  }
+  if (viewport_) controls.set_viewport(viewport_->x, viewport_->y);
+  if (!scene.cameras.empty()) controls.set_first_view(scene.cameras.front());
+  controls.reset();
+  controls.arrive();
   return {std::move(renderer), std::move(scene), controls};
 }
 
@@ -42,6 +41,11 @@ void PageView::show(Renderer renderer, ShownScene scene) {
   drop_preview();
   drop_scene();
   stage_.emplace(std::move(stage));
+}
+
+void PageView::set_viewport(int width, int height) {
+  viewport_ = {width, height};
+  controls().set_viewport(width, height);
 }
 
 void PageView::drop_scene() {

@@ -45,6 +45,8 @@ class PageView {
 
   /// Of what is shown; where nothing is, of nothing in particular.
   CameraControls& controls() { return shows_scene() ? current()->controls : idle_; }
+  /// In the unit of the pointer's deltas, for this scene and those that come.
+  void set_viewport(int width, int height);
   /// Flies on so, each frame, until it is told otherwise.
   void fly(const Flight& flight) { flight_ = flight; }
   bool moving();
@@ -84,6 +86,7 @@ class PageView {
   std::optional<Inspector> inspector_;  // of the stage
   Inspection look_ = Inspection::color;
   CameraControls idle_;
+  std::optional<glm::ivec2> viewport_;
   Flight flight_;
   glm::vec3 background_{0.0f};
 };

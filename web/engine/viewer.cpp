@@ -41,6 +41,7 @@ ShownScene scene_of(const Json& scene) {
 Json facts(const std::string& preset) {
   return {{"plan", view().renderer().plan().sentences},
           {"preset", preset},
+          {"drawn", view().renderer().plan().faces.size()},
           {"device_bytes", view().renderer().device_bytes()}};
 }
 
@@ -103,14 +104,34 @@ Json pose() {
           {"roll", state.roll}};
 }
 
+bool is_angle(double fov) { return fov > 0 && fov < std::numbers::pi; }
+
+bool is_direction(const glm::dvec3& axis) {
+  return glm::length(axis) > 0 && std::isfinite(glm::length(axis));
+}
+
+Json set_up(const Json& axis) {
+  if (!is_direction(vector_of(axis))) throw UsageError("what is up is a direction");
+  controls().set_up(vector_of(axis));
+  return nullptr;
+}
+
+Json set_fov(const Json& fov) {
+  if (!is_angle(fov.get<double>())) throw UsageError("an angle is above 0 and below pi");
+  controls().set_fov(fov);
+  return nullptr;
+}
+
 /// {"pose", "glide"}
 Json set_pose(const Json& arguments) {
   const Json& pose = arguments.at("pose");
   const glm::dvec3 eye = vector_of(pose.at("eye")), target = vector_of(pose.at("target"));
   const glm::dvec3 up = vector_of(pose.at("up"));
   const double distance = glm::length(target - eye), fov = pose.at("fov");
-  if (!(distance > 0 && std::isfinite(distance) && fov > 0 && fov < std::numbers::pi))
-    throw UsageError("a view looks from one point at another, at an angle between 0 and pi");
+  if (!(distance > 0 && std::isfinite(distance) && is_angle(fov) && is_direction(up)))
+    throw UsageError(
+        "a view looks from one point at another, at an angle between 0 and pi, and has a direction "
+        "that is up");
   ViewState state =
       state_of(look_at(eye, target, up, fov, any_side, any_side), glm::normalize(up), distance);
   state.roll += pose.at("roll").get<double>();
@@ -148,7 +169,7 @@ Commands looking_around() {
     };
   };
   return {
-      {"viewport", moves([](const Json& a) { controls().set_viewport(a[0], a[1]); })},
+      {"viewport", moves([](const Json& a) { view().set_viewport(a[0], a[1]); })},
       {"mode", moves([](const Json& a) {
          controls().set_mode(a == "fly" ? NavigationMode::fly : NavigationMode::orbit);
        })},
@@ -169,8 +190,8 @@ Commands looking_around() {
       {"named_view",
        moves([](const Json& a) { controls().look_from(named_view(a.get<std::string>())); })},
       {"camera", moves([](const Json& a) { show_camera(a); })},
-      {"up", moves([](const Json& a) { controls().set_up(vector_of(a)); })},
-      {"fov", moves([](const Json& a) { controls().set_fov(a); })},
+      {"up", moves(set_up)},
+      {"fov", moves(set_fov)},
       {"gliding", moves([](const Json& a) {
          controls().set_smoothing(a.get<bool>() ? CameraControls().smoothing() : 0.0);
        })},

@@ -8,8 +8,11 @@
 import type { Vec3, ViewPose } from '../viewer/types.js';
 import { degreesPerRadian, plainNumber } from './numbers.js';
 
+/** `up` is null where the link leaves it to the scene. */
+export type LinkedPose = Omit<ViewPose, 'up'> & { readonly up: Vec3 | null };
+
 export interface LinkedView {
-  readonly pose: ViewPose | null;
+  readonly pose: LinkedPose | null;
   /** Null for the final colours. */
   readonly look: string | null;
   /** Why the camera could not be read, in a sentence; null where it could or there is none. */
@@ -53,8 +56,8 @@ export function readFragment(fragment: string): LinkedView {
     return without('The link\'s camera needs eye and target, three numbers each: #eye=4,-6,3&target=0,0,0.');
   if (eye.every((value, axis) => value === target[axis]))
     return without('The link\'s camera has its eye where its target is.');
-  const up = parts.has('up') ? readVector(parts.get('up')) : ([0, 1, 0] as const);
-  if (!up || up.every((value) => value === 0)) return without('The link\'s camera has no direction that is up.');
+  const up = parts.has('up') ? readVector(parts.get('up')) : null;
+  if (parts.has('up') && (!up || up.every((value) => value === 0))) return without('The link\'s camera has no direction that is up.');
   const fov = Number(parts.get('fov') ?? 40), roll = Number(parts.get('roll') ?? 0);
   if (!(fov > 0 && fov < 180)) return without('The link\'s angle, fov, is not between 0 and 180 degrees.');
   if (!Number.isFinite(roll)) return without('The link\'s roll is no number of degrees.');

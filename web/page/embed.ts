@@ -29,7 +29,7 @@ function readCall(data: unknown): Call | null {
 
 /** Null: everyone's. */
 function allowedOrigins(): readonly string[] | null {
-  const given = new URLSearchParams(location.search).getAll('origin');
+  const given = new URLSearchParams(location.search).getAll('origin').map((origin) => origin.replace(/\/+$/, ''));
   return given.length ? given : null;
 }
 

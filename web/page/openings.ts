@@ -42,8 +42,10 @@ export class Openings {
     return this.open(source, { kind: 'address', address }, view);
   }
 
-  openFiles(source: SceneSource, view: LinkedView = noView): Promise<boolean> {
-    return this.open(source, { kind: 'files', name: source.name ?? '' }, view);
+  /** A link to a view of a file has no scene: it is for who opens that file, first of all. */
+  openFiles(source: SceneSource): Promise<boolean> {
+    const linked = !this.origin_ && this.bar.scene() === null;
+    return this.open(source, { kind: 'files', name: source.name ?? '' }, linked ? this.bar.view() : noView);
   }
 
   openPart(source: SceneSource, view: LinkedView): Promise<boolean> {
@@ -53,7 +55,7 @@ export class Openings {
   /** Looks from where a link says. */
   async look(view: LinkedView): Promise<void> {
     if (view.defect) this.messages.notice(view.defect);
-    if (view.pose) this.viewer.setView(view.pose);
+    this.lookFrom(view);
     try {
       if ((view.look ?? 'color') !== this.viewer.shownLook) await this.viewer.show(view.look ?? 'color');
     } catch (error) {
@@ -61,11 +63,15 @@ export class Openings {
     }
   }
 
+  private lookFrom({ pose }: LinkedView): void {
+    if (pose) this.viewer.setView({ ...pose, up: pose.up ?? this.viewer.getView().up });
+  }
+
   private async open(source: SceneSource, origin: Origin, view: LinkedView): Promise<boolean> {
     // The first picture is already seen from there, and a person may move on while the rest arrives.
     let looked = false;
     const forget = this.viewer.on('preview', () => {
-      if (view.pose) this.viewer.setView(view.pose);
+      this.lookFrom(view);
       looked = true;
     });
     const scene: SceneSummary | null = await this.loading.load(source);

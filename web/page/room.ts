@@ -153,6 +153,7 @@ function followAddress(viewer: Viewer, openings: Openings, bar: AddressBar, star
 export async function openRoom(options: RoomOptions = {}): Promise<void> {
   const embedded = new URLSearchParams(location.search).has('embed');
   document.documentElement.classList.toggle('embed', embedded);
+  block('not-started').remove();
   const messages = new Messages();
   window.addEventListener('error', (event) => messages.thrown(event.error ?? event.message));
   window.addEventListener('unhandledrejection', (event) => messages.thrown(event.reason));

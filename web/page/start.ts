@@ -82,6 +82,7 @@ export class Start {
     this.show(false);
     if (held) this.viewer.canvas.focus();
     if (!(await opening)) this.update();
+    else if (held && document.activeElement === document.body) this.viewer.canvas.focus();  // it was not to be seen before
   }
 
   /** Takes what is dropped anywhere on the page. */

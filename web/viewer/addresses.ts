@@ -13,8 +13,8 @@ export function urlOf({ url }: { readonly url: string }): string {
   } catch {
     throw new ViewerError(`“${url}” is no address of a scene.`, 'usage');
   }
-  if (whole.protocol === 'file:')
-    throw new ViewerError('A page that was opened from the disk cannot fetch files; drop the scene on it instead.', 'usage');
+  if (whole.protocol === 'file:' || /^[a-z]:$/.test(whole.protocol))  // or C:\soup.glb
+    throw new ViewerError('Pages cannot fetch files of this computer; drop the scene on the page instead.', 'usage');
   if (!fetchedProtocols.includes(whole.protocol))
     throw new ViewerError(`Scenes are fetched by http and https, not by ${whole.protocol.slice(0, -1)}.`, 'usage');
   return whole.href;

@@ -8,17 +8,21 @@ export interface ShownFacts {
   readonly plan: readonly string[];
   /** What became of the preset; empty where there is none. */
   readonly preset: string;
+  /** So many triangles. */
+  readonly drawn: number;
   readonly device_bytes: number;
 }
 
 export const lowerLevelSentence = (level: number) =>
   `This device has not enough memory for the whole scene: it is drawn with lattice level ${level}.`;
 
+export const nothingDrawn = 'Nothing of this scene can be drawn: it has no triangles that are finite and have an area.';
+
 export function sceneSummary({ description }: PreparedScene, facts: ShownFacts): SceneSummary {
   const { name, source, notes, triangles, appearance, cameras, background, subject, looks } = description;
   return {
     name, source, triangles, appearance, background,
-    notes: facts.preset ? [...notes, facts.preset] : notes,
+    notes: [...notes, ...(facts.preset ? [facts.preset] : []), ...(facts.drawn ? [] : [nothingDrawn])],
     plan: facts.plan,
     cameras: cameras.map(({ name, width, height }) => ({ name, width, height })),
     up: subject.up,

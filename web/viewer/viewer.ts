@@ -11,7 +11,7 @@ import { isShortage, Loading } from './loading.js';
 import { ResolutionKeeper } from './resolution.js';
 import { download } from './download.js';
 import { oneFile, openFiles, readWith } from './scene_files.js';
-import { lowerLevelSentence, sceneSummary, type ShownFacts } from './scene_summary.js';
+import { lowerLevelSentence, nothingDrawn, sceneSummary, type ShownFacts } from './scene_summary.js';
 import {
   ViewerError, type FrameStats, type LegendEntry, type NamedView, type NavigationMode, type Resolution,
   type SceneSource, type SceneSummary, type Vec3, type Viewer, type ViewerEvents, type ViewerOptions, type ViewPose,
@@ -65,6 +65,7 @@ class CanvasViewer implements Viewer {
   private opening: { readonly source: SceneSource | null; readonly done: Promise<void> } | null = null;
   private navigation: NavigationMode = 'orbit';
   private background_: Vec3 = [0, 0, 0];
+  private backgroundBefore: Vec3 = [0, 0, 0];
   private gliding_ = true;
   private lost = false;
   /** Whether the view has been asked to move since it last came to rest. */
@@ -137,7 +138,7 @@ class CanvasViewer implements Viewer {
   get scene(): SceneSummary | null { return this.shown; }
 
   async load(source: SceneSource, options: { readonly signal?: AbortSignal } = {}): Promise<SceneSummary> {
-    if (this.lost) throw new ViewerError('The browser has taken the graphics device away: there is nothing to draw with.', 'device');
+    if (this.isGone) throw new ViewerError('The browser has taken the graphics device away: there is nothing to draw with.', 'device');
     this.loading?.cancel();
     this.dropPreview();
     const loading = this.loading = this.begin(source);
@@ -170,23 +171,30 @@ class CanvasViewer implements Viewer {
   }
 
   private showPreview(scene: PreparedScene): void {
+    const before = this.background;
     try {
       this.unpack(scene, 'preview');
     } catch (error) {
-      // There is no memory for two; the whole scene takes the place of the one before.
-      if (isShortage(error)) return;
+      // There is no memory for two, or no device any more; the whole scene takes the place of the one before.
+      if (isShortage(error) || this.isGone) return;
       throw error;
     }
+    if (!this.previewed) this.backgroundBefore = before;
     this.previewed = true;
     this.emit('preview', { triangles: scene.description.triangles });
   }
+
+  /** The event comes later than what it tells. */
+  private get isGone(): boolean { return this.lost || (this.canvas.getContext('webgl2')?.isContextLost() ?? false); }
 
   /** What stood before it is there again. */
   private dropPreview(): void {
     if (!this.previewed) return;
     this.previewed = false;
     this.engine.call('drop_preview');
+    this.background = this.backgroundBefore;
     this.emit('scene', this.shown);
+    this.moved = true;  // the view is another one, too
     this.ask();
   }
 
@@ -202,7 +210,7 @@ class CanvasViewer implements Viewer {
     try {
       facts = this.unpack(scene, 'scene');
     } catch (error) {
-      if (this.lost) throw error;
+      if (this.isGone) throw new ViewerError('The browser took the graphics device away: open the scene again.', 'device');
       this.forgetScene();  // it made way
       if (isShortage(error)) return error.message;
       throw error;
@@ -212,6 +220,7 @@ class CanvasViewer implements Viewer {
     this.look_ = { ...this.look_, look: 'color' };
     this.shown = sceneSummary(scene, facts);
     this.emit('scene', this.shown);
+    if (facts.drawn === 0) this.emit('notice', nothingDrawn);
     if (scene.level !== null)
       this.emit('notice', lowerLevelSentence(scene.level));
     return null;
@@ -282,7 +291,11 @@ class CanvasViewer implements Viewer {
   }
 
   get mode(): NavigationMode { return this.navigation; }
-  set mode(mode: NavigationMode) { this.navigation = mode; this.change('mode', mode); }
+  set mode(mode: NavigationMode) {
+    if (mode !== 'orbit' && mode !== 'fly') throw new ViewerError(`“${String(mode)}” is no mode: orbit and fly are.`, 'usage');
+    this.navigation = mode;
+    this.change('mode', mode);
+  }
   orbit(dx: number, dy: number): void { this.move('orbit', [dx, dy]); }
   pan(dx: number, dy: number): void { this.move('pan', [dx, dy]); }
   look(dx: number, dy: number): void { this.move('turn_head', [dx, dy]); }
