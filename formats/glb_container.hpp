@@ -10,7 +10,8 @@
 
 namespace tureen {
 
-struct GlbContainer {
+// An assertion of nlohmann's is taken for an exception that a move could throw.
+struct GlbContainer {  // NOLINT(bugprone-exception-escape)
   nlohmann::json json;
   std::uint64_t binary_offset = 0;  // of the first byte within the file
   std::uint64_t binary_size = 0;    // 0 where there is no binary chunk
