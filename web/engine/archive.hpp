@@ -93,6 +93,7 @@ class ArchiveReader {
   }
   void extract(void* data, std::size_t size) {
     assert(size <= bytes_.size());
+    if (size == 0) return;  // an empty vector's data may be null, which memcpy does not take
     std::memcpy(data, bytes_.data(), size);
     bytes_ = bytes_.subspan(size);
   }
