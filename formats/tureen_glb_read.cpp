@@ -161,7 +161,8 @@ class Reader {
       layer.inputs = int(entry["inputs"].natural(ColorMlp::max_width));
       layer.outputs = int(entry["outputs"].natural(ColorMlp::max_width));
       layer.weights = arrays_.read<float>(
-          entry, "weights", std::uint64_t(layer.inputs * layer.outputs), glb_formats::scalar_float);
+          entry, "weights", std::uint64_t(layer.inputs) * std::uint64_t(layer.outputs),
+          glb_formats::scalar_float);
       layer.biases = arrays_.read<float>(entry, "biases", std::uint64_t(layer.outputs),
                                          glb_formats::scalar_float);
       mlp.layers.push_back(std::move(layer));

@@ -57,7 +57,7 @@ void Geometry::bind_parts() {
   glBindBuffer(GL_ARRAY_BUFFER, positions_.id());
   glEnableVertexAttribArray(0);
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3),
-                        // An offset, as GL wants it.
+                        // An offset, as GL wants it. NOLINTNEXTLINE(performance-no-int-to-ptr)
                         reinterpret_cast<const void*>(3 * sizeof(glm::vec3) * first_part_));
   glBindBuffer(GL_ARRAY_BUFFER, barycentrics_.id());
   glEnableVertexAttribArray(1);

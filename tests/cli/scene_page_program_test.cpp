@@ -102,7 +102,7 @@ TEST_F(ScenePage, MayBeSlim) {
   const auto convert = [&](const std::string& in, const std::string& out, bool with_slim) {
     std::vector<std::string> arguments{"convert", in, out};
     if (with_slim) arguments.insert(arguments.end(), slim.begin(), slim.end());
-    const ChildResult result = run(arguments);
+    ChildResult result = run(arguments);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return result;
   };
