@@ -252,7 +252,7 @@ void write_bands(const LatticeHarmonics& harmonics, int bits, std::uint64_t texe
 TexelSource band_source(const LatticeHarmonics& harmonics, const SharedPlacement& placement,
                         int texel_bits) {
   const int bits = std::max(texel_bits, 16);
-  const auto parts = std::uint64_t(3 * band_groups(harmonics.degree));
+  const auto parts = 3 * std::uint64_t(band_groups(harmonics.degree));
   const TexelFormat format =
       std::holds_alternative<std::vector<std::int8_t>>(harmonics.coefficients)
           ? texel_formats::rgba8_signed
