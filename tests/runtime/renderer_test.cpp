@@ -272,6 +272,7 @@ TEST(Renderer, ADeviceThatIsTooSmallGetsAForecast) {
   options.limits =
       DeviceLimits{.max_texture_size = 64, .max_array_layers = 16, .clip_control = true};
   try {
+    // NOLINTNEXTLINE(bugprone-unused-raii): made and gone is what is tried
     Renderer(context, std::get<TriangleSoup>(cloud.primitives), cloud.origin, options);
     FAIL();
   } catch (const DeviceLimitError& error) {
