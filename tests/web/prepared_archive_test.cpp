@@ -53,7 +53,9 @@ class PreparedArchive : public testing::TestWithParam<test::Kind> {
     std::vector<std::byte> head;
     Blobs blobs;
     {
-      const TriangleSoup gone = soup;  // and all that was prepared with it
+      // It goes, with all that was prepared of it.
+      // NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
+      const TriangleSoup gone = soup;
       const PreparedSoup prepared =
           prepare_soup(gone, glm::dvec3(0.0), device_limits(context().capabilities()), options);
       head = pack_head(prepared);
