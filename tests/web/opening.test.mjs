@@ -109,6 +109,17 @@ async function drop(page, path) {
   assert.ok(await page.isHidden('#drop-here'));
 }
 
+test('a link without a direction that is up takes the scene\'s', () => visit('?scene=soup.glb#eye=4,-6,3&target=0,0,0', async (page) => {
+  await sceneShown(page, 'soup');
+  assert.deepEqual((await view(page)).up, [0, 0, 1]);
+}));
+
+test('a link to a view of a file is for who opens that', () => visit('#eye=4,-6,3&target=0,0,0.5&up=0,0,1', async (page) => {
+  await pick(page, example);
+  await sceneShown(page, 'soup');
+  assert.ok(distance((await view(page)).eye, [4, -6, 3]) < 0.01);
+}));
+
 test('a file that is dropped', () => visit('', async (page) => {
   await drop(page, example);
   await sceneShown(page, 'soup');

@@ -93,6 +93,31 @@ test('a first picture goes with its load', onViewer(async (page) => {
   assert.ok(result.target.every((value) => Math.abs(value - 100) < 2), `target: ${result.target}`);
 }, { expected: [/404/] }));
 
+test('the background before a first picture is back where nothing came of it', onViewer(async (page) => {
+  const { result } = await tried(page, `
+    viewer.background = [1, 0, 0];
+    const first = new Promise((resolve) => viewer.on('preview', resolve));
+    const half = viewer.load({ url: 'half.glb' }).catch(() => {});
+    await first;
+    const during = viewer.background;
+    await viewer.load({ url: 'nowhere.glb' }).catch(() => half);
+    return [during, viewer.background];`);
+  assert.notDeepEqual(result[0], [1, 0, 0], 'a scene brings its own');
+  assert.deepEqual(result[1], [1, 0, 0]);
+}, { expected: [/404/] }));
+
+test('the first view of a scene without cameras has all of it in a canvas of any shape', onViewer(async (page) => {
+  const { result: [first, framed] } = await tried(page, `
+    viewer.canvas.style.width = '40px';
+    viewer.canvas.style.height = '160px';
+    await new Promise((resolve) => setTimeout(resolve, 300));
+    await viewer.load({ url: 'far.off' });
+    const first = viewer.getView();
+    viewer.home();
+    return [first, viewer.getView()];`);
+  for (const axis of [0, 1, 2]) assert.ok(Math.abs(first.eye[axis] - framed.eye[axis]) < 1e-6, `${first.eye} and ${framed.eye}`);
+}));
+
 test('what is cancelled before it begins leaves no worker', onViewer(async (page) => {
   const { kind } = await tried(page, `return viewer.load({ url: 'soup.glb' }, { signal: AbortSignal.abort() });`);
   assert.equal(kind, 'cancelled');
