@@ -338,9 +338,14 @@ class CanvasViewer implements Viewer {
   async show(look: string, features = { first: 0, count: 3 }): Promise<void> {
     const mine = ++this.looksAsked;
     if (look !== 'color' && !this.engine.call<boolean>('has_inspector')) {
-      if (this.opening?.source !== this.source || !this.opening)
-        this.opening = { source: this.source, done: this.openInspector().finally(() => { this.opening = null; }) };
-      await this.opening.done;
+      if (!this.opening || this.opening.source !== this.source)
+        this.opening = { source: this.source, done: this.openInspector() };
+      const { opening } = this;
+      try {
+        await opening.done;
+      } finally {
+        if (this.opening === opening) this.opening = null;  // not one that has begun since, of another scene
+      }
       if (mine !== this.looksAsked) return;  // another was asked for since
     }
     this.engine.call('look', { look, ...features });
