@@ -164,10 +164,8 @@ std::optional<std::string> spread_warning(double aa_spread) {
   if (aa_spread <= BenchmarkOptions{}.stable_within) return std::nullopt;
   return fmt::format(
       "one configuration differs from itself by {:.0f} %: what lies within twice that is no "
-      "difference, "
-      "and another run may choose otherwise; a quiet machine, more --rounds or --processor-time "
-      "tell "
-      "more apart",
+      "difference, and another run may choose otherwise; a quiet machine, more --rounds or "
+      "--processor-time tell more apart",
       100 * aa_spread);
 }
 
