@@ -203,23 +203,14 @@ class NewFolder {
 
   fs::path file(const char* name) const { return temporary_ / name; }
 
+  /// The same of the file's final place, which people know.
+  OutputError in_place(const OutputError& error) const {
+    return {{(path_ / fs::path(error.place().file).filename()).string(), {}, {}}, error.reason()};
+  }
+
   void commit() {
-    std::error_code error;
-    fs::path old;
-    if (fs::exists(path_, error)) {
-      old = temporary_;
-      old += ".old";
-      fs::rename(path_, old, error);
-      check(!error, "cannot be replaced", error);
-    }
-    fs::rename(temporary_, path_, error);
-    if (error) {
-      const std::error_code reason = error;
-      if (!old.empty()) fs::rename(old, path_, error);
-      check(false, "cannot be replaced", reason);
-    }
+    replace_folder(temporary_, path_);
     temporary_.clear();
-    if (!old.empty()) fs::remove_all(old, error);
   }
 
  private:
@@ -233,6 +224,35 @@ class NewFolder {
 
 void write_json(const fs::path& path, const nlohmann::json& json, int indent) {
   write_file(path, json.dump(indent) + "\n");
+}
+
+void write_files(const NewFolder& target, const Luts& luts, const ColorMlp& mlp,
+                 const std::vector<glm::vec3>& positions, const TriangleSoup& soup,
+                 const SceneInfo& info) {
+  {
+    Output output(target.file("mesh.ply"));
+    write_diffsoup_mesh(output, positions, soup.triangles);
+    output.commit();
+  }
+  write_file(target.file("lut0.png"), encode_png(luts.first));
+  write_file(target.file("lut1.png"), encode_png(luts.second));
+  write_json(target.file("mlp_weights.json"),
+             {{"W1", mlp.layers[0].weights},
+              {"b1", mlp.layers[0].biases},
+              {"W2", mlp.layers[1].weights},
+              {"b2", mlp.layers[1].biases},
+              {"W3", mlp.layers[2].weights},
+              {"b3", mlp.layers[2].biases}},
+             -1);
+  const glm::vec3 &up = info.up, &background = info.background;
+  write_json(target.file("meta.json"),
+             {{"up", {up.x, up.y, up.z}},
+              {"level", luts.level},
+              {"background", {background.x, background.y, background.z}},
+              {"num_faces", soup.triangles.size()},
+              {"num_verts", positions.size()},
+              {"writer", "tureen"}},
+             2);
 }
 
 }  // namespace
@@ -263,30 +283,11 @@ std::vector<std::string> write_diffsoup_export(const Scene& scene, const fs::pat
   if (!scene.cameras.empty()) notes.emplace_back("cameras are not kept");
 
   NewFolder target(folder);
-  {
-    Output output(target.file("mesh.ply"));
-    write_diffsoup_mesh(output, positions, soup->triangles);
-    output.commit();
+  try {
+    write_files(target, luts, mlp, positions, *soup, scene.info);
+  } catch (const OutputError& error) {
+    throw target.in_place(error);
   }
-  write_file(target.file("lut0.png"), encode_png(luts.first));
-  write_file(target.file("lut1.png"), encode_png(luts.second));
-  write_json(target.file("mlp_weights.json"),
-             {{"W1", mlp.layers[0].weights},
-              {"b1", mlp.layers[0].biases},
-              {"W2", mlp.layers[1].weights},
-              {"b2", mlp.layers[1].biases},
-              {"W3", mlp.layers[2].weights},
-              {"b3", mlp.layers[2].biases}},
-             -1);
-  const glm::vec3 &up = scene.info.up, &background = scene.info.background;
-  write_json(target.file("meta.json"),
-             {{"up", {up.x, up.y, up.z}},
-              {"level", luts.level},
-              {"background", {background.x, background.y, background.z}},
-              {"num_faces", soup->triangles.size()},
-              {"num_verts", positions.size()},
-              {"writer", "tureen"}},
-             2);
   target.commit();
   return notes;
 }

@@ -10,6 +10,7 @@
 #include <process.h>
 #define getpid _getpid
 #else
+#include <fcntl.h>
 #include <unistd.h>
 #endif
 
@@ -19,6 +20,16 @@ namespace {
 
 std::span<const std::byte> bytes_of(std::string_view text) {
   return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+/// Both are there afterwards, or neither has moved.
+bool swap_names([[maybe_unused]] const std::filesystem::path& a,
+                [[maybe_unused]] const std::filesystem::path& b) {
+#ifdef RENAME_EXCHANGE
+  return renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0;
+#else
+  return false;
+#endif
 }
 
 }  // namespace
@@ -81,6 +92,26 @@ void write_file(const std::filesystem::path& path, std::span<const std::byte> by
   Output output(path);
   output.write(bytes);
   output.commit();
+}
+
+void replace_folder(const std::filesystem::path& made, const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
+  std::error_code error, ignored;
+  if (fs::exists(path, ignored) && swap_names(made, path)) {
+    fs::remove_all(made, ignored);
+    return;
+  }
+  // Not on every system and not on every disk: then there is a moment without either.
+  fs::path old = made;
+  old += ".old";
+  const bool replaces = fs::exists(path, ignored);
+  if (replaces) fs::rename(path, old, error);
+  if (!error) {
+    fs::rename(made, path, error);
+    if (error && replaces) fs::rename(old, path, ignored);
+  }
+  if (error) throw OutputError({path.string(), {}, {}}, "cannot be replaced: " + error.message());
+  fs::remove_all(old, ignored);
 }
 
 void make_folder(const std::filesystem::path& folder) {

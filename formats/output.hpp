@@ -45,6 +45,11 @@ class Output {
 void write_file(const std::filesystem::path& path, std::string_view text);
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
+/// Puts the folder `made` in the place of `path`, of which a folder that was there is removed.
+/// Where the system can swap two names (Linux) one of them is at `path` at every moment. Throws
+/// OutputError; `path` is then untouched.
+void replace_folder(const std::filesystem::path& made, const std::filesystem::path& path);
+
 /// Makes a folder, and those above it, where they are not there. Throws OutputError.
 void make_folder(const std::filesystem::path& folder);
 

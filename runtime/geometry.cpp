@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "runtime/gl/allocation.hpp"
 #include "soup/error.hpp"
 
 namespace tureen {
@@ -17,13 +18,7 @@ Geometry::Geometry(const GeometrySource& source)
     throw DeviceLimitError(std::to_string(source.face_count) + " triangles are more than the " +
                            std::to_string(most_faces) + " that OpenGL draws from one buffer");
   glBindBuffer(GL_ARRAY_BUFFER, positions_.id());
-  while (glGetError() != GL_NO_ERROR) {
-    // Somebody else's errors must not read as ours below.
-  }
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(device_bytes_), nullptr, GL_STATIC_DRAW);
-  if (glGetError() != GL_NO_ERROR)
-    throw DeviceLimitError(std::to_string(source.face_count) + " triangles need a buffer of " +
-                           std::to_string(device_bytes_ >> 20) + " MiB, which the device refuses");
+  allocate(device_bytes_, nullptr, std::to_string(source.face_count) + " triangles");
   // In blocks, so that the second copy stays small.
   constexpr std::size_t block_faces = 32768;
   std::vector<FaceCorners> block;
@@ -37,12 +32,20 @@ Geometry::Geometry(const GeometrySource& source)
   gl::check("Geometry");
 }
 
+void Geometry::allocate(std::size_t bytes, const void* contents, const std::string& what) {
+  if (gl::is_refused([&] {
+        glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), contents, GL_STATIC_DRAW);
+      }))
+    throw DeviceLimitError(what + " need a buffer of " + std::to_string(bytes >> 20) +
+                           " MiB, which the device refuses");
+}
+
 void Geometry::upload_barycentrics(std::span<const glm::vec2> barycentrics) {
   barycentrics_ = gl::Buffer::create();
   device_bytes_ += barycentrics.size_bytes();
   glBindBuffer(GL_ARRAY_BUFFER, barycentrics_.id());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(barycentrics.size_bytes()),
-               barycentrics.data(), GL_STATIC_DRAW);
+  allocate(barycentrics.size_bytes(), barycentrics.data(),
+           std::to_string(barycentrics.size() / 3) + " parts of triangles");
 }
 
 void Geometry::bind() {

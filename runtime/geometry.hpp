@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "runtime/geometry_source.hpp"
 #include "runtime/gl/program.hpp"
@@ -28,6 +29,8 @@ class Geometry {
                          const glm::dmat4& clip_from_view);
 
  private:
+  /// In the buffer that is bound; `what` is told where the device refuses. Throws DeviceLimitError.
+  static void allocate(std::size_t bytes, const void* contents, const std::string& what);
   void upload_barycentrics(std::span<const glm::vec2> barycentrics);
 
   gl::LocalVertexArray vertex_array_, part_array_;

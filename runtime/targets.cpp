@@ -54,10 +54,11 @@ gl::Framebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint de
 }
 
 void require_complete_framebuffer() {
-  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw DeviceLimitError(
-        "the device has no memory for the targets of a picture of this size: a smaller one would "
-        "fit");
+  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
+  gl::throw_if_lost();
+  throw DeviceLimitError(
+      "the device has no memory for the targets of a picture of this size: a smaller one would "
+      "fit");
 }
 
 Image8 read_pixels(GLuint framebuffer, int width, int height) {
@@ -66,6 +67,7 @@ Image8 read_pixels(GLuint framebuffer, int width, int height) {
   glReadBuffer(framebuffer ? GL_COLOR_ATTACHMENT0 : GL_BACK);  // 0 is a window's
   gl::use_plain_pixel_transfer();
   glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
+  gl::throw_if_lost();
   for (int y = 0; y < height / 2; ++y)
     std::swap_ranges(&image.at(0, y), &image.at(0, y) + width, &image.at(0, height - 1 - y));
   return image;
@@ -84,6 +86,7 @@ std::vector<std::uint32_t> read_visible_faces(GLuint framebuffer, glm::ivec2 siz
   glReadBuffer(GL_COLOR_ATTACHMENT0);
   gl::use_plain_pixel_transfer();
   glReadPixels(0, 0, size.x, size.y, GL_RGBA_INTEGER, GL_UNSIGNED_INT, fragments.data());
+  gl::throw_if_lost();
   std::vector<std::uint32_t> result(fragments.size());
   for (std::size_t y = 0; y < height; ++y)
     for (std::size_t x = 0; x < width; ++x) {

@@ -54,6 +54,7 @@ void require_drawable(int width, int height, int max_side);
 
 /// Throws DeviceLimitError when the framebuffer that is bound cannot be drawn to: plans use formats
 /// that OpenGL requires or the device has, so it is memory that a picture of this size lacks.
+/// Throws ContextError where the device is gone.
 void require_complete_framebuffer();
 
 }  // namespace tureen

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "runtime/gl/allocation.hpp"
 #include "soup/error.hpp"
 
 namespace tureen {
@@ -49,13 +50,11 @@ TexelStore::TexelStore(const TexelLayout& layout, const TexelSource& source) {
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, 0);
-  while (glGetError() != GL_NO_ERROR) {
-    // Somebody else's errors must not read as ours below.
-  }
-  glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, static_cast<GLint>(format.internal_format),
-               static_cast<GLsizei>(width), static_cast<GLsizei>(height),
-               static_cast<GLsizei>(layers), 0, format.format, format.type, nullptr);
-  if (glGetError() != GL_NO_ERROR)
+  if (gl::is_refused([&] {
+        glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, static_cast<GLint>(format.internal_format),
+                     static_cast<GLsizei>(width), static_cast<GLsizei>(height),
+                     static_cast<GLsizei>(layers), 0, format.format, format.type, nullptr);
+      }))
     throw DeviceLimitError(what + ": the device refuses a texture of " +
                            std::to_string(device_bytes_ >> 20) +
                            " MiB; fewer triangles or a lower "

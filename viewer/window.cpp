@@ -104,6 +104,8 @@ void want_context(gl::Api api) {
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);  // macOS has no other
   }
+  glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS,
+                 GLFW_LOSE_CONTEXT_ON_RESET);  // and be told: throw_if_lost
   // The runtime draws into targets of its own: the window needs colour alone.
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
@@ -266,7 +268,10 @@ void Window::set_fullscreen(bool on) {
   glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
-void Window::present() { glfwSwapBuffers(handles_->window.get()); }
+void Window::present() {
+  gl::throw_if_lost();
+  glfwSwapBuffers(handles_->window.get());
+}
 
 std::string Window::clipboard() const {
   const char* text = glfwGetClipboardString(handles_->window.get());

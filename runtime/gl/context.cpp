@@ -165,6 +165,17 @@ Capabilities query_capabilities(Api api) {
 
 }  // namespace
 
+void throw_if_lost() {
+#ifndef __EMSCRIPTEN__  // a canvas has events for that
+  // OpenGL 4.5 and ES 3.2 have it; older ones end the program themselves.
+  if (glGetGraphicsResetStatus && glGetGraphicsResetStatus() != GL_NO_ERROR)
+    throw ContextError(
+        "the graphics device was reset while it was drawing (its driver failed or was replaced, or "
+        "a "
+        "draw took too long), and what it held is gone: start again");
+#endif
+}
+
 #ifndef NDEBUG
 void check(const char* where) {
   if (const GLenum error = glGetError(); error != GL_NO_ERROR)

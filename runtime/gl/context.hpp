@@ -83,4 +83,10 @@ class Context {
   Capabilities capabilities_;
 };
 
+/// Throws ContextError where the device has been reset since the current context was made (its
+/// driver crashed or was replaced, a draw took too long): nothing is drawn from then on. Our
+/// contexts ask to be told; whether one of somebody else's (Backend::external) does, its maker
+/// knows. Waits for nothing.
+void throw_if_lost();
+
 }  // namespace tureen::gl

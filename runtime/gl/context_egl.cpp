@@ -32,6 +32,8 @@ constexpr unsigned egl_opengl_es_api = 0x30A0;
 constexpr EGLint egl_context_major_version = 0x3098;
 constexpr EGLint egl_context_minor_version = 0x30FB;
 constexpr EGLint egl_context_profile_mask = 0x30FD;
+constexpr EGLint egl_context_reset_strategy = 0x31BD;
+constexpr EGLint egl_lose_context_on_reset = 0x31BF;
 constexpr EGLint egl_core_profile_bit = 0x0001;
 constexpr unsigned egl_platform_surfaceless = 0x31DD;
 constexpr unsigned egl_platform_device = 0x313F;
@@ -132,8 +134,15 @@ EGLContext create_on(EGLDisplay display, const ContextRequest& request, int majo
   std::vector<EGLint> attributes = {egl_context_major_version, major, egl_context_minor_version,
                                     minor};
   if (!es) attributes.insert(attributes.end(), {egl_context_profile_mask, egl_core_profile_bit});
+  // To be told of resets (throw_if_lost), where EGL knows how: from 1.5 on.
+  std::vector<EGLint> told = attributes;
+  told.insert(told.end(), {egl_context_reset_strategy, egl_lose_context_on_reset, egl_none});
   attributes.push_back(egl_none);
-  return egl().create_context(display, config, nullptr, attributes.data());
+  const auto create = [&](const std::vector<EGLint>& wanted) {
+    return egl().create_context(display, config, nullptr, wanted.data());
+  };
+  EGLContext context = create(told);
+  return context ? context : create(attributes);
 }
 
 }  // namespace

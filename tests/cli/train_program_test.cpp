@@ -203,6 +203,32 @@ TEST_F(Train, GoesOnAfterCtrlCAsIfItHadNotHappened) {
   EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), std::count(whole.begin(), whole.end(), '\n'));
 }
 
+TEST_F(Train, GoesOnAfterAKillAsIfItHadNotHappened) {
+  make_dataset();
+  fs::create_directories(folder / "whole");
+  const std::string steps = "800";
+  ASSERT_EQ(train("whole/ball.glb", {}, steps).exit_code, 0);
+  const std::vector<std::string> often{"--checkpoint-every", "7"};
+  // Twice, at moments that nobody chooses: the second also while it goes on from the first.
+  for (int kills = 0; kills < 2; ++kills) {
+    std::vector<std::string> more = often;
+    if (kills > 0) more.emplace_back("--resume");
+    const std::string before = bytes("ball.checkpoint");
+    test::Child child(arguments("ball.glb", more, steps), folder);
+    while (child.running() && bytes("ball.checkpoint") == before)
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    ASSERT_TRUE(child.running()) << child.wait().err;
+    child.signal(SIGKILL);
+    EXPECT_EQ(child.wait().exit_code, -1);
+    EXPECT_FALSE(exists("ball.glb"));
+  }
+  const ChildResult result = train("ball.glb", {"--resume"}, steps);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(bytes("ball.glb"), bytes("whole/ball.glb"));
+  const std::string log = bytes("ball.jsonl"), whole = bytes("whole/ball.jsonl");
+  EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), std::count(whole.begin(), whole.end(), '\n'));
+}
+
 TEST_F(Train, CheckpointsAsOftenAsItIsTold) {
   make_dataset();
   // A log is begun anew: nothing else must be in its place.

@@ -52,7 +52,7 @@ test('what a browser fetches before the first scene is below 400 KB', () => {
   assert.ok(size < 400_000, `${size} bytes`);
 });
 
-// No time is asserted: other tests and builds share the processor. docs/web.md has what an idle one shows.
+// No time is asserted: other tests and builds share the processor. docs/benchmarks.md has what an idle one shows.
 test('the first picture of the example', () => visit('?scene=soup.glb', async (page) => {
   await sceneShown(page, 'soup');
   const before = await view(page);

@@ -1,0 +1,230 @@
+// Devices that have no memory left, lack what newer ones have, reject a shader, or are reset: each
+// is told as what it is, and what can go on does. The faults are played by functions put in place
+// of the driver's.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "runtime/gl/api.hpp"
+#include "runtime/gl/program.hpp"
+#include "runtime/renderer.hpp"
+#include "soup/error.hpp"
+#include "support/contexts.hpp"
+#include "support/cutout_cloud.hpp"
+
+namespace tureen::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+constexpr CutoutCloudOptions small{.triangles = 300, .level = 2, .width = 96, .height = 64};
+
+/// A function of the driver, replaced as long as this lives.
+template <class Function>
+class Replaced {
+ public:
+  Replaced(Function& slot, Function by) : slot_(slot), own_(slot) { slot_ = by; }
+  Replaced(const Replaced&) = delete;
+  Replaced& operator=(const Replaced&) = delete;
+  ~Replaced() { slot_ = own_; }
+
+ private:
+  Function& slot_;
+  Function own_;
+};
+
+GLenum pending_error = GL_NO_ERROR;  // what the device will say when it is asked
+
+GLenum GLAD_API_PTR tell_pending_error() { return std::exchange(pending_error, GL_NO_ERROR); }
+void GLAD_API_PTR refuse_texture(GLenum, GLint, GLint, GLsizei, GLsizei, GLsizei, GLint, GLenum,
+                                 GLenum, const void*) {
+  pending_error = GL_OUT_OF_MEMORY;
+}
+void GLAD_API_PTR refuse_buffer(GLenum, GLsizeiptr, const void*, GLenum) {
+  pending_error = GL_OUT_OF_MEMORY;
+}
+GLenum GLAD_API_PTR tell_of_reset() { return GL_INNOCENT_CONTEXT_RESET; }
+
+class DeviceFaults : public testing::TestWithParam<NamedContext> {
+ protected:
+  DeviceFaults()
+      : context(gl::Context::create(GetParam().request)),
+        scene(cutout_cloud(small)),
+        soup(std::get<TriangleSoup>(scene.primitives)),
+        camera(scene.cameras.front()) {}
+
+  Image8 picture() const {
+    Renderer renderer(context, soup, {});
+    renderer.draw(camera);
+    return renderer.read_color();
+  }
+
+  gl::Context context;
+  Scene scene;
+  const TriangleSoup& soup;
+  Camera camera;
+};
+
+TEST_P(DeviceFaults, MemoryThatIsRefusedIsALimitAndTheDeviceServesOn) {
+  const Image8 before = picture();
+  {
+    const Replaced error(glad_glGetError, PFNGLGETERRORPROC(tell_pending_error));
+    const Replaced texture(glad_glTexImage3D, PFNGLTEXIMAGE3DPROC(refuse_texture));
+    EXPECT_THAT([&] { Renderer(context, soup, {}); },
+                ThrowsMessage<DeviceLimitError>(HasSubstr("the device refuses a texture of")));
+  }
+  {
+    const Replaced error(glad_glGetError, PFNGLGETERRORPROC(tell_pending_error));
+    const Replaced buffer(glad_glBufferData, PFNGLBUFFERDATAPROC(refuse_buffer));
+    EXPECT_THAT([&] { Renderer(context, soup, {}); },
+                ThrowsMessage<DeviceLimitError>(HasSubstr("MiB, which the device refuses")));
+  }
+  EXPECT_EQ(picture().pixels, before.pixels);
+}
+
+TEST_P(DeviceFaults, APictureWithoutMemoryIsALimitAndASmallerOneIsDrawn) {
+  const Image8 before = picture();
+  Renderer renderer(context, soup, {});
+  Camera large = camera;
+  large.width *= 2;
+  {
+    const Replaced status(glad_glCheckFramebufferStatus,
+                          PFNGLCHECKFRAMEBUFFERSTATUSPROC(+[](GLenum) -> GLenum {
+                            return GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT;
+                          }));
+    EXPECT_THAT([&] { renderer.draw(large); },
+                ThrowsMessage<DeviceLimitError>(HasSubstr("a smaller one would fit")));
+  }
+  renderer.draw(camera);
+  EXPECT_EQ(renderer.read_color().pixels, before.pixels);
+}
+
+TEST_P(DeviceFaults, AResetIsToldAsWhatItIsAndNotAsAPicture) {
+  if (!glGetGraphicsResetStatus) GTEST_SKIP() << "older contexts do not tell";
+  Renderer renderer(context, soup, {});
+  renderer.draw(camera);
+  const auto is_reset = ThrowsMessage<ContextError>(HasSubstr("the graphics device was reset"));
+  {
+    const Replaced status(glad_glGetGraphicsResetStatus,
+                          PFNGLGETGRAPHICSRESETSTATUSPROC(tell_of_reset));
+    EXPECT_THAT([&] { renderer.read_color(); }, is_reset);
+    EXPECT_THAT([&] { renderer.read_faces(); }, is_reset);
+    // What a reset device refuses is no want of memory.
+    const Replaced error(glad_glGetError, PFNGLGETERRORPROC(tell_pending_error));
+    const Replaced buffer(glad_glBufferData, PFNGLBUFFERDATAPROC(refuse_buffer));
+    EXPECT_THAT([&] { Renderer(context, soup, {}); }, is_reset);
+  }
+  {
+    const Replaced status(glad_glGetGraphicsResetStatus,
+                          PFNGLGETGRAPHICSRESETSTATUSPROC(tell_of_reset));
+    // glGetError may go on and on then.
+    const Replaced error(glad_glGetError, PFNGLGETERRORPROC(+[]() -> GLenum {
+                           return 0x0507; /*context lost*/
+                         }));
+    EXPECT_THAT([&] { Renderer(context, soup, {}); }, is_reset);
+  }
+  EXPECT_EQ(renderer.read_color().pixels, picture().pixels);
+}
+
+TEST_P(DeviceFaults, ARejectedShaderIsToldWithItsLinesAndTheDeviceServesOn) {
+  const Image8 before = picture();
+  const bool es = context.capabilities().api == gl::Api::es;
+  const std::string version = es ? "#version 300 es\n" : "#version 330 core\n";
+  EXPECT_THAT([&] { gl::Program(version + "void main() { gl_Position = nothing; }\n", ""); },
+              ThrowsMessage<ContextError>(AllOf(HasSubstr("the driver rejects a shader"),
+                                                HasSubstr("nothing"), HasSubstr("2: void main"))));
+  {
+    // A driver with a compiler that fails on ours.
+    const Replaced status(glad_glGetShaderiv,
+                          PFNGLGETSHADERIVPROC(+[](GLuint, GLenum, GLint* value) { *value = 0; }));
+    EXPECT_THAT([&] { picture(); },
+                ThrowsMessage<ContextError>(HasSubstr("the driver rejects a shader")));
+  }
+  {
+    const Replaced status(glad_glGetProgramiv,
+                          PFNGLGETPROGRAMIVPROC(+[](GLuint, GLenum, GLint* value) { *value = 0; }));
+    EXPECT_THAT([&] { picture(); },
+                ThrowsMessage<ContextError>(HasSubstr("the driver cannot link a program")));
+  }
+  EXPECT_EQ(picture().pixels, before.pixels);
+}
+
+INSTANTIATE_TEST_SUITE_P(Contexts, DeviceFaults, testing::ValuesIn(every_context),
+                         [](const auto& parameter) { return parameter.param.name; });
+
+// -- Drivers that have less ---------------------------------------------------------------------
+
+/// OSMesa's functions, of which an older driver lacks some.
+struct OlderDriver {
+  static inline gl::Context::GetProcAddress newer = nullptr;
+  static inline PFNGLGETINTEGERVPROC newer_integers = nullptr;
+  static inline PFNGLGETSTRINGPROC newer_strings = nullptr;
+  static inline int major = 3, minor = 3;
+  static inline std::string version;
+
+  static void GLAD_API_PTR integers(GLenum name, GLint* values) {
+    newer_integers(name, values);
+    if (name == GL_MAJOR_VERSION) *values = major;
+    if (name == GL_MINOR_VERSION) *values = minor;
+  }
+  static const GLubyte* GLAD_API_PTR strings(GLenum name) {
+    if (name == GL_VERSION) return reinterpret_cast<const GLubyte*>(version.c_str());
+    return newer_strings(name);
+  }
+  static void* find(const char* name) {
+    if (std::strcmp(name, "glGetIntegerv") == 0) return reinterpret_cast<void*>(integers);
+    if (std::strcmp(name, "glGetString") == 0) return reinterpret_cast<void*>(strings);
+    return newer(name);
+  }
+
+  OlderDriver(const gl::Context& context, int its_major, int its_minor) {
+    newer = context.get_proc_address();
+    newer_integers = reinterpret_cast<PFNGLGETINTEGERVPROC>(newer("glGetIntegerv"));
+    newer_strings = reinterpret_cast<PFNGLGETSTRINGPROC>(newer("glGetString"));
+    major = its_major;
+    minor = its_minor;
+    version = std::to_string(major) + "." + std::to_string(minor) + " older";
+  }
+};
+
+TEST(OlderDrivers, DrawTheSameWithoutWhatTheyLack) {
+  gl::Context newer = gl::Context::create(osmesa);
+  const Scene scene = cutout_cloud(small);
+  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  const auto draw = [&](const gl::Context& context) {
+    Renderer renderer(context, soup, {});
+    renderer.draw(scene.cameras.front());
+    return renderer.read_color();
+  };
+  const Image8 whole = draw(newer);
+  const OlderDriver driver(newer, 3, 3);
+  const gl::Context older = gl::Context::external(OlderDriver::find, gl::Api::desktop);
+  EXPECT_TRUE(newer.capabilities().clip_control);
+  EXPECT_FALSE(older.capabilities().clip_control);
+  EXPECT_FALSE(older.capabilities().compute_shaders);
+  const Image8 with_less = draw(older);
+  std::size_t other = 0;
+  for (std::size_t i = 0; i < whole.pixels.size(); ++i)
+    other += whole.pixels[i] != with_less.pixels[i];
+  // 24 fixed bits of depth decide other ties than reversed floats where two triangles cross.
+  EXPECT_LE(other, whole.pixels.size() / 500);
+}
+
+TEST(OlderDrivers, TooOldOrNoneAtAllIsToldWithTheVersion) {
+  const gl::Context newer = gl::Context::create(osmesa);
+  const OlderDriver driver(newer, 3, 2);
+  EXPECT_THAT([] { gl::Context::external(OlderDriver::find, gl::Api::desktop); },
+              ThrowsMessage<ContextError>(AllOf(HasSubstr("3.2 older is too old"),
+                                                HasSubstr("3.3 core or ES 3.0 is needed"))));
+  EXPECT_THAT(
+      [] { gl::Context::external([](const char*) -> void* { return nullptr; }, gl::Api::desktop); },
+      ThrowsMessage<ContextError>(HasSubstr("does not yield the OpenGL functions")));
+}
+
+}  // namespace
+}  // namespace tureen::test
