@@ -85,7 +85,7 @@ struct GatherFaces {
                                     const lattice::Footprint<float>& at, bool won) const {
     const float* alpha = model.alpha + face * model.fine_texels();
     Fixed* out = sums.texture + face * model.fine_texels() * channels;
-    const float a = alpha_at(alpha, at);
+    const float a = lattice::interpolated(at, alpha);
     const auto role = won ? kernels::FragmentRole::winner : kernels::FragmentRole::in_front;
     bool good = true;
     for (int j = 0; j < 3; ++j) {
