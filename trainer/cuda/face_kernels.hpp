@@ -382,7 +382,7 @@ struct StepNetwork {
       shared.gradient[i] = float(sum);
     } else if (phase == 1 && i == 0) {
       shared.good = true;
-      for (const float g : shared.gradient) shared.good = shared.good && std::isfinite(g);
+      for (const float g : shared.gradient) shared.good = shared.good && kernels::can_be_squared(g);
       if (shared.good)
         shared.step = kernels::adam_step(rate, beta1, beta2, epsilon, double(++*steps));
       else
