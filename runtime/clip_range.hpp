@@ -18,7 +18,7 @@ struct ClipRange {
 /// How depth is stored decides how near the near plane may come to an eye within the scene.
 enum class DepthStorage {
   fixed_24,        // precision is lost in proportion to far / near: a thousandth of the radius
-  reversed_float,  // precision does not depend on the near plane: a millionth
+  reversed_float,  // precision does not depend on the near plane: a billionth
 };
 
 /// `eye` is relative to the soup's origin, `forward` the viewing axis, of unit length: planes of
