@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
+#include "soup/camera.hpp"
 #include "soup/triangle_soup.hpp"
 
 namespace tureen {
@@ -17,12 +18,18 @@ struct ClipRange {
 /// How depth is stored decides how near the near plane may come to an eye within the scene.
 enum class DepthStorage {
   fixed_24,        // precision is lost in proportion to far / near: a thousandth of the radius
-  reversed_float,  // precision does not depend on the near plane: a millionth
+  reversed_float,  // precision does not depend on the near plane: a billionth
 };
 
-/// `eye` is relative to the soup's origin. 0 < near < far for every finite input. What lies nearer
-/// than `near` is clipped; seen from outside the bounds, nothing does.
-ClipRange clip_range(const Bounds& bounds, glm::dvec3 eye, DepthStorage storage);
+/// `eye` is relative to the soup's origin, `forward` the viewing axis, of unit length: planes of
+/// depth are perpendicular to it, so what lies far off the axis is nearer than it is away.
+/// 0 < near < far for every finite input. What lies nearer than `near` is clipped; where the bounds
+/// lie in front of the eye, nothing does.
+ClipRange clip_range(const Bounds& bounds, glm::dvec3 eye, glm::dvec3 forward,
+                     DepthStorage storage);
+
+/// The viewing axis in world coordinates.
+glm::dvec3 forward_of(const Camera& camera);
 
 /// How far along the viewing axis a stored depth lies, the inverse of clip_from_view and
 /// clip_from_view_reversed (soup/camera.hpp); nothing for that of the background.

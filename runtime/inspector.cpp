@@ -349,7 +349,7 @@ void Inspector::draw(const Camera& camera) {
   const DepthStorage storage =
       state.plan.reversed_depth ? DepthStorage::reversed_float : DepthStorage::fixed_24;
   state.scale = depth_scale(state.middle, eye);
-  state.draw({camera, eye, clip_range(state.all, eye, storage)});
+  state.draw({camera, eye, clip_range(state.all, eye, forward_of(camera), storage)});
 }
 
 void Inspector::finish() const { glFinish(); }

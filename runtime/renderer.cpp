@@ -122,7 +122,7 @@ void Renderer::draw(const Camera& camera) {
   const glm::dvec3 eye = camera.eye() - state_->origin;
   const DepthStorage storage =
       state_->plan.reversed_depth ? DepthStorage::reversed_float : DepthStorage::fixed_24;
-  state_->last_frame = {camera, eye, clip_range(state_->bounds, eye, storage)};
+  state_->last_frame = {camera, eye, clip_range(state_->bounds, eye, forward_of(camera), storage)};
   state_->pipeline->draw(state_->last_frame, state_->background);
   state_->tell_choice();
 }

@@ -48,7 +48,7 @@ inline Coordinates texel_coordinates(std::uint32_t index) {
   return {diagonal - y, y};
 }
 
-/// The three texels around a point and their weights, which sum to 1.
+/// The three texels around a point and their weights, which sum to 1 but for rounding.
 template <class Real>
 struct Footprint {
   std::array<std::uint32_t, 3> texels;
@@ -84,6 +84,21 @@ constexpr Footprint<Real> footprint(int level, Real b0, Real b1) {
   }
   return {{texel_index(x + 1, y), texel_index(x, y + 1), texel_index(x, y)},
           {p, q, Real(1) - p - q}};
+}
+
+/// What lies between three texels' values. By differences, so that equal values are returned to the
+/// bit: the weights' sum may be a rounding short of 1, and an alpha of 1/2 everywhere would then
+/// fall below its threshold at one point in twenty. shaders/appearance_lattice.glsl does the same.
+template <class Real, class Value>
+constexpr Value interpolated(const std::array<Real, 3>& weights, const Value& a, const Value& b,
+                             const Value& third) {
+  return third + weights[0] * (a - third) + weights[1] * (b - third);
+}
+
+/// The same of one channel's values, by their texels.
+template <class Real, class Value>
+constexpr Value interpolated(const Footprint<Real>& at, const Value* values) {
+  return interpolated(at.weights, values[at.texels[0]], values[at.texels[1]], values[at.texels[2]]);
 }
 
 }  // namespace tureen::lattice

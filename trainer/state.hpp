@@ -35,4 +35,11 @@ struct TrainingState {
   std::uint64_t non_finite = 0;  // pixels and parameters that were quarantined so far
 };
 
+/// Puts numbers in the place of what is none, as a mesh to begin with may bring it: 0 for logits
+/// and weights, and of a face with a corner that is none all three become the origin, a face that
+/// no picture shows. Left as they are they would never learn: what is no number has no gradient
+/// that is one. Moments of what was replaced begin again. Returns how many numbers were replaced,
+/// and adds them to non_finite.
+std::uint64_t quarantine(TrainingState& state);
+
 }  // namespace tureen::trainer

@@ -27,10 +27,11 @@ struct ResampleReport {
 
 class Trainer {
  public:
-  /// `views` are the backend's too, and must outlive both. The state is new or a saved one; the
-  /// configuration's lengths are in the dataset's units by now (scaled_to).
+  /// `views` are the backend's too, and must outlive both. The state is new or a saved one, and
+  /// what in it is no number is put aside (quarantine); the configuration's lengths are in the
+  /// dataset's units by now (scaled_to).
   Trainer(const Config& config, std::span<const TrainingView> views,
-          std::unique_ptr<Backend> backend, const TrainingState& state);
+          std::unique_ptr<Backend> backend, TrainingState state);
 
   int steps_done() const { return step_; }
   bool done() const { return step_ >= config_.steps; }

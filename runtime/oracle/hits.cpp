@@ -95,7 +95,8 @@ Rays::Rays(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera, Ra
     : soup_(soup), camera_(camera), options_(options), view_from_world_(camera.view_from_world) {
   const glm::dvec3 eye = camera.eye();
   eye_to_origin_ = origin - eye;
-  range_ = clip_range(bounds(soup), -eye_to_origin_, DepthStorage::reversed_float);
+  range_ =
+      clip_range(bounds(soup), -eye_to_origin_, forward_of(camera), DepthStorage::reversed_float);
   rows_.resize(soup.triangles.size());
   Face face;
   for (std::uint32_t t = 0; t < soup.triangles.size(); ++t)

@@ -51,7 +51,7 @@ double sampled(const LatticeTexture& texture, const LatticePatch& patch,
   double v[3];
   for (int k = 0; k < 3; ++k)
     v[k] = texel(texture, patch.first_texel + std::size_t(at.texels[k]), channel);
-  return v[2] + at.weights[0] * (v[0] - v[2]) + at.weights[1] * (v[1] - v[2]);
+  return lattice::interpolated(at.weights, v[0], v[1], v[2]);
 }
 
 /// What baked harmonics add for this direction.

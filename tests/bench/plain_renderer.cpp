@@ -82,7 +82,8 @@ void PlainRenderer::draw(const Camera& camera) {
   glClearBufferfv(GL_COLOR, 0, black);
   glClearBufferfv(GL_DEPTH, 0, &far);
   glDepthFunc(GL_LESS);
-  const ClipRange range = clip_range(bounds_, camera.eye(), DepthStorage::fixed_24);
+  const ClipRange range =
+      clip_range(bounds_, camera.eye(), forward_of(camera), DepthStorage::fixed_24);
   program_.use();
   program_.set("clip_from_world", glm::mat4(clip_from_view(camera, range.near, range.far) *
                                             glm::dmat4(camera.view_from_world)));

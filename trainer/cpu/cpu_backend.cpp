@@ -296,7 +296,7 @@ void CpuBackend::step_network(float rate, StepReport& report) {
   for (const MlpParameters& part : mlp_gradients_)
     for (std::size_t i = 0; i < mlp_parameters; ++i) gradient[i] += part[i];
   for (const double g : gradient)
-    if (!std::isfinite(float(g))) {
+    if (!kernels::can_be_squared(float(g))) {
       ++report.non_finite;
       return;
     }

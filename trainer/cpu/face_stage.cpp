@@ -75,8 +75,7 @@ struct Gathered {
         if (!won && !in_front) return;
         out.touched = true;
         const auto at = lattice::footprint(level, fragment.b0, fragment.b1);
-        float a = 0;
-        for (int j = 0; j < 3; ++j) a += at.weights[j] * alpha[at.texels[j]];
+        const float a = lattice::interpolated(at, alpha);
         const auto role = won ? kernels::FragmentRole::winner : kernels::FragmentRole::in_front;
         for (int j = 0; j < 3; ++j)
           scratch.alpha[at.texels[j]] +=

@@ -38,9 +38,11 @@ struct Batch {
     const VisiblePixel& visible = picture.visible[pixel];
     const auto at = lattice::footprint(input.level, visible.b0, visible.b1);
     const float* texture = input.texture + visible.face * texels * channels;
-    kernels::TexelPack values{};
-    for (int j = 0; j < 3; ++j)
-      values += at.weights[j] * kernels::load_texel(texture + std::size_t(at.texels[j]) * channels);
+    const auto texel = [&](std::size_t j) __attribute__((always_inline)) {
+      return kernels::load_texel(texture + std::size_t(at.texels[j]) * channels);
+    };
+    const kernels::TexelPack values =
+        lattice::interpolated(at.weights, texel(0), texel(1), texel(2));
     for (int f = 0; f < channels; ++f) inputs[f][l] = values[f];
     pixel_x[l] = float(batch.x[source]);
     pixel_y[l] = float(batch.y[source]);

@@ -60,8 +60,7 @@ TUREEN_VECTOR_CLONES TUREEN_FLATTEN std::uint64_t find_visible(Picture& picture,
           VisiblePixel& visible = picture.visible[pixel];
           if (fragment.inverse_depth <= visible.inverse_depth) return;
           const auto at = lattice::footprint(level, fragment.b0, fragment.b1);
-          float a = 0;
-          for (int j = 0; j < 3; ++j) a += at.weights[j] * texture[at.texels[j]];
+          const float a = lattice::interpolated(at, texture);
           const float needed =
               masking == Masking::threshold
                   ? alpha_threshold

@@ -85,7 +85,7 @@ struct GatherFaces {
                                     const lattice::Footprint<float>& at, bool won) const {
     const float* alpha = model.alpha + face * model.fine_texels();
     Fixed* out = sums.texture + face * model.fine_texels() * channels;
-    const float a = alpha_at(alpha, at);
+    const float a = lattice::interpolated(at, alpha);
     const auto role = won ? kernels::FragmentRole::winner : kernels::FragmentRole::in_front;
     bool good = true;
     for (int j = 0; j < 3; ++j) {
@@ -382,7 +382,7 @@ struct StepNetwork {
       shared.gradient[i] = float(sum);
     } else if (phase == 1 && i == 0) {
       shared.good = true;
-      for (const float g : shared.gradient) shared.good = shared.good && std::isfinite(g);
+      for (const float g : shared.gradient) shared.good = shared.good && kernels::can_be_squared(g);
       if (shared.good)
         shared.step = kernels::adam_step(rate, beta1, beta2, epsilon, double(++*steps));
       else

@@ -24,10 +24,10 @@ TUREEN_HOST_DEVICE void network_input(const DevicePicture& picture, const Device
   const auto at = lattice::footprint(model.max_level, fragment.b0, fragment.b1);
   const float* texture = model.values + face * model.fine_texels() * channels;
   for (int f = 0; f < kernels::features; ++f) {
-    float value = 0;
-    for (int j = 0; j < 3; ++j)
-      value += at.weights[j] * texture[std::size_t(at.texels[j]) * channels + std::size_t(f)];
-    input[f] = value;
+    const auto value = [&](std::size_t j) {
+      return texture[std::size_t(at.texels[j]) * channels + std::size_t(f)];
+    };
+    input[f] = lattice::interpolated(at.weights, value(0), value(1), value(2));
   }
   const float right = (float(x) + float(0.5 - view.cx)) * float(1 / view.fx);
   const float down = (float(y) + float(0.5 - view.cy)) * float(1 / view.fy);

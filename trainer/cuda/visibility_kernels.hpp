@@ -142,13 +142,6 @@ TUREEN_HOST_DEVICE void for_each_own_fragment(const kernels::View& view, const P
   }
 }
 
-/// The alpha of a face's texture at a point.
-TUREEN_HOST_DEVICE float alpha_at(const float* alpha, const lattice::Footprint<float>& at) {
-  float a = 0;
-  for (int j = 0; j < 3; ++j) a += at.weights[j] * alpha[at.texels[j]];
-  return a;
-}
-
 /// Leaves in `keys`, zeros before, what each pixel shows.
 struct FindVisible {
   static constexpr unsigned threads = 256;
@@ -196,8 +189,8 @@ struct FindVisible {
           const VisibleKey key = visible_key(fragment.inverse_depth, piece.face);
           // Keys only grow: one that is behind an old value is behind the present one, too.
           if (key <= Atomics::load(visible)) return;
-          const float a =
-              alpha_at(alpha, lattice::footprint(model.max_level, fragment.b0, fragment.b1));
+          const float a = lattice::interpolated(
+              lattice::footprint(model.max_level, fragment.b0, fragment.b1), alpha);
           const float needed =
               masking == Masking::threshold
                   ? alpha_threshold

@@ -22,6 +22,12 @@ TUREEN_HOST_DEVICE AdamStep adam_step(float rate, float beta1, float beta2, floa
           float(1 / std::sqrt(1 - std::pow(double(beta2), t)))};
 }
 
+/// Whether a gradient is a number whose square is one, too, and the sum of three such squares: what
+/// second moments take. One that is infinite would hold its number still for ever.
+TUREEN_HOST_DEVICE bool can_be_squared(float gradient) {
+  return std::isfinite(4 * gradient * gradient);
+}
+
 TUREEN_HOST_DEVICE void adam(const AdamStep& step, float gradient, float& value, float& first,
                              float& second) {
   first = step.beta1 * first + (1 - step.beta1) * gradient;

@@ -22,8 +22,8 @@ TUREEN_HOST_DEVICE Real logit_score(FragmentRole role, Real alpha, Real weight, 
   const Real numerator = weight * alpha_j * (1 - alpha_j);
   const Real probability = role == FragmentRole::winner ? alpha : 1 - alpha;
   const Real ratio = numerator / (probability > Real(1e-30) ? probability : Real(1e-30));
-  // Rounding of 1 - alpha may push the ratio past its bound: alpha is a sum of three products. NaN
-  // stays NaN, for the optimiser to leave out.
+  // Rounding of alpha and of 1 - alpha may push the ratio past its bound. NaN stays NaN, for the
+  // optimiser to leave out.
   const Real bounded = ratio > 1 ? Real(1) : ratio;
   return role == FragmentRole::winner ? bounded : -bounded;
 }
