@@ -34,7 +34,8 @@ function(tureen_test name)
   set(properties TIMEOUT 300)
   if(TUREEN_SANITIZE)
     list(APPEND properties ENVIRONMENT
-      "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/leaks.supp:print_suppressions=0")
+      "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/leaks.supp:print_suppressions=0"
+      "TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/races.supp:print_suppressions=0")
   endif()
   # NO_PRETTY_VALUES: without the values, which are bytes of memory where a type has no printer.
   gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
