@@ -16,6 +16,7 @@
 #include "cli/bench_views.hpp"
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/memory_option.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/version.hpp"
@@ -182,6 +183,7 @@ Exit codes: 0 done, 1 slower than --fail-slower allows, 2 wrong usage, 3 the sce
 cameras cannot be read, 4 no OpenGL context, 5 it does not fit on the device or cannot be
 written.)");
   add_scene_argument(*command, options->scene)->required(false);
+  add_memory_option(*command);
   add_bench_view_options(*command, options->views);
   add_contestant_options(*command, options->contestants);
   command

@@ -5,6 +5,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/convert_slim.hpp"
+#include "cli/memory_option.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/scene_page.hpp"
@@ -117,6 +118,7 @@ Examples:
   command->add_option("OUT", options->output, "the file (or folder) to write")
       ->required()
       ->type_name("");
+  add_memory_option(*command);
   command->add_flag("--force", options->force, "replace OUT if it exists");
   command->add_flag("--json", options->json,
                     "what was written and lost as JSON on standard output");

@@ -8,6 +8,7 @@
 #include "cli/commands.hpp"
 #include "cli/dataset_argument.hpp"
 #include "cli/evaluation.hpp"
+#include "cli/memory_option.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
@@ -118,6 +119,7 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene or the dataset cannot be read, 4 
 context, 5 it does not fit on the device or cannot be written.)");
   add_scene_argument(*command, options->scene);
   add_dataset_argument(*command, options->dataset);
+  add_memory_option(*command);
   add_choice<DatasetPart>(
       *command, "--split", options->split,
       {{"test", DatasetPart::test}, {"train", DatasetPart::train}, {"all", DatasetPart::all}},

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/memory_option.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
 #include "formats/camera_file.hpp"
@@ -241,6 +242,7 @@ Examples:
   tureen info soup.glb --strict               exit with 1 when lint finds anything, or the
                                               scene fits only on some devices)");
   add_scene_argument(*command, options->scene);
+  add_memory_option(*command);
   command->add_flag("--json", options->json, "everything as JSON on standard output");
   command->add_flag("--strict", options->strict,
                     "exit with 1 when there is anything to complain of");

@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/drawing_options.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/memory_option.hpp"
 #include "cli/picture_file.hpp"
 #include "cli/pictures.hpp"
 #include "cli/report.hpp"
@@ -189,6 +190,7 @@ Examples:
 Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL context,
 5 it does not fit on the device or cannot be written.)");
   add_scene_argument(*command, options->scene);
+  add_memory_option(*command);
   command
       ->add_option(
           "-o,--output", options->output,

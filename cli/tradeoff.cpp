@@ -11,6 +11,7 @@
 #include "cli/commands.hpp"
 #include "cli/dataset_argument.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/memory_option.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
@@ -309,6 +310,7 @@ device or cannot be written.)");
   add_scene_argument(*command, options->scene);
   add_dataset_argument(*command, options->dataset);
   command->get_option("DATASET")->required(false);
+  add_memory_option(*command);
   command
       ->add_option("-o,--output", options->folder,
                    "a folder for the report: tradeoff.html, .csv and .json, and the plots")

@@ -13,6 +13,7 @@
 #include "cli/evaluation.hpp"
 #include "cli/held_out.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/memory_option.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/run_lock.hpp"
@@ -385,6 +386,7 @@ Exit codes: 0 done, 2 wrong usage, which a dataset or constants other than the c
 3 the photographs, the checkpoint or the configuration cannot be read,
 4 no GPU where one is asked for, 5 interrupted, or the soup cannot be written.)");
   add_dataset_argument(*command, options->dataset);
+  add_memory_option(*command);
   add_file_options(*command, *options);
   add_config_options(*command, options->config);
   add_choice<Device>(*command, "--device", options->device,

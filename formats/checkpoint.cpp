@@ -24,10 +24,15 @@ void expect_at_most(const TorchArchive& archive, std::uint64_t count, const char
     archive.fail(std::to_string(count) + " " + what + " are more than 32 bits can count");
 }
 
-std::vector<glm::vec3> as_vectors(std::span<const float> values) {
+/// All of a tensor, three numbers a vector.
+std::vector<glm::vec3> read_vectors(TorchArchive& archive, const TorchTensor& tensor) {
+  PassingMemory passing(archive.budget());
+  const std::vector<float> values = archive.read_floats(tensor);
+  archive.take_memory(tensor, values.size(), sizeof values[0]);
   std::vector<glm::vec3> vectors(values.size() / 3);
   if (!vectors.empty())
     std::memcpy(vectors.data(), values.data(), vectors.size() * sizeof vectors[0]);
+  passing.keep(values.size() * sizeof values[0]);
   return vectors;
 }
 
@@ -36,7 +41,10 @@ std::vector<glm::uvec3> read_triangles(TorchArchive& archive, std::string_view k
                                        std::size_t vertices) {
   const TorchTensor tensor = archive.tensor(key);
   archive.expect_shape(tensor, {0, 3});
+  PassingMemory passing(archive.budget());
   const auto indices = archive.read_integers(tensor);
+  archive.take_memory(tensor, indices.size(), sizeof(std::uint32_t));
+  passing.keep(indices.size() * sizeof(std::uint32_t));
   std::vector<glm::uvec3> triangles(indices.size() / 3);
   for (std::size_t i = 0; i < indices.size(); ++i) {
     if (indices[i] < 0 || static_cast<std::uint64_t>(indices[i]) >= vertices)
@@ -91,6 +99,7 @@ std::optional<int> level_of(std::uint64_t texels) {
 /// Copies `from`, `count` values a texel, into the channels from `first` on.
 void spread(TorchArchive& archive, const TorchTensor& from, std::size_t count, std::size_t first,
             std::vector<float>& texels) {
+  PassingMemory passing(archive.budget());
   const std::vector<float> values = archive.read_floats(from);
   for (std::size_t i = 0; i < values.size(); ++i) {
     // Negated so that NaN is refused too.
@@ -120,7 +129,7 @@ Scene read_diffsoup(TorchArchive& archive, const ReadOptions& options) {
   expect_at_most(archive, faces * per_face, "texels");
 
   TriangleSoup soup;
-  soup.positions = as_vectors(archive.read_floats(vertices));
+  soup.positions = read_vectors(archive, vertices);
   soup.triangles = read_triangles(archive, "F", soup.positions.size());
   if (soup.triangles.size() != faces)
     archive.fail("\"F\" has " + std::to_string(soup.triangles.size()) + " faces, \"feat_acc\" " +
@@ -128,10 +137,12 @@ Scene read_diffsoup(TorchArchive& archive, const ReadOptions& options) {
 
   LatticeTexture texture;
   texture.mlp = read_color_mlp(archive);
+  archive.take_memory(features, faces, sizeof texture.patches[0]);
   texture.patches.resize(soup.triangles.size());
   for (std::size_t t = 0; t < texture.patches.size(); ++t)
     texture.patches[t] = {static_cast<std::uint32_t>(t * per_face),
                           static_cast<std::uint32_t>(*level)};
+  archive.take_memory(features, faces * per_face, LatticeTexture::channels * sizeof(float));
   std::vector<float> texels(static_cast<std::size_t>(faces * per_face) * LatticeTexture::channels);
   if (options.progress) options.progress(0.1);
   spread(archive, features, LatticeTexture::features, 0, texels);
@@ -170,9 +181,8 @@ HarmonicsOf read_harmonics(TorchArchive& archive, std::uint64_t elements) {
   archive.expect_shape(constant, {elements, 1, 3});
   HarmonicsOf result{static_cast<int>(degree), {}};
   const auto count = static_cast<std::size_t>(harmonics::count(result.degree));
-  const std::vector<float> first = archive.read_floats(constant);
   if (count == 1) {
-    result.coefficients = as_vectors(first);
+    result.coefficients = read_vectors(archive, constant);
     return result;
   }
   const TorchTensor others = archive.tensor("features_rest");
@@ -182,6 +192,9 @@ HarmonicsOf read_harmonics(TorchArchive& archive, std::uint64_t elements) {
     archive.fail("\"features_rest\" has " + std::to_string(stored) +
                  " coefficients, harmonics of degree " + std::to_string(degree) + " need " +
                  std::to_string(count - 1));
+  archive.take_memory(others, elements, count * sizeof result.coefficients[0]);
+  PassingMemory passing(archive.budget());
+  const std::vector<float> first = archive.read_floats(constant);
   const std::vector<float> rest = archive.read_floats(others);
   result.coefficients.resize(static_cast<std::size_t>(elements) * count);
   for (std::size_t e = 0; e < elements; ++e) {
@@ -209,7 +222,7 @@ Scene read_triangle_splatting(TorchArchive& archive, const ReadOptions& options)
   archive.expect_shape(opacity, {count, 1});
 
   SoftTriangles soft;
-  soft.positions = as_vectors(archive.read_floats(points));
+  soft.positions = read_vectors(archive, points);
   soft.sigma = archive.read_floats(sigma);
   soft.opacity = archive.read_floats(opacity);
   for (std::size_t t = 0; t < count; ++t) {
@@ -240,7 +253,7 @@ Scene read_connected_triangles(TorchArchive& archive, const ReadOptions& options
   archive.expect_shape(points, {0, 3});
   expect_at_most(archive, points.shape[0], "vertices");
   TriangleSoup soup;
-  soup.positions = as_vectors(archive.read_floats(points));
+  soup.positions = read_vectors(archive, points);
   soup.triangles = read_triangles(archive, "_triangle_indices", soup.positions.size());
   expect_at_most(archive, soup.triangles.size(), "faces");
   if (options.progress) options.progress(0.3);

@@ -120,14 +120,14 @@ bool is_colmap_model(const std::filesystem::path& folder) {
   return model_file(folder, "cameras").exists && model_file(folder, "images").exists;
 }
 
-ColmapModel read_colmap_poses(const std::filesystem::path& folder) {
+ColmapModel read_colmap_poses(const std::filesystem::path& folder, const MemoryBudget& budget) {
   ColmapModel model;
   const ModelFile cameras = model_file(folder, "cameras");
-  Input camera_input = Input::open(cameras.path);
+  Input camera_input = Input::open(cameras.path, budget);
   model.cameras = cameras.binary ? read_colmap_cameras_binary(camera_input)
                                  : read_colmap_cameras_text(camera_input);
   const ModelFile images = model_file(folder, "images");
-  Input image_input = Input::open(images.path);
+  Input image_input = Input::open(images.path, budget);
   model.images =
       images.binary ? read_colmap_images_binary(image_input) : read_colmap_images_text(image_input);
   for (const ColmapImage& image : model.images)
@@ -139,10 +139,10 @@ ColmapModel read_colmap_poses(const std::filesystem::path& folder) {
   return model;
 }
 
-ColmapModel read_colmap(const std::filesystem::path& folder) {
-  ColmapModel model = read_colmap_poses(folder);
+ColmapModel read_colmap(const std::filesystem::path& folder, const MemoryBudget& budget) {
+  ColmapModel model = read_colmap_poses(folder, budget);
   if (const ModelFile points = model_file(folder, "points3D"); points.exists) {
-    Input input = Input::open(points.path);
+    Input input = Input::open(points.path, budget);
     model.points =
         points.binary ? read_colmap_points_binary(input) : read_colmap_points_text(input);
   }

@@ -48,10 +48,12 @@ bool is_colmap_model(const std::filesystem::path& folder);
 /// with the file and the byte or line: a camera model that is none of SIMPLE_PINHOLE, PINHOLE,
 /// SIMPLE_RADIAL, RADIAL and OPENCV, by its name; a pose that is no rotation; counts that do not
 /// fit the bytes; an image of a camera that is not there.
-ColmapModel read_colmap(const std::filesystem::path& folder);
+ColmapModel read_colmap(const std::filesystem::path& folder,
+                        const MemoryBudget& budget = MemoryBudget());
 
 /// The same without the points, of which there may be millions.
-ColmapModel read_colmap_poses(const std::filesystem::path& folder);
+ColmapModel read_colmap_poses(const std::filesystem::path& folder,
+                              const MemoryBudget& budget = MemoryBudget());
 
 // The files one by one, from untrusted bytes.
 

@@ -76,6 +76,7 @@ ColmapCameras read_colmap_cameras_binary(Input& input) {
       record.parameters = input.read_values<double>(record.model->parameters, "a camera");
       return to_camera(record);
     });
+    input.take_memory(1, colmap_camera_bytes, "the cameras");
     if (!cameras.emplace(number, camera).second)
       input.fail_at(begin, "camera " + std::to_string(number) + " stands here twice");
   }
@@ -98,6 +99,8 @@ std::vector<ColmapImage> read_colmap_images_binary(Input& input) {
     image.name = read_name(input);
     // Where features were found: x, y, and the point they belong to.
     skip(input, 24 * read_count(input, 24, "features"));
+    input.take_memory(1, image.name.capacity(), "the images");
+    input.make_room_in(images, 1, "the images");
     images.push_back(std::move(image));
   }
   expect_end(input, "images");
@@ -107,7 +110,7 @@ std::vector<ColmapImage> read_colmap_images_binary(Input& input) {
 std::vector<DatasetPoint> read_colmap_points_binary(Input& input) {
   std::vector<DatasetPoint> points;
   const std::uint64_t count = read_count(input, 8 + 3 * 8 + 3 + 8 + 8, "points");
-  points.reserve(std::size_t(count));
+  input.make_room_in(points, count, "the points");
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::uint64_t begin = input.position();
     input.read_value<std::uint64_t>("a point");  // its number

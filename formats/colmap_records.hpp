@@ -23,6 +23,9 @@ struct ColmapLensModel {
 /// COLMAP's models, in the order of the numbers that stand for them in binary files.
 std::span<const ColmapLensModel> colmap_lens_models();
 
+/// A camera as a node of ColmapCameras.
+inline constexpr std::size_t colmap_camera_bytes = sizeof(ColmapCameras::value_type) + 64;
+
 struct ColmapCameraRecord {
   const ColmapLensModel* model = nullptr;
   std::uint64_t width = 0, height = 0;

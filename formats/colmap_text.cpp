@@ -80,6 +80,7 @@ ColmapCameras read_colmap_cameras_text(Input& input) {
       return to_camera(record);
     });
     text.expect_line_end("the parameters of the camera model");
+    input.take_memory(1, colmap_camera_bytes, "the cameras");
     if (!cameras.emplace(number, camera).second)
       text.fail("camera " + std::to_string(number) + " stands here twice");
   }
@@ -100,6 +101,8 @@ std::vector<ColmapImage> read_colmap_images_text(Input& input) {
     image.name = text.read_word("an image's name");
     // COLMAP does not quote a name with blanks; two in a row would be lost here.
     while (!text.at_line_end()) image.name += " " + text.read_word("an image's name");
+    input.take_memory(1, image.name.capacity(), "the images");
+    input.make_room_in(images, 1, "the images");
     images.push_back(std::move(image));
     text.next_line();
     pass_features(text, images.back().name);
@@ -116,6 +119,7 @@ std::vector<DatasetPoint> read_colmap_points_text(Input& input) {
     for (int i = 0; i < 3; ++i) position[i] = read_double(text, "a point's position");
     glm::u8vec3 color;
     for (int i = 0; i < 3; ++i) color[i] = glm::u8(text.read_integer("a colour", 0, 255));
+    input.make_room_in(points, 1, "the points");
     points.push_back(convert_here(text, [&] { return to_point(position, color); }));
     // The mean error of its projections and the images that see it.
     if (!text.next_line()) break;

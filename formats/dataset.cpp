@@ -7,7 +7,6 @@
 #include <string>
 
 #include "formats/colmap.hpp"
-#include "formats/image_budget.hpp"
 #include "formats/photograph.hpp"
 #include "formats/transforms_dataset.hpp"
 #include "formats/uri.hpp"
@@ -45,15 +44,17 @@ void take_transforms_up(Dataset& dataset) {
   dataset.notes.push_back("z is taken to be up, as in the scenes of NeRF and instant-ngp.");
 }
 
-Outline one_transforms_file(const fs::path& path, const DatasetOptions& options) {
+Outline one_transforms_file(const fs::path& path, const DatasetOptions& options,
+                            const MemoryBudget& budget) {
   Outline outline;
   outline.file = path.string();
-  split(read_transforms_dataset(path, options.images_folder), options, outline);
+  split(read_transforms_dataset(path, options.images_folder, budget), options, outline);
   take_transforms_up(outline.dataset);
   return outline;
 }
 
-Outline file_a_split(const fs::path& folder, const DatasetOptions& options) {
+Outline file_a_split(const fs::path& folder, const DatasetOptions& options,
+                     const MemoryBudget& budget) {
   Outline outline;
   const auto read = [&](const char* name) {
     outline.file = (folder / name).string();
@@ -63,7 +64,7 @@ Outline file_a_split(const fs::path& folder, const DatasetOptions& options) {
                        "there is no such file, which the other half of the dataset's split goes "
                        "with; without a split name the one file there is instead of the folder, "
                        "and every n-th photograph is kept to test with");
-    Frames frames = read_transforms_dataset(folder / name, options.images_folder);
+    Frames frames = read_transforms_dataset(folder / name, options.images_folder, budget);
     sort_by_name(frames);
     return frames;
   };
@@ -91,10 +92,10 @@ void take_mean_up(const Frames& frames, Dataset& dataset) {
 }
 
 Outline colmap_outline(const fs::path& folder, const fs::path& model_folder,
-                       const DatasetOptions& options) {
+                       const DatasetOptions& options, const MemoryBudget& budget) {
   Outline outline;
   outline.file = model_folder.string();
-  ColmapModel model = read_colmap(model_folder);
+  ColmapModel model = read_colmap(model_folder, budget);
   Frames frames;
   for (const ColmapImage& image : model.images) {
     const ColmapCamera& camera = model.cameras.at(image.camera);
@@ -119,16 +120,17 @@ Outline colmap_outline(const fs::path& folder, const fs::path& model_folder,
   return outline;
 }
 
-Outline make_outline(const fs::path& path, const DatasetOptions& options) {
+Outline make_outline(const fs::path& path, const DatasetOptions& options,
+                     const MemoryBudget& budget) {
   std::error_code ignored;
-  if (fs::is_regular_file(path, ignored)) return one_transforms_file(path, options);
+  if (fs::is_regular_file(path, ignored)) return one_transforms_file(path, options, budget);
   if (!fs::is_directory(path, ignored))
     throw InputError({path.string(), {}, {}}, "no such file or folder");
   for (const char* name : {"transforms_train.json", "transforms_test.json"})
-    if (fs::exists(path / name, ignored)) return file_a_split(path, options);
+    if (fs::exists(path / name, ignored)) return file_a_split(path, options, budget);
   if (fs::exists(path / "transforms.json", ignored))
-    return one_transforms_file(path / "transforms.json", options);
-  if (const auto model = colmap_folder(path)) return colmap_outline(path, *model, options);
+    return one_transforms_file(path / "transforms.json", options, budget);
+  if (const auto model = colmap_folder(path)) return colmap_outline(path, *model, options, budget);
   throw InputError({path.string(), {}, {}},
                    "no dataset that we know: it has neither transforms_train.json nor "
                    "transforms.json, nor COLMAP's cameras in sparse/0, sparse or colmap/sparse/0");
@@ -176,22 +178,18 @@ std::vector<fs::path> find_pictures(const std::string& file,
   return pictures;
 }
 
-[[noreturn]] void fail_too_large(const std::string& file) {
-  throw InputError({file, {}, {}},
-                   "the photographs are too large together, over 4 GiB: read them at a smaller "
-                   "scale");
-}
-
 /// Says so at once where the dataset tells its sizes, and not after a minute of decoding.
 void require_budget(const std::string& file, const std::vector<const DatasetFrame*>& frames,
-                    const DatasetOptions& options) {
+                    const DatasetOptions& options, const MemoryBudget& budget) {
   double pixels = 0;
   for (const DatasetFrame* frame : frames)
     if (frame->size)
       pixels += double(scaled_side(frame->size->x, options.scale / options.images_folder)) *
                 scaled_side(frame->size->y, options.scale / options.images_folder);
   // Cutting off what has no source takes away from this, by less than half.
-  if (pixels > 2.0 * double(ImageBudget::max_pixels)) fail_too_large(file);
+  if (pixels * sizeof(glm::u8vec4) > 2.0 * double(budget.left()))
+    throw InputError({file, {}, {}},
+                     budget.refusal("the photographs") + ", --scale makes them smaller");
 }
 
 void describe_undistortion(int columns, int rows, Dataset& dataset) {
@@ -212,7 +210,8 @@ bool transparent_somewhere(const Image8& image) {
 Dataset read_dataset(const fs::path& path, const DatasetOptions& options) {
   assert(options.scale > 0 && options.scale <= 1);
   assert(options.images_folder >= 1 && options.test_every >= 1);
-  Outline outline = make_outline(path, options);
+  const MemoryBudget budget;
+  Outline outline = make_outline(path, options, budget);
   require_photographs(outline, options);
   if (options.part == DatasetPart::test) outline.train.clear();
   if (options.part == DatasetPart::train) outline.test.clear();
@@ -221,17 +220,15 @@ Dataset read_dataset(const fs::path& path, const DatasetOptions& options) {
   for (const DatasetFrame& frame : outline.train) frames.push_back(&frame);
   for (const DatasetFrame& frame : outline.test) frames.push_back(&frame);
   const std::vector<fs::path> pictures = find_pictures(outline.file, frames, options);
-  require_budget(outline.file, frames, options);
+  require_budget(outline.file, frames, options, budget);
 
   Dataset dataset = std::move(outline.dataset);
-  ImageBudget budget;
   bool distorted = false;
   glm::ivec2 first_size(0);  // of pictures whose size the dataset does not give
   int lost_columns = 0, lost_rows = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (options.progress) options.progress(double(i) / double(frames.size()));
-    ReadPhotograph read = read_photograph(*frames[i], pictures[i], options);
-    if (!budget.take(read.photograph.image)) fail_too_large(outline.file);
+    ReadPhotograph read = read_photograph(*frames[i], pictures[i], options, budget);
     // An angle of view without a size says something only where all pictures of a split are alike.
     if (i == outline.train.size()) first_size = glm::ivec2(0);
     if (!frames[i]->size) {

@@ -71,7 +71,7 @@ struct DatasetOptions {
 /// Throws InputError with the file and the reason: images that are missing (all of them are named,
 /// up to a dozen) or whose size is not the camera's, a camera model that cannot be undone, a pose
 /// that is no rotation to three digits, a split that would leave nothing to train on or to test,
-/// photographs that take more than 4 GiB together.
+/// photographs that take more memory together than reading may (formats/memory_budget.hpp).
 Dataset read_dataset(const std::filesystem::path& path, const DatasetOptions& options = {});
 
 }  // namespace tureen

@@ -11,6 +11,7 @@
 #include "formats/diffsoup_mesh.hpp"
 #include "formats/json_file.hpp"
 #include "formats/png.hpp"
+#include "formats/uri.hpp"
 #include "soup/lattice.hpp"
 
 namespace tureen {
@@ -27,15 +28,16 @@ struct Meta {
   bool ours = false;
 };
 
-Meta read_meta(const fs::path& path, std::vector<std::string>& notes) {
+Meta read_meta(const fs::path& folder, const MemoryBudget& budget,
+               std::vector<std::string>& notes) {
   Meta meta;
   // A link that leads nowhere or to itself is there, and Input::open says what is wrong with it.
   std::error_code ignored;
-  if (fs::symlink_status(path, ignored).type() == fs::file_type::not_found) {
+  if (fs::symlink_status(folder / "meta.json", ignored).type() == fs::file_type::not_found) {
     notes.emplace_back("meta.json is missing: level 5, up -y and a black background are assumed");
     return meta;
   }
-  Input input = Input::open(path);
+  Input input = open_in_folder(folder, "meta.json", budget);
   const nlohmann::json json = read_json(input);
   const std::string& file = input.name();
   const auto fail = [&](const char* reason) { throw InputError({file, {}, {}}, reason); };
@@ -78,8 +80,9 @@ void expect_count(const fs::path& mesh, std::optional<std::uint64_t> said, std::
 }
 
 /// One of the two images, with as many texels as `texels` and a remainder below one row.
-Image8 read_lut(const fs::path& path, std::uint64_t texels) {
-  Input input = Input::open(path);
+Image8 read_lut(const fs::path& folder, const char* name, std::uint64_t texels,
+                const MemoryBudget& budget) {
+  Input input = open_in_folder(folder, name, budget);
   const auto bytes = input.read_rest();
   // Bit depth and colour type of IHDR, always the first chunk. Anything else than 8 and 6 would be
   // decoded into RGBA with values that nobody stored.
@@ -101,15 +104,15 @@ Image8 read_lut(const fs::path& path, std::uint64_t texels) {
                           " pixels cannot be " + std::to_string(texels) + " texels in rows of " +
                           std::to_string(width) + ": " + std::to_string(expected) +
                           " rows expected");
-  Image8 image = decode_image(bytes, input.name());
+  Image8 image = decode_image(bytes, input.name(), budget);
   // A decoder may look past other chunks for the header that it believes (Apple's CgBI is one).
   if (std::uint64_t(image.width) != width || std::uint64_t(image.height) != height)
     input.fail_at(8, "the first chunk of the PNG is not its header");
   return image;
 }
 
-ColorMlp read_mlp(const fs::path& path) {
-  Input input = Input::open(path);
+ColorMlp read_mlp(const fs::path& folder, const MemoryBudget& budget) {
+  Input input = open_in_folder(folder, "mlp_weights.json", budget);
   const nlohmann::json json = read_json(input);
   const auto layer = [&](const char* weights, const char* biases, int inputs, int outputs) {
     const auto count = static_cast<std::size_t>(inputs) * static_cast<std::size_t>(outputs);
@@ -152,9 +155,10 @@ bool is_diffsoup_export(const fs::path& folder) {
 
 Scene read_diffsoup_export(const fs::path& folder, const ReadOptions& options) {
   Scene scene;
-  const Meta meta = read_meta(folder / "meta.json", scene.info.notes);
+  const MemoryBudget budget;
+  const Meta meta = read_meta(folder, budget, scene.info.notes);
   const fs::path mesh_path = folder / "mesh.ply";
-  Input mesh_input = Input::open(mesh_path);
+  Input mesh_input = open_in_folder(folder, "mesh.ply", budget);
   DiffSoupMesh mesh = read_diffsoup_mesh(mesh_input);
   const std::size_t faces = mesh.triangles.size();
   expect_count(mesh_path, meta.faces, faces, "faces");
@@ -167,12 +171,14 @@ Scene read_diffsoup_export(const fs::path& folder, const ReadOptions& options) {
                      std::to_string(count) + " texels are beyond what we read");
 
   LatticeTexture texture;
-  texture.mlp = read_mlp(folder / "mlp_weights.json");
+  texture.mlp = read_mlp(folder, budget);
   std::vector<std::uint8_t> texels;
-  const std::array<fs::path, 2> luts{folder / "lut0.png", folder / "lut1.png"};
+  constexpr std::array<const char*, 2> luts{"lut0.png", "lut1.png"};
   for (std::size_t half = 0; half < luts.size(); ++half) {
     if (options.progress) options.progress(0.1 + 0.45 * double(half));
-    const Image8 image = read_lut(luts[half], count);
+    if (half == 0) mesh_input.take_memory(count, LatticeTexture::channels, "the texels");
+    PassingMemory passing(budget);
+    const Image8 image = read_lut(folder, luts[half], count, budget);
     // Only now is it certain that the files hold what mesh.ply promised.
     texels.resize(static_cast<std::size_t>(count) * LatticeTexture::channels);
     for (std::size_t i = 0; i < count; ++i)
@@ -180,6 +186,7 @@ Scene read_diffsoup_export(const fs::path& folder, const ReadOptions& options) {
   }
   if (!meta.ours) restore_truncated_half(texels, scene.info.notes);
   texture.texels = std::move(texels);
+  mesh_input.take_memory(faces, sizeof texture.patches[0], "the texels");
   texture.patches.resize(faces);
   for (std::size_t t = 0; t < faces; ++t)
     texture.patches[t] = {static_cast<std::uint32_t>(t * per_face),

@@ -194,7 +194,10 @@ DiffSoupMesh read_diffsoup_mesh(Input& input) {
   DiffSoupMesh mesh;
   input.seek(header.body);
   {
+    PassingMemory passing(input.budget());
     const auto bytes = read_records(input, header.vertices, header.vertex_size, "vertices");
+    input.take_memory(header.vertices, sizeof mesh.positions[0], "vertices");
+    passing.keep(header.vertices * sizeof mesh.positions[0]);
     mesh.positions.resize(static_cast<std::size_t>(header.vertices));
     for (std::size_t v = 0; v < mesh.positions.size(); ++v)
       for (int k = 0; k < 3; ++k)
@@ -202,7 +205,10 @@ DiffSoupMesh read_diffsoup_mesh(Input& input) {
             read_float(&bytes[v * header.vertex_size], header.position[std::size_t(k)]);
   }
   const std::uint64_t start = input.position();
+  PassingMemory passing(input.budget());
   const auto bytes = read_records(input, header.faces, header.face_size, "faces");
+  input.take_memory(header.faces, sizeof mesh.triangles[0], "faces");
+  passing.keep(header.faces * sizeof mesh.triangles[0]);
   mesh.triangles.resize(static_cast<std::size_t>(header.faces));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const std::byte* record = &bytes[t * header.face_size];

@@ -75,6 +75,11 @@ class GlbArrays {
 
   void tell_progress() const;
 
+  /// Counts what is about to be allocated (formats/input.hpp).
+  void take_memory(std::uint64_t elements, std::size_t each, const char* what) {
+    input_.take_memory(elements, each, what);
+  }
+
   static std::size_t index(const JsonView& view) {
     return static_cast<std::size_t>(view.natural(max_count));
   }

@@ -62,7 +62,8 @@ Chunk read_chunk_header(Input& input, int index, std::uint64_t length) {
 void take(Input& input, const Chunk& chunk, int index, GlbContainer& glb) {
   if (chunk.type == json_chunk) {
     const auto text = input.read_values<char>(chunk.size, "the JSON chunk");
-    glb.json = parse_json(std::string_view(text.data(), text.size()), input.name(), chunk.start);
+    glb.json = parse_json(std::string_view(text.data(), text.size()), input.name(), chunk.start,
+                          input.budget());
   } else if (chunk.type == bin_chunk) {
     if (index != 1)
       input.fail_at(chunk.header, glb.binary_offset != 0 ? "a second binary chunk in the GLB file"

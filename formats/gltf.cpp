@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
+#include <set>
 #include <string_view>
 
 #include "formats/gltf_soup.hpp"
@@ -57,10 +58,9 @@ class Importer {
       builder_.notes.push_back(
           "written by trimesh, which keeps no up axis: z is assumed; --up changes it");
     }
+    std::set<std::string> known;
     for (std::string& note : builder_.notes)
-      if (std::find(scene.info.notes.begin(), scene.info.notes.end(), note) ==
-          scene.info.notes.end())
-        scene.info.notes.push_back(std::move(note));
+      if (known.insert(note).second) scene.info.notes.push_back(std::move(note));
     if (options_.progress) options_.progress(1.0);
     return scene;
   }
@@ -218,7 +218,7 @@ GlbContainer read_json_file(Input& input) {
         0, "neither a GLB, which begins with \"glTF\", nor glTF, which is JSON with an \"asset\"");
   GlbContainer glb;
   glb.json = parse_json(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()),
-                        input.name());
+                        input.name(), 0, input.budget());
   return glb;
 }
 
@@ -234,13 +234,18 @@ bool is_gltf(std::span<const std::byte> head) {
 
 Scene read_gltf_or_glb(const std::filesystem::path& path, const ReadOptions& options) {
   Input input = Input::open(path);
+  return read_gltf_or_glb(input, path.parent_path(), options);
+}
+
+Scene read_gltf_or_glb(Input& input, const std::filesystem::path& folder,
+                       const ReadOptions& options) {
   const bool binary = is_glb(input);
   GlbContainer glb = binary ? read_glb_container(input) : read_json_file(input);
   if (binary && is_tureen_glb(glb)) return read_tureen_glb(input, glb, options);
   const bool ours = is_tureen_glb(glb);
-  GltfDocument document(input, std::move(glb), path.parent_path());
+  GltfDocument document(input, std::move(glb), folder);
   Scene scene = Importer(document, options).scene();
-  scene.info.name = path.stem().string();
+  scene.info.name = std::filesystem::path(input.name()).stem().string();
   if (ours)
     scene.info.notes.push_back(std::string(tureen_extension) +
                                " is read from .glb alone: mean colours are shown");

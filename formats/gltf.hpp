@@ -18,6 +18,7 @@
 #include <filesystem>
 #include <span>
 
+#include "formats/input.hpp"
 #include "formats/scene_file.hpp"
 #include "soup/scene.hpp"
 
@@ -31,5 +32,9 @@ bool is_gltf(std::span<const std::byte> head);
 /// no material has a texture, UvTextures otherwise. Throws InputError whose reason begins with the
 /// place in the JSON, as in "accessors[3]: ..".
 Scene read_gltf_or_glb(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// The same of bytes from anywhere: the files that they name lie in `folder`.
+Scene read_gltf_or_glb(Input& input, const std::filesystem::path& folder,
+                       const ReadOptions& options = {});
 
 }  // namespace tureen

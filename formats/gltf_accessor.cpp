@@ -171,6 +171,7 @@ FloatElements read_float_elements(GltfDocument& document, int index,
     document.fail(checked.where, "has elements of the wrong type for this use");
   const auto elements = dense_elements(document, checked);
   const auto per_element = std::size_t(checked.components);
+  document.take_memory(wanted.size() * per_element, sizeof(float), checked.where);
   FloatElements result{checked.components, std::vector<float>(wanted.size() * per_element)};
   const auto store = [&](std::size_t place, const std::byte* bytes) {
     for (std::size_t c = 0; c < per_element; ++c)
@@ -198,6 +199,7 @@ std::vector<std::uint32_t> read_index_accessor(GltfDocument& document, int index
   if (checked.components != 1 || !is_index_type(type))
     document.fail(checked.where, "indices must be unsigned scalars");
   const auto elements = dense_elements(document, checked);
+  document.take_memory(checked.accessor->count, sizeof(std::uint32_t), checked.where);
   std::vector<std::uint32_t> result(checked.accessor->count);
   if (elements.first)
     for (std::size_t i = 0; i < result.size(); ++i)

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <utility>
 
+#include "formats/json_limits.hpp"
 #include "formats/png.hpp"
 #include "formats/uri.hpp"
 
@@ -41,7 +43,35 @@ GltfDocument::GltfDocument(Input& input, GlbContainer glb, std::filesystem::path
         required->at(i).fail("the file requires the extension " + name + ", which is not read");
     }
   if (const auto list = root.find("buffers")) buffers_.resize(list->size());
+  take_model_memory();
   parse();
+}
+
+/// What the copy of the JSON and tinygltf's model of it will take. Its structures are large: {} is
+/// a material of two kilobytes.
+void GltfDocument::take_model_memory() const {
+  const std::string text = glb_.json.dump();
+  const std::uint64_t values = count_json_values(text, input_.name());
+  // The copy, its text, tinygltf's own copy, and what it makes of extensions and extras.
+  take_memory(values, 2 * json_value_bytes + sizeof(tinygltf::Value), "");
+  take_memory(2 * text.size(), 1, "");
+  constexpr std::pair<const char*, std::size_t> lists[] = {
+      {"accessors", sizeof(tinygltf::Accessor)}, {"bufferViews", sizeof(tinygltf::BufferView)},
+      {"cameras", sizeof(tinygltf::Camera)},     {"materials", sizeof(tinygltf::Material)},
+      {"meshes", sizeof(tinygltf::Mesh)},        {"nodes", sizeof(tinygltf::Node)},
+      {"samplers", sizeof(tinygltf::Sampler)},   {"scenes", sizeof(tinygltf::Scene)},
+      {"textures", sizeof(tinygltf::Texture)}};
+  const JsonView root(glb_.json, input_.name());
+  const auto take = [&](const JsonView& list, std::size_t each) {
+    // Vectors double: what they grew out of stands beside them for a moment.
+    take_memory(list.size(), 3 * each, list.path());
+  };
+  for (const auto& [name, each] : lists)
+    if (const auto list = root.find(name)) take(*list, each);
+  if (const auto meshes = root.find("meshes"))
+    for (std::size_t i = 0; i < meshes->size(); ++i)
+      if (const auto primitives = meshes->at(i).find("primitives"))
+        take(*primitives, sizeof(tinygltf::Primitive));
 }
 
 void GltfDocument::parse() {
@@ -74,6 +104,12 @@ void GltfDocument::fail(const std::string& where, const std::string& reason) con
   throw InputError({input_.name(), {}, {}}, where.empty() ? reason : where + ": " + reason);
 }
 
+void GltfDocument::take_memory(std::uint64_t elements, std::size_t each,
+                               const std::string& where) const {
+  MemoryBudget budget = input_.budget();
+  if (!budget.take(elements, each)) fail(where, budget.refusal(where.empty() ? "the scene" : "it"));
+}
+
 std::uint64_t GltfDocument::vertex_budget() const {
   return std::max(std::uint64_t(1) << 24, loaded_bytes_);
 }
@@ -81,6 +117,7 @@ std::uint64_t GltfDocument::vertex_budget() const {
 std::vector<std::byte> GltfDocument::load_uri(const JsonView& uri,
                                               std::optional<std::uint64_t> size) {
   try {
+    take_memory(uri.text().size() / 4, 3, uri.path());
     if (auto bytes = decode_data_uri(uri.text())) {
       if (size && bytes->size() < *size)
         uri.fail("holds " + std::to_string(bytes->size()) + " bytes, expected " +
@@ -88,7 +125,7 @@ std::vector<std::byte> GltfDocument::load_uri(const JsonView& uri,
       if (size) bytes->resize(static_cast<std::size_t>(*size));
       return *std::move(bytes);
     }
-    Input file = Input::open(resolve_in_folder(folder_, uri.text()));
+    Input file = Input::open(resolve_in_folder(folder_, uri.text()), input_.budget());
     if (!size) return file.read_rest();
     return file.read_values<std::byte>(*size, "the buffer");
   } catch (const UriError& error) {
@@ -162,16 +199,17 @@ Image8 GltfDocument::image(int index) {
   Image8 result;
   try {
     if (const auto uri = json.find("uri")) {
-      result = decode_image(load_uri(*uri, std::nullopt), input_.name());
+      PassingMemory passing(input_.budget());
+      result = decode_image(load_uri(*uri, std::nullopt), input_.name(), input_.budget());
+      passing.keep(result.pixels.size() * sizeof result.pixels[0]);
     } else {
       const auto view = int(json["bufferView"].natural(std::numeric_limits<int>::max()));
-      result = decode_image(view_bytes(view, json.path()), input_.name());
+      result = decode_image(view_bytes(view, json.path()), input_.name(), input_.budget());
     }
   } catch (const InputError& error) {
     if (error.reason().rfind("images[", 0) == 0 || error.reason().rfind("buffer", 0) == 0) throw;
     json.fail(error.reason());
   }
-  if (!images_.take(result)) json.fail(image_budget_reason);
   return result;
 }
 

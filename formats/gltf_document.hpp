@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "formats/glb_container.hpp"
-#include "formats/image_budget.hpp"
 #include "formats/input.hpp"
 #include "formats/json_view.hpp"
 #include "formats/tinygltf.hpp"
@@ -41,6 +40,17 @@ class GltfDocument {
   /// Decodes images[index].
   Image8 image(int index);
 
+  /// Counts what is about to be allocated; fails at `where` where that is too much.
+  void take_memory(std::uint64_t elements, std::size_t each, const std::string& where) const;
+  /// make_room (formats/memory_budget.hpp), or failure at `where`.
+  template <class T>
+  void make_room_in(std::vector<T>& values, std::size_t more, const std::string& where) {
+    MemoryBudget budget = input_.budget();
+    if (!make_room(values, more, budget))
+      fail(where, budget.refusal(where.empty() ? "the scene" : "it"));
+  }
+  MemoryBudget budget() const { return input_.budget(); }
+
   /// How many vertices (and elements without bytes of their own) this file may make: 2^24, or as
   /// many as bytes were loaded. A vertex takes three bytes at the least, so only instances and
   /// accessors without a buffer view can reach it.
@@ -53,6 +63,7 @@ class GltfDocument {
   std::vector<std::byte> load_buffer(std::size_t index, std::uint64_t size);
   std::vector<std::byte> load_uri(const JsonView& uri, std::optional<std::uint64_t> size);
   std::span<const std::byte> view_bytes(int view, const std::string& where);
+  void take_model_memory() const;
   void parse();
 
   Input& input_;
@@ -61,7 +72,6 @@ class GltfDocument {
   tinygltf::Model model_;
   std::vector<std::optional<std::vector<std::byte>>> buffers_;
   std::uint64_t loaded_bytes_ = 0;
-  ImageBudget images_;
 };
 
 }  // namespace tureen

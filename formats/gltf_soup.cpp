@@ -22,6 +22,7 @@ std::vector<glm::uvec3> assembled(const std::vector<std::uint32_t>& corners, int
       triangles.emplace_back(corners[i], corners[i + 1], corners[i + 2]);
     return triangles;
   }
+  triangles.reserve(corners.size());
   for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
     if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
       triangles.emplace_back(corners[0], corners[i + 1], corners[i + 2]);
@@ -29,14 +30,6 @@ std::vector<glm::uvec3> assembled(const std::vector<std::uint32_t>& corners, int
       triangles.emplace_back(corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]);
   }
   return triangles;
-}
-
-/// Room for `more` elements: exactly that many for a first, large primitive, and in strides that
-/// double where many small ones follow each other.
-template <class T>
-void make_room(std::vector<T>& values, std::size_t more) {
-  const std::size_t total = values.size() + more;
-  if (total > values.capacity()) values.reserve(std::max(total, 2 * values.size()));
 }
 
 }  // namespace
@@ -56,16 +49,21 @@ void GltfSoupBuilder::add_mesh(int index, const glm::dmat4& world_from_mesh) {
 std::vector<glm::uvec3> GltfSoupBuilder::triangles_of(const tinygltf::Primitive& primitive,
                                                       const std::string& where,
                                                       std::size_t vertices) {
+  PassingMemory passing(document_.budget());
   std::vector<std::uint32_t> corners;
   if (primitive.indices >= 0) {
     corners = read_index_accessor(document_, primitive.indices, vertices);
   } else {
+    document_.take_memory(vertices, sizeof corners[0], where);
     corners.resize(vertices);
     for (std::size_t i = 0; i < vertices; ++i) corners[i] = std::uint32_t(i);
   }
   if (primitive.mode == TINYGLTF_MODE_TRIANGLES && corners.size() % 3 != 0)
     notes.push_back(where + ": " + std::to_string(corners.size()) +
                     " corners are no whole number of triangles; the rest is dropped");
+  // Of a strip or a fan each corner but two makes a triangle.
+  const bool list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
+  document_.take_memory(list ? corners.size() / 3 : corners.size(), sizeof(glm::uvec3), where);
   return assembled(corners, primitive.mode);
 }
 
@@ -91,7 +89,15 @@ void GltfSoupBuilder::add_primitive(const tinygltf::Primitive& primitive, const 
   // Only the vertices that this primitive uses, in order: exporters let many primitives draw on
   // one large accessor.
   std::vector<std::uint32_t> used;
-  if (renamed_.size() < vertices) renamed_.resize(vertices, unused);
+  // What stands beside the soup while this primitive is added.
+  const std::uint64_t passing =
+      std::uint64_t(triangles.size()) * sizeof triangles[0] +
+      2 * std::min<std::uint64_t>(vertices, 3 * std::uint64_t(triangles.size())) * sizeof used[0];
+  document_.take_memory(passing, 1, where);
+  if (renamed_.size() < vertices) {
+    document_.make_room_in(renamed_, vertices - renamed_.size(), where);
+    renamed_.resize(vertices, unused);
+  }
   for (const glm::uvec3& triangle : triangles)
     for (int k = 0; k < 3; ++k)
       if (renamed_[triangle[k]] == unused) {
@@ -110,8 +116,8 @@ void GltfSoupBuilder::add_primitive(const tinygltf::Primitive& primitive, const 
   parts_.push_back(part);
   for (std::size_t i = 0; i < used.size(); ++i)
     renamed_[used[i]] = std::uint32_t(part.first_vertex + i);
-  add_positions(position->second, world_from_mesh, used);
-  make_room(soup_.triangles, triangles.size());
+  add_positions(position->second, where, world_from_mesh, used);
+  document_.make_room_in(soup_.triangles, triangles.size(), where);
   for (const glm::uvec3& t : triangles)
     soup_.triangles.emplace_back(renamed_[t.x], renamed_[t.y], renamed_[t.z]);
   for (const std::uint32_t v : used) renamed_[v] = unused;
@@ -123,12 +129,15 @@ void GltfSoupBuilder::add_primitive(const tinygltf::Primitive& primitive, const 
     add_colors(color->second, where, used);
   }
   add_uv(primitive, materials_[part.material], where, used);
+  document_.budget().give_back(passing);
 }
 
-void GltfSoupBuilder::add_positions(int accessor, const glm::dmat4& world_from_mesh,
+void GltfSoupBuilder::add_positions(int accessor, const std::string& where,
+                                    const glm::dmat4& world_from_mesh,
                                     const std::vector<std::uint32_t>& used) {
+  document_.make_room_in(soup_.positions, used.size(), where);
+  PassingMemory passing(document_.budget());
   const FloatElements positions = read_float_elements(document_, accessor, {3}, used);
-  make_room(soup_.positions, used.size());
   for (std::size_t i = 0; i < used.size(); ++i) {
     const float* p = &positions.values[3 * i];
     soup_.positions.emplace_back(world_from_mesh * glm::dvec4(p[0], p[1], p[2], 1.0));
@@ -137,13 +146,14 @@ void GltfSoupBuilder::add_positions(int accessor, const glm::dmat4& world_from_m
 
 void GltfSoupBuilder::add_colors(int accessor, const std::string& where,
                                  const std::vector<std::uint32_t>& used) {
+  const std::size_t first = soup_.positions.size() - used.size();
+  document_.make_room_in(vertex_colors_, first + used.size() - vertex_colors_.size(), where);
+  PassingMemory passing(document_.budget());
   const FloatElements colors = read_float_elements(document_, accessor, {3, 4}, used);
   if (document_.model().accessors[std::size_t(accessor)].componentType !=
           TINYGLTF_COMPONENT_TYPE_FLOAT &&
       !document_.model().accessors[std::size_t(accessor)].normalized)
     document_.fail(where + ".attributes.COLOR_0", "holds integers that are not normalised");
-  const std::size_t first = soup_.positions.size() - used.size();
-  make_room(vertex_colors_, first + used.size() - vertex_colors_.size());
   vertex_colors_.resize(first, glm::vec4(1.0f));
   for (std::size_t i = 0; i < used.size(); ++i) {
     glm::vec4 rgba(1.0f);
@@ -165,9 +175,10 @@ void GltfSoupBuilder::add_uv(const tinygltf::Primitive& primitive, const GltfMat
     document_.fail(where, "its material wants " + name + ", which it lacks");
   if (used.back() >= accessor_count(document_, attribute->second))
     document_.fail(where + ".attributes." + name, "has not as many elements as POSITION");
-  const FloatElements uv = read_float_elements(document_, attribute->second, {2}, used);
   const std::size_t first = soup_.positions.size() - used.size();
-  make_room(uv_, first + used.size() - uv_.size());
+  document_.make_room_in(uv_, first + used.size() - uv_.size(), where);
+  PassingMemory passing(document_.budget());
+  const FloatElements uv = read_float_elements(document_, attribute->second, {2}, used);
   uv_.resize(first, glm::vec2(0.0f));
   for (std::size_t i = 0; i < used.size(); ++i)
     uv_.emplace_back(material.uv_transform *
@@ -193,6 +204,7 @@ glm::vec4 GltfSoupBuilder::display_color(const glm::vec4& stored, const glm::dve
 
 VertexColors GltfSoupBuilder::as_vertex_colors() const {
   VertexColors colors;
+  document_.take_memory(soup_.positions.size(), sizeof colors.rgba[0], "");
   colors.rgba.reserve(soup_.positions.size());
   for (const Part& part : parts_) {
     const GltfMaterial& material = materials_[part.material];
@@ -212,6 +224,10 @@ VertexColors GltfSoupBuilder::as_vertex_colors() const {
 
 UvTextures GltfSoupBuilder::as_uv_textures() {
   UvTextures textures;
+  document_.make_room_in(uv_, soup_.positions.size() - uv_.size(), "");
+  document_.take_memory(soup_.triangles.size(), sizeof(std::uint32_t), "");
+  document_.take_memory(vertex_colors_.size(), sizeof vertex_colors_[0], "");
+  textures.vertex_rgba.reserve(vertex_colors_.size());
   uv_.resize(soup_.positions.size(), glm::vec2(0.0f));
   textures.uv = std::move(uv_);
   textures.material_of_face.reserve(soup_.triangles.size());
@@ -247,7 +263,10 @@ UvTextures GltfSoupBuilder::as_uv_textures() {
 }
 
 TriangleSoup GltfSoupBuilder::finish() {
-  if (has_vertex_colors()) vertex_colors_.resize(soup_.positions.size(), glm::vec4(1.0f));
+  if (has_vertex_colors()) {
+    document_.make_room_in(vertex_colors_, soup_.positions.size() - vertex_colors_.size(), "");
+    vertex_colors_.resize(soup_.positions.size(), glm::vec4(1.0f));
+  }
   const bool textured = std::any_of(materials_.begin(), materials_.end(),
                                     [](const GltfMaterial& m) { return m.image >= 0; });
   if (textured)

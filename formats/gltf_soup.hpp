@@ -40,7 +40,7 @@ class GltfSoupBuilder {
                      const glm::dmat4& world_from_mesh);
   std::vector<glm::uvec3> triangles_of(const tinygltf::Primitive& primitive,
                                        const std::string& where, std::size_t vertices);
-  void add_positions(int accessor, const glm::dmat4& world_from_mesh,
+  void add_positions(int accessor, const std::string& where, const glm::dmat4& world_from_mesh,
                      const std::vector<std::uint32_t>& used);
   void add_colors(int accessor, const std::string& where, const std::vector<std::uint32_t>& used);
   void add_uv(const tinygltf::Primitive& primitive, const GltfMaterial& material,

@@ -14,9 +14,8 @@ std::string plural(std::uint64_t count) {
 
 }  // namespace
 
-Input Input::open(const std::filesystem::path& path) {
-  Input input;
-  input.name_ = path.string();
+Input Input::open(const std::filesystem::path& path, MemoryBudget budget) {
+  Input input(path.string(), std::move(budget));
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found)
@@ -34,9 +33,8 @@ Input Input::open(const std::filesystem::path& path) {
   return input;
 }
 
-Input Input::memory(std::string name, std::span<const std::byte> bytes) {
-  Input input;
-  input.name_ = std::move(name);
+Input Input::memory(std::string name, std::span<const std::byte> bytes, MemoryBudget budget) {
+  Input input(std::move(name), std::move(budget));
   input.bytes_ = bytes;
   input.size_ = bytes.size();
   return input;
@@ -74,6 +72,7 @@ void Input::read(std::span<std::byte> buffer, const char* what) {
 }
 
 std::vector<std::byte> Input::read_rest() {
+  take_memory(remaining(), 1, "the file");
   std::vector<std::byte> bytes(static_cast<std::size_t>(remaining()));
   bytes.resize(read_some(bytes));
   return bytes;

@@ -11,21 +11,36 @@
 #include <type_traits>
 #include <vector>
 
+#include "formats/memory_budget.hpp"
 #include "soup/error.hpp"
 
 namespace tureen {
 
 class Input {
  public:
-  /// Throws InputError when the file cannot be opened or is not a regular file.
-  static Input open(const std::filesystem::path& path);
+  /// Throws InputError when the file cannot be opened or is not a regular file. A read of several
+  /// files hands the budget of the first to the others.
+  static Input open(const std::filesystem::path& path, MemoryBudget budget = MemoryBudget());
   /// The bytes must outlive the Input. `name` stands for the file in error messages.
-  static Input memory(std::string name, std::span<const std::byte> bytes);
+  static Input memory(std::string name, std::span<const std::byte> bytes,
+                      MemoryBudget budget = MemoryBudget());
 
   const std::string& name() const { return name_; }
   std::uint64_t size() const { return size_; }
   std::uint64_t position() const { return position_; }
   std::uint64_t remaining() const { return size_ - position_; }
+
+  const MemoryBudget& budget() const { return budget_; }
+  /// Counts what is about to be allocated: so many elements of `each` bytes. Throws InputError
+  /// where that is more than the budget has left.
+  void take_memory(std::uint64_t elements, std::size_t each, const char* what) {
+    if (!budget_.take(elements, each)) fail(budget_.refusal(what));
+  }
+  /// make_room (formats/memory_budget.hpp), or an InputError.
+  template <class T>
+  void make_room_in(std::vector<T>& values, std::uint64_t more, const char* what) {
+    if (!make_room(values, more, budget_)) fail(budget_.refusal(what));
+  }
 
   /// Throws InputError when `position` lies past the end.
   void seek(std::uint64_t position);
@@ -44,11 +59,13 @@ class Input {
     return value;
   }
 
-  /// `count` values; the count is checked against the bytes that remain before any allocation.
+  /// `count` values; the count is checked against the bytes that remain, and against the budget,
+  /// before any allocation.
   template <class T>
   std::vector<T> read_values(std::uint64_t count, const char* what) {
     static_assert(std::is_trivially_copyable_v<T>);
     if (count > remaining() / sizeof(T)) fail_truncated(count, sizeof(T), what);
+    take_memory(count, sizeof(T), what);
     std::vector<T> values(static_cast<std::size_t>(count));
     read(std::as_writable_bytes(std::span(values)), what);
     return values;
@@ -65,9 +82,12 @@ class Input {
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
+  Input(std::string name, MemoryBudget budget)
+      : name_(std::move(name)), budget_(std::move(budget)) {}
   [[noreturn]] void fail_truncated(std::uint64_t count, std::size_t each, const char* what) const;
 
   std::string name_;
+  MemoryBudget budget_;
   std::unique_ptr<std::FILE, Close> file_;  // empty for memory
   std::span<const std::byte> bytes_;
   std::uint64_t size_ = 0;

@@ -5,6 +5,8 @@
 #include <set>
 #include <string_view>
 
+#include "formats/json_limits.hpp"
+
 namespace tureen {
 
 namespace {
@@ -46,6 +48,7 @@ nlohmann::json read_json(Input& input, RepeatedKeys repeated) {
                std::to_string(max_json_bytes));
   const auto bytes = input.read_rest();
   const auto* text = reinterpret_cast<const char*>(bytes.data());
+  take_json_memory({text, bytes.size()}, input.name(), 0, input.budget());
   try {
     if (repeated == RepeatedKeys::refused)
       return nlohmann::json::parse(text, text + bytes.size(), KeyWatch(input));

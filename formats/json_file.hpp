@@ -18,7 +18,8 @@ enum class RepeatedKeys {
   refused,      // for what people write by hand
 };
 
-/// Parses the whole input. Throws an InputError with the byte where the text is no JSON.
+/// Parses the whole input. Throws an InputError with the byte where the text is no JSON, or does
+/// not keep to the limits of formats/json_limits.hpp.
 nlohmann::json read_json(Input& input, RepeatedKeys repeated = RepeatedKeys::last_counts);
 
 /// A finite float; throws an InputError that names `what` otherwise.

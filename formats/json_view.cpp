@@ -2,19 +2,17 @@
 
 #include <cmath>
 
+#include "formats/json_limits.hpp"
+
 namespace tureen {
 
 using nlohmann::json;
 
-json parse_json(std::string_view text, const std::string& file, std::uint64_t first_byte) {
-  const auto guard_depth = [&](int depth, json::parse_event_t, json&) {
-    if (depth > max_json_depth)
-      throw InputError({file, {}, {}},
-                       "JSON nested deeper than " + std::to_string(max_json_depth) + " levels");
-    return true;
-  };
+json parse_json(std::string_view text, const std::string& file, std::uint64_t first_byte,
+                MemoryBudget budget) {
+  take_json_memory(text, file, first_byte, std::move(budget));
   try {
-    return json::parse(text.begin(), text.end(), guard_depth);
+    return json::parse(text.begin(), text.end());
   } catch (const json::parse_error& error) {
     // Its message repeats what we say ourselves; what helps follows "syntax error ".
     std::string detail = error.what();

@@ -11,17 +11,15 @@
 #include <string>
 #include <string_view>
 
+#include "formats/memory_budget.hpp"
 #include "soup/error.hpp"
 
 namespace tureen {
 
-/// Deeper nesting is refused: whoever walks the value recursively must not run out of stack.
-inline constexpr int max_json_depth = 64;
-
 /// Throws InputError with the byte at which `text`, which begins at `first_byte` of `file`, stops
-/// being JSON.
+/// being JSON or keeping to the limits of formats/json_limits.hpp.
 nlohmann::json parse_json(std::string_view text, const std::string& file,
-                          std::uint64_t first_byte = 0);
+                          std::uint64_t first_byte = 0, MemoryBudget budget = MemoryBudget());
 
 /// A place within a parsed document. The document and the file's name must outlive it.
 class JsonView {

@@ -10,10 +10,10 @@
 #include <string_view>
 #include <utility>
 
-#include "formats/image_budget.hpp"
 #include "formats/json_file.hpp"
 #include "formats/obj.hpp"
 #include "formats/png.hpp"
+#include "formats/uri.hpp"
 
 namespace tureen {
 
@@ -72,8 +72,8 @@ struct Network {
   int shapes = 0;
 };
 
-Network read_network(const fs::path& path) {
-  Input input = Input::open(path);
+Network read_network(const fs::path& folder, const MemoryBudget& budget) {
+  Input input = open_in_folder(folder, "mlp.json", budget);
   const nlohmann::json json = read_json(input);
   const std::string& file = input.name();
   Network network;
@@ -128,10 +128,16 @@ std::string shape_list(const std::vector<int>& shapes) {
 }
 
 /// Appends one .obj, whose faces all have the material `material`.
-void append(TriangleSoup& soup, UvTextures& textures, const fs::path& path,
-            std::uint32_t material) {
-  Input input = Input::open(path);
+void append(TriangleSoup& soup, UvTextures& textures, const fs::path& path, std::uint32_t material,
+            MemoryBudget budget) {
+  Input input = open_in_folder(path.parent_path(), path.filename().string(), budget);
+  const std::uint64_t before = budget.taken();
   const ObjMesh mesh = read_obj(input);
+  const std::uint64_t passing = budget.taken() - before;
+  input.make_room_in(soup.positions, mesh.positions.size(), "the vertices");
+  input.make_room_in(textures.uv, mesh.uv.size(), "the vertices");
+  input.make_room_in(soup.triangles, mesh.triangles.size(), "the faces");
+  input.make_room_in(textures.material_of_face, mesh.triangles.size(), "the faces");
   const std::size_t first = soup.positions.size();
   if (mesh.positions.size() > std::numeric_limits<std::uint32_t>::max() - first)
     input.fail_at(0, "more vertices than 32 bits can count");
@@ -143,21 +149,21 @@ void append(TriangleSoup& soup, UvTextures& textures, const fs::path& path,
   for (const glm::uvec3& triangle : mesh.triangles)
     soup.triangles.push_back(triangle + glm::uvec3(static_cast<std::uint32_t>(first)));
   textures.material_of_face.resize(soup.triangles.size(), material);
+  budget.give_back(passing);
 }
 
 /// Two images of equal size and the material that samples them.
 void append_material(UvTextures& textures, const std::array<fs::path, 2>& features,
-                     ImageBudget& budget) {
+                     const MemoryBudget& budget) {
   UvMaterial material;
   material.wrap_u = material.wrap_v = UvMaterial::Wrap::clamp;
   material.filter = UvMaterial::Filter::nearest;
   material.mask_channel = 0;
   material.mask_threshold = 0.5f / 255.0f;  // between the bytes 0, a hole, and 1
   for (const fs::path& path : features) {
-    Input input = Input::open(path);
+    Input input = open_in_folder(path.parent_path(), path.filename().string(), budget);
     material.images.push_back(static_cast<std::uint32_t>(textures.images.size()));
     textures.images.push_back(read_image(input));
-    if (!budget.take(textures.images.back())) input.fail_at(0, image_budget_reason);
   }
   const Image8& first = textures.images[material.images[0]];
   const Image8& second = textures.images[material.images[1]];
@@ -188,7 +194,7 @@ bool is_mobilenerf(const fs::path& path) {
   const fs::path mlp = folder_of(path) / "mlp.json";
   if (!fs::is_regular_file(mlp, ignored)) return false;
   try {
-    Input input = Input::open(mlp);
+    Input input = open_in_folder(folder_of(path), "mlp.json", MemoryBudget());
     const nlohmann::json json = read_json(input);
     return json.is_object() && json.contains("0_weights");
   } catch (const InputError&) {
@@ -199,13 +205,13 @@ bool is_mobilenerf(const fs::path& path) {
 
 Scene read_mobilenerf(const fs::path& path, const ReadOptions& options) {
   const fs::path folder = folder_of(path);
-  Network network = read_network(folder / "mlp.json");
+  const MemoryBudget budget;
+  Network network = read_network(folder, budget);
   const auto shapes = find_shapes(folder);
 
   Scene scene;
   TriangleSoup soup;
   UvTextures textures;
-  ImageBudget budget;
   std::vector<int> missing, untextured;
   for (int i = 0; i < network.shapes; ++i) {
     if (options.progress) options.progress(double(i) / network.shapes);
@@ -223,7 +229,7 @@ Scene read_mobilenerf(const fs::path& path, const ReadOptions& options) {
     }
     const auto material = static_cast<std::uint32_t>(textures.materials.size());
     append_material(textures, features, budget);
-    for (const auto& [piece, file] : pieces->second) append(soup, textures, file, material);
+    for (const auto& [piece, file] : pieces->second) append(soup, textures, file, material, budget);
   }
   const std::string of = " of " + std::to_string(network.shapes) + " ";
   if (!missing.empty())

@@ -17,7 +17,7 @@ namespace {
 
 class ObjReader {
  public:
-  explicit ObjReader(Input& input) : text_(input, {.comment = '#'}) {}
+  explicit ObjReader(Input& input) : input_(input), text_(input, {.comment = '#'}) {}
 
   ObjMesh read() {
     while (text_.next_content()) {
@@ -25,11 +25,11 @@ class ObjReader {
       if (keyword == "v") {
         text_.skip(1);
         const float x = text_.read_float("x"), y = text_.read_float("y");
-        positions_.emplace_back(x, y, text_.read_float("z"));
+        append(positions_, {x, y, text_.read_float("z")});
       } else if (keyword == "vt") {
         text_.skip(2);
         const float u = text_.read_float("u");
-        uv_.emplace_back(u, text_.read_float("v"));
+        append(uv_, {u, text_.read_float("v")});
       } else if (keyword == "f") {
         text_.skip(1);
         read_face();
@@ -40,12 +40,18 @@ class ObjReader {
   }
 
  private:
+  template <class T>
+  void append(std::vector<T>& values, const T& value) {
+    if (values.size() == values.capacity()) input_.make_room_in(values, 1, "the mesh");
+    values.push_back(value);
+  }
+
   void read_face() {
     std::uint32_t first = 0, previous = 0;
     int corners = 0;
     for (; !text_.at_line_end(); ++corners) {
       const std::uint32_t vertex = read_corner();
-      if (corners >= 2) mesh_.triangles.emplace_back(first, previous, vertex);
+      if (corners >= 2) append(mesh_.triangles, {first, previous, vertex});
       if (corners == 0) first = vertex;
       previous = vertex;
     }
@@ -64,8 +70,9 @@ class ObjReader {
     const auto [found, is_new] = vertices_.try_emplace(
         position << 32 | place, static_cast<std::uint32_t>(mesh_.positions.size()));
     if (is_new) {
-      mesh_.positions.push_back(positions_[position]);
-      mesh_.uv.push_back(uv_[place]);
+      input_.take_memory(1, bytes_a_vertex, "the mesh");
+      append(mesh_.positions, positions_[position]);
+      append(mesh_.uv, uv_[place]);
     }
     return found->second;
   }
@@ -84,6 +91,10 @@ class ObjReader {
     text_.fail("\"" + word.substr(0, 40) + "\" is no corner of the form v/vt or v/vt/vn");
   }
 
+  /// A node of the map, and its part of two generations of buckets.
+  static constexpr std::size_t bytes_a_vertex = 64;
+
+  Input& input_;
   TextScanner text_;
   std::vector<glm::vec3> positions_;
   std::vector<glm::vec2> uv_;

@@ -48,6 +48,8 @@ Numbers read_numbers(TextScanner& scanner, const char* what) {
 /// (1, 0, 0) as "1 0 0", which only its other colours tell from a byte writer's near-black.
 class ColorScale {
  public:
+  explicit ColorScale(Input& input) : input_(input) {}
+
   /// The colour in `numbers`, three or four of them, which elements [first, end) of a list get.
   glm::vec4 read(const TextScanner& scanner, const Numbers& numbers, std::size_t first,
                  std::size_t end) {
@@ -65,7 +67,7 @@ class ColorScale {
     else if (largest > 1.0f)
       bytes_ = true;
     else if (largest == 1.0f)
-      doubtful_.push_back({first, end, numbers.count});
+      remember({first, end, numbers.count});
     return color;
   }
 
@@ -82,6 +84,13 @@ class ColorScale {
     std::size_t first, end;
     int components;
   };
+  void remember(const Doubtful& doubtful) {
+    if (doubtful_.size() == doubtful_.capacity())
+      input_.make_room_in(doubtful_, 1, "the colours of the faces");
+    doubtful_.push_back(doubtful);
+  }
+
+  Input& input_;
   bool bytes_ = false, floats_ = false;
   std::vector<Doubtful> doubtful_;  // of nothing but 0s and 1s, and at least one 1
 };
@@ -145,7 +154,7 @@ class OffReader {
   }
 
   void read_vertices() {
-    mesh_.positions.reserve(vertices_);
+    mesh_.reserve_vertices(vertices_);
     int components = 0;
     for (std::uint64_t i = 0; i < vertices_; ++i) {
       next("vertex", i, vertices_);
@@ -159,7 +168,7 @@ class OffReader {
         if (components != 0 && components != 3 && components != 4)
           scanner_.fail("a vertex of " + color.described(3) +
                         " numbers, expected x y z and, for a colour, r g b or r g b a");
-        if (components > 0) mesh_.vertex_rgba.reserve(vertices_);
+        if (components > 0) mesh_.reserve_colors_of_vertices(vertices_);
       } else if (color.count != components) {
         scanner_.fail("a vertex of " + color.described(3) + " numbers, but the first one has " +
                       std::to_string(3 + components));
@@ -211,8 +220,8 @@ class OffReader {
   Input& input_;
   TextScanner scanner_;
   ProgressMeter meter_;
-  MeshBuilder mesh_;
-  ColorScale vertex_scale_, face_scale_;
+  MeshBuilder mesh_{input_};
+  ColorScale vertex_scale_{input_}, face_scale_{input_};
   std::uint64_t vertices_ = 0, faces_ = 0;
   std::uint64_t indexed_colors_ = 0;
 };

@@ -84,13 +84,17 @@ std::optional<std::filesystem::path> find_picture(const DatasetFrame& frame, int
 int scaled_side(int side, double scale) { return std::max(1, int(std::lround(side * scale))); }
 
 ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem::path& picture,
-                               const DatasetOptions& options) {
-  Input input = Input::open(picture);
+                               const DatasetOptions& options, const MemoryBudget& budget) {
+  PassingMemory passing(budget);
+  Input input = Input::open(picture, budget);
   Image8 image = read_image(input);
   Camera camera = camera_for(frame, image, options.images_folder, input.name());
   const glm::ivec2 full(image.width, image.height);
   PixelRectangle known{0, 0, full.x, full.y};
   if (!frame.lens.is_pinhole()) {
+    // The same picture in floats, with a border, and without its lens.
+    input.take_memory(std::uint64_t(full.x + 4) * std::uint64_t(full.y + 4),
+                      sizeof(glm::vec4) + sizeof(glm::u8vec4) + 1, "the picture without its lens");
     Undistorted without_lens = undistorted(image, camera, frame.lens);
     image = std::move(without_lens.image);
     known = without_lens.known;
@@ -105,6 +109,9 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem:
     throw InputError({input.name(), {}, {}},
                      "nothing is left of it at " + size_text(size.x, size.y));
   camera = stretched(std::move(camera), size.x, size.y);
+  // Scaled, and perhaps cropped once more.
+  input.take_memory(std::uint64_t(size.x) * std::uint64_t(size.y), 2 * sizeof(glm::u8vec4),
+                    "the scaled picture");
   image = box_scaled(image, size.x, size.y);
 
   ReadPhotograph result;
@@ -119,6 +126,7 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem:
   result.lost_rows = size.y - photograph.camera.height;
   photograph.image =
       result.lost_columns + result.lost_rows > 0 ? cropped(image, known) : std::move(image);
+  passing.keep(photograph.image.pixels.size() * sizeof photograph.image.pixels[0]);
   return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include "formats/dataset.hpp"
 #include "formats/dataset_frame.hpp"
+#include "formats/memory_budget.hpp"
 
 namespace tureen {
 
@@ -25,8 +26,9 @@ struct ReadPhotograph {
 };
 
 /// Decodes `picture` and brings it to `options.scale`. Throws InputError with the picture: it
-/// cannot be decoded, its size is not the camera's, the lens leaves less than half of it.
+/// cannot be decoded, its size is not the camera's, the lens leaves less than half of it, the
+/// budget has too little left. Of the budget it keeps what the photograph takes.
 ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem::path& picture,
-                               const DatasetOptions& options);
+                               const DatasetOptions& options, const MemoryBudget& budget);
 
 }  // namespace tureen

@@ -420,11 +420,16 @@ const char* kind_name(Pickle::Kind kind) {
 }
 
 Pickle::Pickle(std::string name, std::span<const std::byte> bytes,
-               std::span<const std::string_view> globals)
+               std::span<const std::string_view> globals, MemoryBudget budget)
     : name_(std::move(name)) {
   if (bytes.size() > max_bytes)
     throw InputError({name_, {}, {}}, "a pickle of " + std::to_string(bytes.size()) +
                                           " bytes, the limit is " + std::to_string(max_bytes));
+  // An opcode makes one value at most and moves a number on the stack, into the memo or among the
+  // items of another value; all of them lie in vectors that double. Texts are parts of the bytes.
+  const std::uint64_t values = std::min<std::uint64_t>(bytes.size(), max_values);
+  if (!budget.take(values, 3 * sizeof(Value)) || !budget.take(bytes.size(), 9 * sizeof(Ref) + 1))
+    throw InputError({name_, {}, {}}, budget.refusal("the pickle"));
   root_ = Machine(name_, bytes, globals, values_).run();
 }
 

@@ -55,7 +55,7 @@ class Pickle {
   /// `globals` are the allowed ones, "module.name"; collections.OrderedDict is always allowed.
   /// BUILD, which sets attributes, is read and its state ignored. Throws InputError.
   Pickle(std::string name, std::span<const std::byte> bytes,
-         std::span<const std::string_view> globals);
+         std::span<const std::string_view> globals, MemoryBudget budget = MemoryBudget());
 
   const std::string& name() const { return name_; }
   Ref root() const { return root_; }

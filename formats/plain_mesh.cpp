@@ -28,14 +28,30 @@ std::uint64_t clamp_colors(std::vector<glm::vec4>& rgba) {
 
 }  // namespace
 
-void MeshBuilder::reserve_faces(std::size_t count) { triangles_.reserve(count); }
+void MeshBuilder::reserve_vertices(std::uint64_t count) {
+  input_.make_room_in(positions, count, "the vertices");
+}
+
+void MeshBuilder::reserve_colors_of_vertices(std::uint64_t count) {
+  input_.make_room_in(vertex_rgba, count, "the colours of the vertices");
+}
+
+void MeshBuilder::reserve_faces(std::uint64_t count) {
+  input_.make_room_in(triangles_, count, "the faces");
+}
+
+void MeshBuilder::color_faces(std::size_t count, const glm::vec4& rgba) {
+  if (count > face_rgba_.capacity())
+    input_.make_room_in(face_rgba_, count - face_rgba_.size(), "the colours of the faces");
+  face_rgba_.resize(count, rgba);
+}
 
 void MeshBuilder::add_corner(std::uint32_t vertex) {
   if (corners_ == 0) {
     first_triangle_ = triangles_.size();
     fan_[0] = vertex;
   } else if (corners_ >= 2) {
-    triangles_.emplace_back(fan_[0], fan_[1], vertex);
+    add({fan_[0], fan_[1], vertex});
   }
   fan_[1] = vertex;
   ++corners_;
@@ -46,7 +62,7 @@ void MeshBuilder::end_face() {
   if (corners_ > 3) ++polygons_;
   if (face_rgba_.empty()) return;
   uncolored_ += triangles_.size() - face_rgba_.size();
-  face_rgba_.resize(triangles_.size(), no_color);
+  color_faces(triangles_.size(), no_color);
 }
 
 void MeshBuilder::end_face(const glm::vec4& rgba) {
@@ -57,15 +73,15 @@ void MeshBuilder::end_face(const glm::vec4& rgba) {
   if (corners_ > 3) ++polygons_;
   if (face_rgba_.empty()) {
     // The first colour: the triangles before it had none.
-    face_rgba_.reserve(triangles_.capacity());
+    input_.make_room_in(face_rgba_, triangles_.capacity(), "the colours of the faces");
     face_rgba_.resize(first_triangle_, no_color);
     uncolored_ = first_triangle_;
   }
-  face_rgba_.resize(triangles_.size(), rgba);
+  color_faces(triangles_.size(), rgba);
 }
 
 void MeshBuilder::add_triangle(glm::uvec3 triangle) {
-  triangles_.push_back(triangle);
+  add(triangle);
   corners_ = 3;
   end_face();
 }
@@ -102,7 +118,7 @@ Scene MeshBuilder::finish(std::string name, std::string source) {
       notes.push_back(
           counted(uncolored_, "triangle has no colour and is", "triangles have no colour and are") +
           " drawn grey (0.8).");
-    face_rgba_.resize(soup.triangles.size(), no_color);
+    color_faces(soup.triangles.size(), no_color);
     soup.appearance = FaceColors{std::move(face_rgba_)};
   }
   scene.primitives = std::move(soup);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/input.hpp"
 #include "formats/scene_file.hpp"
 #include "soup/scene.hpp"
 
@@ -17,15 +18,20 @@ namespace tureen {
 
 /// Collects vertices and polygons in file order. A reader fills `positions` and, where the file has
 /// them, `vertex_rgba`, and reports polygons corner by corner, so that none is ever held whole.
+/// What it allocates counts against the input's budget.
 class MeshBuilder {
  public:
+  explicit MeshBuilder(Input& input) : input_(input) {}
+
   /// Faces without a colour of their own, and whole meshes without any.
   static constexpr glm::vec4 no_color{0.8f, 0.8f, 0.8f, 1.0f};
 
   std::vector<glm::vec3> positions;
   std::vector<glm::vec4> vertex_rgba;  // empty, or one a vertex when finish() is called
 
-  void reserve_faces(std::size_t count);
+  void reserve_vertices(std::uint64_t count);
+  void reserve_colors_of_vertices(std::uint64_t count);
+  void reserve_faces(std::uint64_t count);
 
   void begin_face() { corners_ = 0; }
   /// The next corner; the caller has checked that the vertex will exist.
@@ -38,7 +44,7 @@ class MeshBuilder {
   void add_triangle(glm::uvec3 triangle);
 
   std::size_t triangle_count() const { return triangles_.size(); }
-  /// The colours of the triangles so far; empty where no face had one.
+  /// The colours of the triangles so far; empty where no face had one. Not to be made longer.
   std::vector<glm::vec4>& face_rgba() { return face_rgba_; }
 
   /// Clamps every colour to [0, 1] (NaN becomes 0), chooses the appearance (vertex colours before
@@ -46,6 +52,13 @@ class MeshBuilder {
   Scene finish(std::string name, std::string source);
 
  private:
+  void add(const glm::uvec3& triangle) {
+    if (triangles_.size() == triangles_.capacity()) input_.make_room_in(triangles_, 1, "the faces");
+    triangles_.push_back(triangle);
+  }
+  void color_faces(std::size_t count, const glm::vec4& rgba);
+
+  Input& input_;
   std::vector<glm::uvec3> triangles_;
   std::vector<glm::vec4> face_rgba_;
   std::uint64_t corners_ = 0;

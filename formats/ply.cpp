@@ -151,8 +151,8 @@ class PlyReader {
           element.properties[i].type == PlyType::float64 && !ascii())
         rounded_ = true;
     // The header has been checked: so many rows fit into the file.
-    mesh_.positions.reserve(element.count);
-    if (layout.has_color) mesh_.vertex_rgba.reserve(element.count);
+    mesh_.reserve_vertices(element.count);
+    if (layout.has_color) mesh_.reserve_colors_of_vertices(element.count);
     for (std::uint64_t v = 0; v < element.count; ++v) {
       begin_row(element);
       std::array<float, slots> row{0, 0, 0, 0, 0, 0, 1};
@@ -253,7 +253,7 @@ class PlyReader {
   const PlyHeader header_;
   PlyValues values_;
   ProgressMeter meter_;
-  MeshBuilder mesh_;
+  MeshBuilder mesh_{input_};
   std::uint64_t vertices_ = 0;
   bool rounded_ = false;
 };

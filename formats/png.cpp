@@ -6,6 +6,8 @@
 #include <memory>
 #include <new>
 
+#include "formats/decoder_memory.hpp"
+
 #ifndef __EMSCRIPTEN__
 #include <zlib.h>
 
@@ -31,6 +33,9 @@ unsigned char* compress_for_stb(unsigned char* data, int size, int* packed_size,
 #define STBIW_ZLIB_COMPRESS compress_for_stb
 #endif
 
+#define STBI_MALLOC(size) tureen::decoder_memory::allocate(size)
+#define STBI_REALLOC(old, size) tureen::decoder_memory::reallocate(old, size)
+#define STBI_FREE(old) tureen::decoder_memory::release(old)
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_PNG
@@ -46,7 +51,24 @@ unsigned char* compress_for_stb(unsigned char* data, int size, int* packed_size,
 
 namespace tureen {
 
-Image8 decode_image(std::span<const std::byte> bytes, const std::string& name) {
+namespace {
+
+/// For tables, and for the state of a decoder, which stb takes for granted.
+constexpr std::uint64_t decoder_tables = std::uint64_t(1) << 20;
+
+/// What stb holds at most for an honest picture, in bytes: the file in a buffer that doubles as it
+/// grows; 8 a pixel, at 16 bits, of inflated rows in another, or 12 of a JPEG's coefficients; 8 and
+/// 4 of the picture before and after it is converted. Sides are rounded up to the blocks of at most
+/// 32 pixels that JPEG has. Deflated data that go on beyond this are a bomb.
+std::uint64_t decoder_limit(std::size_t file, int width, int height) {
+  const auto padded = [](int side) { return std::uint64_t(side) + 32; };
+  return 4 * std::uint64_t(file) + 28 * padded(width) * padded(height) + decoder_tables;
+}
+
+}  // namespace
+
+Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
+                    MemoryBudget budget) {
   const auto fail = [&](const std::string& reason) -> void {
     throw InputError({name, {}, {}}, reason);
   };
@@ -54,21 +76,37 @@ Image8 decode_image(std::span<const std::byte> bytes, const std::string& name) {
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;
-  if (!stbi_info_from_memory(data, size, &width, &height, &channels))
-    fail(std::string("not a PNG or JPEG image: ") + stbi_failure_reason());
+  {
+    const decoder_memory::Scope tables(MemoryBudget(decoder_tables), decoder_tables);
+    if (!stbi_info_from_memory(data, size, &width, &height, &channels))
+      fail(std::string("not a PNG or JPEG image: ") + stbi_failure_reason());
+  }
   if (width < 1 || height < 1 || width > max_image_side || height > max_image_side ||
       std::size_t(width) * height > max_image_pixels)
     fail("an image of " + std::to_string(width) + " x " + std::to_string(height) +
          " pixels is beyond what we read");
-  const std::unique_ptr<stbi_uc, decltype(&std::free)> pixels(
-      stbi_load_from_memory(data, size, &width, &height, &channels, 4), &std::free);
+  PassingMemory passing(budget);
+  const std::string what = "an image of " + std::to_string(width) + " x " + std::to_string(height);
+  const std::uint64_t result_bytes = std::uint64_t(width) * std::uint64_t(height) * 4;
+  if (!budget.take(result_bytes) || budget.left() < decoder_tables) fail(budget.refusal(what));
+  const decoder_memory::Scope scope(budget, decoder_limit(bytes.size(), width, height));
+  const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
+      stbi_load_from_memory(data, size, &width, &height, &channels, 4), &stbi_image_free);
+  if (scope.beyond_budget()) fail(budget.refusal(what));
+  if (scope.beyond_limit()) fail("the image is damaged: it unfolds to more than its pixels");
   if (!pixels) fail(std::string("the image is damaged: ") + stbi_failure_reason());
   Image8 image(width, height);
   std::memcpy(image.pixels.data(), pixels.get(), image.pixels.size() * 4);
+  passing.keep(result_bytes);
   return image;
 }
 
-Image8 read_image(Input& input) { return decode_image(input.read_rest(), input.name()); }
+Image8 read_image(Input& input) {
+  PassingMemory passing(input.budget());
+  Image8 image = decode_image(input.read_rest(), input.name(), input.budget());
+  passing.keep(image.pixels.size() * sizeof image.pixels[0]);
+  return image;
+}
 
 std::vector<std::byte> encode_png(const Image8& image) {
   int size = 0;

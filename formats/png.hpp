@@ -18,8 +18,11 @@ inline constexpr int max_image_side = 65536;
 inline constexpr std::size_t max_image_pixels = std::size_t(1) << 28;
 
 /// Decodes a PNG or a JPEG to RGBA; missing alpha becomes 255, 16 bits become 8 (the high byte).
-/// `name` stands for the file in the InputError thrown for anything undecodable.
-Image8 decode_image(std::span<const std::byte> bytes, const std::string& name);
+/// `name` stands for the file in the InputError thrown for anything undecodable, and for what takes
+/// more memory than the budget has left, or while it is decoded more than pictures of its size do.
+/// Of the budget it keeps what the image takes.
+Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
+                    MemoryBudget budget = MemoryBudget());
 
 /// decode_image of everything that `input` holds from its position on.
 Image8 read_image(Input& input);

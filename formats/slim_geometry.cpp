@@ -22,9 +22,13 @@ struct Grid {
 };
 static_assert(sizeof(Grid) == 16);
 
-/// Faces a byte: the 72 bytes that a face needs meanwhile stay within 4,096 for each stored one.
-/// The encoder pads what is smaller.
+/// What a face needs meanwhile: itself, and the cells and positions of three vertices that are its
+/// own, all in vectors that double as they grow.
+constexpr std::size_t bytes_a_face = 3 * (12 + 3 * 12 + 3 * 12);
+/// Faces a byte, so that those bytes stay within 4,096 for each stored one. The encoder pads what
+/// is smaller.
 constexpr std::uint64_t max_faces_per_byte = 16;
+static_assert(bytes_a_face <= 4096 / max_faces_per_byte);
 
 struct Models {
   BitModel known[3];
@@ -167,13 +171,15 @@ std::vector<std::byte> encode_slim_geometry(const SlimGeometry& geometry, int bi
 }
 
 SlimGeometry decode_slim_geometry(std::span<const std::byte> bytes, std::size_t vertices,
-                                  std::size_t faces, const std::string& file) {
+                                  std::size_t faces, const std::string& file, MemoryBudget budget) {
   const auto damaged = [&]() -> InputError {
     return InputError({file, {}, {}}, "the slim geometry is cut short or damaged");
   };
   if (bytes.size() < sizeof(Grid) || faces / max_faces_per_byte > bytes.size() ||
       vertices > 3 * faces)
     throw damaged();
+  if (!budget.take(faces, bytes_a_face))
+    throw InputError({file, {}, {}}, budget.refusal("the slim geometry"));
   Grid grid;
   std::memcpy(&grid, bytes.data(), sizeof(Grid));
   for (int k = 0; k < 3; ++k)

@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "formats/memory_budget.hpp"
+
 namespace tureen {
 
 /// Vertices and the triangles that use them.
@@ -34,8 +36,10 @@ inline constexpr int max_slim_bits = 23;
 std::vector<std::byte> encode_slim_geometry(const SlimGeometry& geometry, int bits);
 
 /// Throws InputError, which names `file`, for bytes that were cut short or hold other than so many
-/// faces and vertices. At most 4,096 bytes are allocated for each one that is there.
+/// faces and vertices, or take more memory than the budget has left. At most 4,096 bytes are
+/// allocated for each one that is there.
 SlimGeometry decode_slim_geometry(std::span<const std::byte> bytes, std::size_t vertices,
-                                  std::size_t faces, const std::string& file);
+                                  std::size_t faces, const std::string& file,
+                                  MemoryBudget budget = MemoryBudget());
 
 }  // namespace tureen

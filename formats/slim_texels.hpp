@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/memory_budget.hpp"
 #include "formats/slim_basis.hpp"
 #include "soup/triangle_soup.hpp"
 
@@ -53,8 +54,9 @@ std::vector<std::byte> encode_slim_texels(const LatticeTexture& texture,
 
 /// What encode_slim_texels made them of, without a color MLP: byte texels, patches in the order of
 /// their first face. Throws InputError, which names `file`, for bytes that were cut short or hold
-/// another number of faces. At most 4,096 bytes are allocated for each one that is there.
+/// another number of faces, or take more memory than the budget has left. At most 4,096 bytes are
+/// allocated for each one that is there.
 LatticeTexture decode_slim_texels(std::span<const std::byte> bytes, std::size_t faces,
-                                  const std::string& file);
+                                  const std::string& file, MemoryBudget budget = MemoryBudget());
 
 }  // namespace tureen

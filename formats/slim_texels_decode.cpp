@@ -41,7 +41,7 @@ const std::vector<Middle>& middles(int level) {
 }  // namespace slim
 
 LatticeTexture decode_slim_texels(std::span<const std::byte> bytes, std::size_t faces,
-                                  const std::string& file) {
+                                  const std::string& file, MemoryBudget budget) {
   using namespace slim;
   const auto damaged = [&]() -> InputError {
     return InputError({file, {}, {}}, "the slim texels are cut short or damaged");
@@ -55,8 +55,16 @@ LatticeTexture decode_slim_texels(std::span<const std::byte> bytes, std::size_t 
 
   RangeDecoder coder(bytes.subspan(sizeof(header)));
   const auto models = std::make_unique<Models>();
+  const auto take = [&](std::uint64_t count, std::size_t each) {
+    if (!budget.take(count, each))
+      throw InputError({file, {}, {}}, budget.refusal("the slim texels"));
+  };
+  // Its entry among patch_of_face, twice over where that grows; one of its own patches, with what
+  // is known of it meanwhile; and its place in the texture.
+  take(faces, 3 * sizeof(std::uint32_t) + 3 * sizeof(Patch) + 36 + sizeof(LatticePatch));
   Faces layout;
   if (!code_faces(coder, *models, faces, {}, limit, layout)) throw damaged();
+  take(layout.texels, channels * (sizeof(std::int16_t) + 2 * sizeof(std::uint8_t)));
   const auto never_asked = [](std::size_t, int, int, int) { return 0; };
   Walk walk(coder, *models, {.features = header.feature_step, .alpha = header.alpha_step},
             never_asked);

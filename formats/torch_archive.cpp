@@ -152,8 +152,9 @@ TorchArchive::TorchArchive(Input input) : zip_(expect_zip(std::move(input))) {
   }
   std::vector<std::string_view> globals{rebuild_tensor, rebuild_parameter};
   for (const StorageType& storage : storage_types) globals.push_back(storage.global);
-  pickle_ = std::make_unique<Pickle>(zip_.name() + ": " + data->name,
-                                     zip_.read_all(*data, Pickle::max_bytes), globals);
+  pickle_ =
+      std::make_unique<Pickle>(zip_.name() + ": " + data->name,
+                               zip_.read_all(*data, Pickle::max_bytes), globals, zip_.budget());
   const Value& root = pickle()[pickle().root()];
   if (root.kind != Kind::dict)
     fail(std::string("holds ") + kind_name(root.kind) + ", expected a dict of tensors");
@@ -259,6 +260,7 @@ void TorchArchive::expect_shape(const TorchTensor& tensor,
 
 template <class T>
 std::vector<T> TorchArchive::read(const TorchTensor& tensor) {
+  take_memory(tensor, tensor.elements(), sizeof(T));
   std::vector<T> values(static_cast<std::size_t>(tensor.elements()));
   if (values.empty()) return values;
   const std::size_t size = element_size(tensor.type);
@@ -270,6 +272,8 @@ std::vector<T> TorchArchive::read(const TorchTensor& tensor) {
   std::uint64_t extent = 1;
   for (std::size_t d = 0; d < tensor.shape.size(); ++d)
     extent += tensor.strides[d] * (tensor.shape[d] - 1);
+  PassingMemory passing(zip_.budget());
+  take_memory(tensor, extent, size);
   std::vector<std::byte> bytes(static_cast<std::size_t>(extent) * size);
   zip_.read(*tensor.storage, tensor.offset * size, bytes);
   // An odometer over the shape, the last dimension fastest.
@@ -296,6 +300,13 @@ std::vector<std::int64_t> TorchArchive::read_integers(const TorchTensor& tensor)
       tensor.type == Type::f64)
     pickle().fail(*tensor.origin, "\"" + tensor.name + "\" holds floats, expected integers");
   return read<std::int64_t>(tensor);
+}
+
+void TorchArchive::take_memory(const TorchTensor& tensor, std::uint64_t elements,
+                               std::size_t each) const {
+  MemoryBudget budget = zip_.budget();
+  if (!budget.take(elements, each))
+    pickle().fail(*tensor.origin, budget.refusal("\"" + tensor.name + "\""));
 }
 
 std::int64_t TorchArchive::integer(std::string_view key) const {

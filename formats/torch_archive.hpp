@@ -60,6 +60,10 @@ class TorchArchive {
   /// An integer (or boolean) value; throws an InputError for any other kind.
   std::int64_t integer(std::string_view key) const;
 
+  /// Counts what is about to be made of a tensor. Throws InputError where that is too much.
+  void take_memory(const TorchTensor& tensor, std::uint64_t elements, std::size_t each) const;
+  MemoryBudget budget() const { return zip_.budget(); }
+
   [[noreturn]] void fail(const std::string& reason) const;
 
  private:

@@ -22,8 +22,8 @@ std::optional<std::string> in_images_folder(const std::string& name, int images_
 }  // namespace
 
 std::vector<DatasetFrame> read_transforms_dataset(const std::filesystem::path& path,
-                                                  int images_folder) {
-  Input input = Input::open(path);
+                                                  int images_folder, const MemoryBudget& budget) {
+  Input input = Input::open(path, budget);
   const nlohmann::json root = read_json(input);
   const auto fail = [&](std::size_t frame, const std::string& reason) {
     throw InputError({input.name(), {}, {}}, "frame " + std::to_string(frame) + ": " + reason);

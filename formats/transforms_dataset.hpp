@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "formats/dataset_frame.hpp"
+#include "formats/memory_budget.hpp"
 
 namespace tureen {
 
@@ -12,6 +13,7 @@ namespace tureen {
 /// becomes "images_4/". Throws InputError with the frame and the reason: no file_path, a lens that
 /// cannot be undone by its name, a name outside of images/ where another folder is asked for.
 std::vector<DatasetFrame> read_transforms_dataset(const std::filesystem::path& path,
-                                                  int images_folder);
+                                                  int images_folder,
+                                                  const MemoryBudget& budget = MemoryBudget());
 
 }  // namespace tureen

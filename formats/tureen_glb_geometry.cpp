@@ -78,6 +78,7 @@ void read_geometry(GlbArrays& arrays, const GeometryLayout& layout, TriangleSoup
   soup.positions = arrays.read_at<glm::vec3>(layout.positions, "positions");
   soup.triangles = arrays.read_at<glm::uvec3>(layout.triangles, "triangles");
   if (!soup.triangles.empty()) return;
+  arrays.take_memory(layout.faces, sizeof(glm::uvec3), "triangles");
   soup.triangles.resize(static_cast<std::size_t>(layout.faces));
   for (std::size_t t = 0; t < soup.triangles.size(); ++t)
     soup.triangles[t] = glm::uvec3(3 * t, 3 * t + 1, 3 * t + 2);

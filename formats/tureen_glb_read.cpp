@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "formats/glb_arrays.hpp"
-#include "formats/image_budget.hpp"
 #include "formats/json_vector.hpp"
 #include "formats/png.hpp"
 #include "formats/slim_geometry.hpp"
@@ -53,6 +52,7 @@ class Reader {
         arrays_.accessor(*reference)["componentType"].natural() == std::uint64_t(layout::float32))
       return arrays_.read<glm::vec4>(holder, "rgba", count, glb_formats::vec4_float);
     input_.seek(arrays_.location(holder, "rgba", count, glb_formats::vec4_unorm8).offset);
+    input_.take_memory(count, sizeof(glm::vec4), "rgba");
     std::vector<glm::vec4> result(static_cast<std::size_t>(count));
     // Block by block, so that the bytes do not stand beside all of the floats.
     std::array<glm::u8vec4, 4096> block;
@@ -72,9 +72,12 @@ class Reader {
       tureen::read_geometry(arrays_, geometry_layout(arrays_, extension_), soup);
       return;
     }
-    SlimGeometry geometry =
-        decode_slim_geometry(buffer_view(*slim), arrays_.index(extension_["vertex_count"]),
-                             arrays_.index(extension_["face_count"]), arrays_.file());
+    PassingMemory passing(input_.budget());
+    SlimGeometry geometry = decode_slim_geometry(
+        buffer_view(*slim), arrays_.index(extension_["vertex_count"]),
+        arrays_.index(extension_["face_count"]), arrays_.file(), input_.budget());
+    passing.keep(geometry.positions.capacity() * sizeof geometry.positions[0] +
+                 geometry.triangles.capacity() * sizeof geometry.triangles[0]);
     soup.positions = std::move(geometry.positions);
     soup.triangles = std::move(geometry.triangles);
   }
@@ -174,8 +177,11 @@ class Reader {
     if (const auto slim = view.find("slim_texels")) {
       // The network lies before the texels.
       std::optional<ColorMlp> mlp = color_mlp(view);
-      LatticeTexture texture =
-          decode_slim_texels(buffer_view(*slim), soup.triangles.size(), arrays_.file());
+      PassingMemory passing(input_.budget());
+      LatticeTexture texture = decode_slim_texels(buffer_view(*slim), soup.triangles.size(),
+                                                  arrays_.file(), input_.budget());
+      passing.keep(soup.triangles.size() * sizeof texture.patches[0] +
+                   texture.texel_count() * LatticeTexture::channels);
       texture.mlp = std::move(mlp);
       return texture;
     }
@@ -192,6 +198,7 @@ class Reader {
   }
 
   std::vector<LatticePatch> patches(const JsonView& view, std::size_t faces) {
+    input_.take_memory(faces, sizeof(LatticePatch), "patches");
     std::vector<LatticePatch> result(faces);
     if (const auto level_member = view.find("level")) {
       const auto level = std::uint32_t(level_member->natural(lattice::max_level));
@@ -201,6 +208,7 @@ class Reader {
       for (std::size_t t = 0; t < faces; ++t) result[t] = {std::uint32_t(t * each), level};
       return result;
     }
+    PassingMemory passing(input_.budget());
     const auto first =
         arrays_.read<std::uint32_t>(view, "first_texels", faces, glb_formats::scalar_u32);
     const auto levels = arrays_.read<std::uint8_t>(view, "levels", faces, glb_formats::scalar_u8);
@@ -226,9 +234,11 @@ class Reader {
     if (texels * LatticeTexture::channels / 1032 > encoded)
       list.fail(std::to_string(texels) + " texels are more than its images can hold");
 
+    input_.take_memory(texels, LatticeTexture::channels, "texels");
     std::vector<std::uint8_t> result(static_cast<std::size_t>(texels) * LatticeTexture::channels);
     std::uint8_t* texel = result.data();
     for (std::size_t i = 0; i < list.size(); ++i) {
+      PassingMemory passing(input_.budget());
       const JsonView strip = list.at(i);
       const auto count = static_cast<std::size_t>(strip["count"].natural());
       const Image8 low = image(strip["images"].at(0)), high = image(strip["images"].at(1));
@@ -255,11 +265,11 @@ class Reader {
     for (std::size_t i = 0; i < materials.size(); ++i)
       textures.materials.push_back(material(materials.at(i)));
     const JsonView images = view["images"];
-    ImageBudget budget;
     for (std::size_t i = 0; i < images.size(); ++i) {
       next_image(images.at(i));
-      textures.images.push_back(image(images.at(i)));
-      if (!budget.take(textures.images.back())) images.at(i).fail(image_budget_reason);
+      PassingMemory passing(input_.budget());
+      const Image8& read = textures.images.emplace_back(image(images.at(i)));
+      passing.keep(read.pixels.size() * sizeof read.pixels[0]);
     }
     return textures;
   }
@@ -295,7 +305,7 @@ class Reader {
   Image8 image(const JsonView& reference) {
     const auto bytes = arrays_.read_at<std::byte>(image_location(reference), "an image");
     try {
-      return decode_image(bytes, arrays_.file());
+      return decode_image(bytes, arrays_.file(), input_.budget());
     } catch (const InputError& error) {
       reference.fail(error.reason());
     }

@@ -68,6 +68,20 @@ std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri) {
   return bytes;
 }
 
+Input open_in_folder(const std::filesystem::path& folder, const std::string& name,
+                     MemoryBudget budget) {
+  const std::filesystem::path path = folder / name;
+  // What is wrong with a file that cannot be looked up at all, Input::open says best.
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  try {
+    if (std::filesystem::status_known(status)) resolve_name_in_folder(folder, name);
+  } catch (const UriError& refusal) {
+    throw InputError({path.string(), {}, {}}, refusal.reason);
+  }
+  return Input::open(path, std::move(budget));
+}
+
 std::filesystem::path resolve_in_folder(const std::filesystem::path& folder, std::string_view uri) {
   return resolve_name_in_folder(folder, percent_decoded(uri));
 }

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/input.hpp"
+
 namespace tureen {
 
 /// Why a URI is refused; the caller knows which file and which place in it to name.
@@ -24,6 +26,11 @@ std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri);
 /// The file of the relative path `name`, as it is, in `folder` or below it. Refused as below.
 std::filesystem::path resolve_name_in_folder(const std::filesystem::path& folder,
                                              const std::string& name);
+
+/// The file of a name that the format fixes, opened; refused likewise, as an InputError: a folder
+/// from untrusted hands may hold links.
+Input open_in_folder(const std::filesystem::path& folder, const std::string& name,
+                     MemoryBudget budget);
 
 /// The file that the relative reference `uri` names, percent-decoded, in `folder` or below it. An
 /// absolute path, a scheme, a "..", and a link that leads out of the folder are refused with a

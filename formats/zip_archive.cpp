@@ -53,7 +53,9 @@ ZipArchive::ZipArchive(Input input) : input_(std::move(input)) {
                                          " entries");
   input_.seek(directory.offset);
   const auto bytes = input_.read_values<std::byte>(directory.size, "the zip directory");
-  entries_.reserve(static_cast<std::size_t>(directory.entries));
+  // Names lie within the directory, which has been counted once, and stand here again.
+  input_.take_memory(directory.size, 1, "the zip directory");
+  input_.make_room_in(entries_, directory.entries, "the zip directory");
   std::size_t at = 0;
   for (std::uint64_t i = 0; i < directory.entries; ++i) {
     const auto rest = std::span(bytes).subspan(at);
@@ -228,6 +230,7 @@ std::vector<std::byte> ZipArchive::read_all(const ZipEntry& entry, std::uint64_t
   if (entry.size > limit)
     fail_in(entry, "holds " + std::to_string(entry.size) + " bytes, the limit is " +
                        std::to_string(limit));
+  input_.take_memory(entry.size, 1, "a zip entry");
   std::vector<std::byte> bytes(static_cast<std::size_t>(entry.size));
   read(entry, 0, bytes);
   return bytes;

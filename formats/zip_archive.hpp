@@ -37,6 +37,7 @@ class ZipArchive {
   explicit ZipArchive(Input input);
 
   const std::string& name() const { return input_.name(); }
+  const MemoryBudget& budget() const { return input_.budget(); }
   const std::vector<ZipEntry>& entries() const { return entries_; }
   /// Null when there is none.
   const ZipEntry* find(std::string_view name) const;

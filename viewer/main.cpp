@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "formats/memory_budget.hpp"
 #include "soup/error.hpp"
 #include "viewer/application.hpp"
 
@@ -46,6 +47,12 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
   program.add_flag("--no-specialise", arguments.no_specialise, "leave nothing out");
   program.add_option("--pictures", arguments.pictures, "where pictures are saved")
       ->option_text("FOLDER");
+  program
+      .add_option_function<std::string>(
+          "--max-memory", [](const std::string& text) { set_max_memory(parse_memory_size(text)); },
+          "what reading a scene or a dataset may take, 4GB by default: a file that asks for more "
+          "is refused")
+      ->option_text("SIZE");
   program.add_flag("--no-settings", arguments.no_settings,
                    "neither read nor keep what the last run left");
   program.add_flag("--report", arguments.report,

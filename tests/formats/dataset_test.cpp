@@ -423,7 +423,10 @@ TEST(Dataset, RefusesMorePhotographsThanMemoryBeforeItDecodesThem) {
   write_binary(folder / "sparse/0", model);
   for (const char* name : {"images/a.png", "images/b.png", "images/c.png"})
     write_text(folder / name, "never looked at");
-  EXPECT_THAT(refusal(folder / ""), HasSubstr("over 4 GiB: read them at a smaller scale"));
+  EXPECT_THAT(
+      refusal(folder / ""),
+      HasSubstr("the photographs would take more than the 4 GB of memory that reading may take; "
+                "--max-memory changes that, --scale makes them smaller"));
   EXPECT_THAT(refusal(folder / "", {.scale = 0.1}), HasSubstr("not a PNG or JPEG"));
 }
 

@@ -1,0 +1,54 @@
+#include "formats/json_limits.hpp"
+
+#include "soup/error.hpp"
+
+namespace tureen {
+
+std::uint64_t count_json_values(std::string_view text, const std::string& file,
+                                std::uint64_t first_byte) {
+  std::uint64_t values = 1;
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string) {
+      if (c == '\\')
+        ++i;  // whatever is escaped does not end the string
+      else if (c == '"')
+        in_string = false;
+      continue;
+    }
+    switch (c) {
+      case '"':
+        in_string = true;
+        break;
+      case '[':
+      case '{':
+        if (++depth > max_json_depth)
+          throw InputError({file, first_byte + i, {}},
+                           "JSON nested deeper than " + std::to_string(max_json_depth) + " levels");
+        ++values;
+        break;
+      case ']':
+      case '}':
+        --depth;
+        break;
+      case ',':
+      case ':':
+        ++values;
+        break;
+      default:
+        break;
+    }
+  }
+  return values;
+}
+
+void take_json_memory(std::string_view text, const std::string& file, std::uint64_t first_byte,
+                      MemoryBudget budget) {
+  const std::uint64_t values = count_json_values(text, file, first_byte);
+  if (!budget.take(values, json_value_bytes) || !budget.take(text.size()))
+    throw InputError({file, first_byte, {}}, budget.refusal("the JSON"));
+}
+
+}  // namespace tureen

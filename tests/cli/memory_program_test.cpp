@@ -1,0 +1,77 @@
+// --max-memory from outside: every command that reads scenes or datasets has it and obeys it.
+#include <gmock/gmock.h>
+
+#include "cli/program_fixture.hpp"
+#include "formats/dataset_fixture.hpp"
+
+namespace tureen {
+namespace {
+
+using test::ChildResult;
+using test::Program;
+using ::testing::HasSubstr;
+
+class MaxMemory : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    write_scene();
+    testing::write_picture(folder / "photographs/a.png", testing::a_picture(64, 48));
+    const std::string frame = R"({"file_path": "a.png",
+      "transform_matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,2],[0,0,0,1]]})";
+    write("photographs/transforms.json",
+          R"({"camera_angle_x": 0.7, "frames": [)" + frame + "," + frame + "]}");
+  }
+  std::vector<std::vector<std::string>> readers() const {
+    return {{"render", "scene.off"},
+            {"info", "scene.off"},
+            {"convert", "scene.off", "out.glb"},
+            {"eval", "scene.off", "photographs"},
+            {"bench", "scene.off"},
+            {"tradeoff", "scene.off"},
+            {"train", "photographs", "-o", "out.glb"}};
+  }
+};
+
+TEST_F(MaxMemory, IsObeyedByEveryCommandThatReads) {
+  for (std::vector<std::string> arguments : readers()) {
+    SCOPED_TRACE(arguments[0]);
+    arguments.insert(arguments.end(), {"--max-memory", "30"});
+    const ChildResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_THAT(result.err, HasSubstr("would take more than the 30 bytes of memory that reading "
+                                      "may take; --max-memory changes that"));
+    EXPECT_FALSE(exists("out.glb"));
+    EXPECT_FALSE(exists("out.png"));
+  }
+  EXPECT_EQ(run({"info", "scene.off", "--max-memory", "100kB"}).exit_code, 0);
+}
+
+TEST_F(MaxMemory, IsInTheHelpAndRefusedWhereItIsNone) {
+  for (const std::vector<std::string>& arguments : readers()) {
+    EXPECT_THAT(run({arguments[0], "--help"}).out, HasSubstr("--max-memory SIZE"));
+    const ChildResult result = run({arguments[0], arguments[1], "--max-memory", "much"});
+    EXPECT_EQ(result.exit_code, 2) << arguments[0];
+    EXPECT_THAT(result.err, HasSubstr("'much' is no amount of memory, as in 512MB or 8GB"));
+  }
+}
+
+TEST_F(MaxMemory, IsTheWindowsToo) {
+  const ChildResult help = run({"view", "--help"});
+  if (help.exit_code != 0) GTEST_SKIP() << "no window was built: " << help.err;
+  EXPECT_THAT(help.out, HasSubstr("--max-memory SIZE"));
+  const ChildResult result = run({"view", "--max-memory", "much"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("'much' is no amount of memory"));
+}
+
+TEST_F(MaxMemory, NamesThatAreNotUtf8AreSaidInJson) {
+  const std::string odd = "\xff\xfe.off";
+  std::filesystem::copy(folder / "scene.off", folder / odd);
+  const ChildResult result = run({"info", odd, "--json"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_FALSE(nlohmann::json::parse(result.out)["triangles"].is_null());
+}
+
+}  // namespace
+}  // namespace tureen

@@ -1,0 +1,724 @@
+// Files that mean harm, or have met with some: every reader ends with a scene or with an error that
+// names file and reason, within bounds of memory and time, and writes nothing. Rows X1 to X5 of the
+// catalogue of stiff and extreme cases.
+//
+// What damage begins with are the fixtures that fuzzers begin with (tests/fuzz/fixtures.cpp).
+#include <gmock/gmock.h>
+#include <sys/inotify.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "formats/camera_file.hpp"
+#include "formats/checkpoint.hpp"
+#include "formats/colmap.hpp"
+#include "formats/dataset.hpp"
+#include "formats/dataset_fixture.hpp"
+#include "formats/format_testing.hpp"
+#include "formats/gltf.hpp"
+#include "formats/json_file.hpp"
+#include "formats/memory_limit.hpp"
+#include "formats/memory_meter.hpp"
+#include "formats/off.hpp"
+#include "formats/pickle.hpp"
+#include "formats/ply.hpp"
+#include "formats/png.hpp"
+#include "formats/scene_file.hpp"
+#include "formats/torch_fixture.hpp"
+#include "formats/truncation.hpp"
+#include "formats/tureen_glb_kinds.hpp"
+#include "formats/zip_archive.hpp"
+#include "fuzz/fixtures.hpp"
+#include "fuzz/folder_files.hpp"
+#include "fuzz/targets.hpp"
+#include "support/random.hpp"
+
+namespace tureen {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using testing::input_error;
+using testing::MemoryLimit;
+using testing::MemoryMeter;
+using testing::TemporaryFolder;
+using Bytes = std::vector<std::byte>;
+
+/// What readers have beside what they count: windows on texts (256 kB), blocks, a PLY header (1 MB)
+/// in pieces, the tables of coders, errors and what GoogleTest keeps of them.
+constexpr std::size_t uncounted = 4 << 20;
+
+/// Longer than any read of a few kilobytes takes, even on a busy machine and with sanitizers; a
+/// read whose time grows with a number in the file takes minutes.
+constexpr double longest_read = 20;
+
+/// Calls `read` with no more memory than `limit`, and holds it to that.
+template <class Read>
+void within_bounds(std::uint64_t limit, Read&& read, const std::string& what) {
+  const MemoryLimit scoped(limit);
+  const MemoryMeter meter;
+  const auto start = std::chrono::steady_clock::now();
+  read();
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  EXPECT_LT(meter.peak(), limit + uncounted) << what;
+  EXPECT_LT(seconds.count(), longest_read) << what;
+}
+
+std::string text_of(const Bytes& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+Bytes bytes_of(const std::string& text) {
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
+}
+
+// ---- Damage
+
+class Hostile : public ::testing::TestWithParam<fuzz::Target> {};
+
+TEST_P(Hostile, DamageEndsInAnErrorOrAScene) {
+  const fuzz::Target& target = GetParam();
+  constexpr std::uint64_t limit = 8 << 20;
+  std::size_t fixtures = 0;
+  for (const fuzz::Fixture& fixture : fuzz::fixtures()) {
+    if (fixture.target != target.name) continue;
+    ++fixtures;
+    SCOPED_TRACE(fixture.name);
+    ASSERT_NO_THROW(target.read(fixture.bytes));
+    const auto read = [&](std::span<const std::byte> bytes) {
+      within_bounds(
+          limit, [&] { target.read(bytes); }, "one of the reads");
+    };
+    testing::Survival cut = testing::survive_truncation(fixture.bytes, read);
+    EXPECT_EQ(cut.read + cut.refused, fixture.bytes.size());
+
+    const unsigned seed = 1;
+    test::Random random(seed);
+    testing::Survival flipped;
+    for (int i = 0; i < 10000; ++i) {
+      Bytes bytes = fixture.bytes;
+      // One bit most of the time; sometimes several, and whole bytes.
+      for (int damage = 1 + int(random.below(4)) / 3 * int(random.below(6)); damage > 0; --damage) {
+        std::byte& victim = bytes[random.below(bytes.size())];
+        victim = random.chance(0.7) ? victim ^ static_cast<std::byte>(1u << random.below(8))
+                                    : static_cast<std::byte>(random.below(256));
+      }
+      testing::expect_survival(
+          bytes, read, "seed " + std::to_string(seed) + ", flips number " + std::to_string(i),
+          flipped);
+      if (HasFailure()) return;
+    }
+    EXPECT_EQ(flipped.read + flipped.refused, 10000u);
+  }
+  EXPECT_GT(fixtures, 0u) << "no fixture for this target";
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, Hostile, ::testing::ValuesIn(fuzz::targets),
+                         [](const auto& target) { return target.param.name; });
+
+TEST(HostileCrashes, FoundByFuzzersEndInAnErrorOrAScene) {
+  std::size_t files = 0;
+  for (const fuzz::Target& target : fuzz::targets) {
+    const fs::path folder = fs::path(TUREEN_SOURCE_DIR) / "tests/fuzz/crashes" / target.name;
+    if (!fs::exists(folder)) continue;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      ++files;
+      const Bytes bytes = Input::open(entry.path()).read_rest();
+      testing::Survival survival;
+      within_bounds(
+          32 << 20,
+          [&] { testing::expect_survival(bytes, target.read, entry.path().string(), survival); },
+          entry.path().string());
+    }
+  }
+  EXPECT_GT(files, 0u);
+}
+
+// ---- The files of others
+
+/// The folder of hostile files beside the repository, where there is one.
+fs::path hostile_files() {
+  const char* elsewhere = std::getenv("TUREEN_SHARED");
+  const fs::path shared = elsewhere ? elsewhere : TUREEN_SOURCE_DIR "/../shared";
+  return shared / "data/hostile";
+}
+
+std::map<fs::path, fs::file_time_type> listing(const fs::path& folder) {
+  std::map<fs::path, fs::file_time_type> result;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    result[entry.path()] = entry.is_directory() ? fs::file_time_type() : entry.last_write_time();
+  return result;
+}
+
+TEST(HostileFiles, OfOthersEndInAnErrorOrASceneAndNothingIsWritten) {
+  const fs::path folder = hostile_files();
+  if (!fs::exists(folder)) GTEST_SKIP() << "no " << folder;
+  const auto before = listing(folder);
+  std::size_t read = 0, refused = 0;
+  for (const auto& [path, time] : before) {
+    if (!fs::is_regular_file(path)) continue;
+    const auto file = path;
+    within_bounds(
+        64 << 20,
+        [&] {
+          try {
+            if (file.extension() == ".png") {
+              Input input = Input::open(file);
+              read_image(input);
+            } else {
+              read_scene(file);
+            }
+            ++read;
+          } catch (const InputError& error) {
+            ++refused;
+            EXPECT_FALSE(error.reason().empty()) << file;
+            EXPECT_THAT(error.place().file, HasSubstr(file.filename().string()));
+          }
+        },
+        file.string());
+  }
+  EXPECT_EQ(listing(folder), before);
+  // Some of them are valid: the reader says no to what is wrong and not to everything.
+  EXPECT_GT(read, 50u);
+  EXPECT_GT(refused, 50u);
+  RecordProperty("read", int(read));
+  RecordProperty("refused", int(refused));
+}
+
+// ---- Sizes that are false
+
+/// Reading ends in an InputError, having allocated next to nothing.
+template <class Read>
+void expect_refused(Read&& read, const std::string& what) {
+  std::string error;
+  within_bounds(
+      default_max_memory,
+      [&] {
+        const MemoryMeter meter;
+        error = input_error(read);
+        EXPECT_LT(meter.peak(), uncounted) << what;
+      },
+      what);
+  EXPECT_NE(error, "") << what << " was read";
+}
+
+constexpr std::array<std::uint64_t, 5> false_sizes{
+    std::uint64_t(1) << 31, (std::uint64_t(1) << 32) - 1, std::uint64_t(1) << 32,
+    std::uint64_t(1) << 63, ~std::uint64_t(0)};
+
+TEST(HostileSizes, InTexts) {
+  for (const std::uint64_t size : false_sizes) {
+    const std::string n = std::to_string(size);
+    for (const std::string& text : {"OFF\n" + n + " 1 0\n0 0 0\n", "OFF\n1 " + n + " 0\n0 0 0\n",
+                                    "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n" + n + " 0 1 2\n"})
+      expect_refused(
+          [&] {
+            Input input = testing::input_of(text, "a.off");
+            read_off(input);
+          },
+          text);
+    for (const char* encoding : {"ascii", "binary_little_endian", "binary_big_endian"})
+      for (const std::string& elements :
+           {"element vertex " + n +
+                "\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty "
+                "list uchar int vertex_indices\n",
+            "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement "
+            "face " +
+                n + "\nproperty list uchar int vertex_indices\n",
+            "element vertex 0\nproperty float x\nproperty float y\nproperty float z\nelement "
+            "other " +
+                n +
+                "\nproperty double a\nelement face 1\nproperty list uchar int vertex_indices\n"}) {
+        const std::string text =
+            std::string("ply\nformat ") + encoding + " 1.0\n" + elements + "end_header\n0 0 0\n";
+        expect_refused(
+            [&] {
+              Input input = testing::input_of(text, "a.ply");
+              read_ply(input);
+            },
+            text);
+      }
+    const std::string obj = "v 0 0 0\nvt 0 0\nf " + n + "/1 1/1 1/1\n";
+    expect_refused([&] { fuzz::obj(bytes_of(obj)); }, obj);
+  }
+}
+
+TEST(HostileSizes, InBinaryFiles) {
+  const auto put = [](Bytes& bytes, std::size_t at, auto value) {
+    std::memcpy(&bytes.at(at), &value, sizeof value);
+  };
+  for (const fuzz::Fixture& fixture : fuzz::fixtures()) {
+    if (fixture.target == "colmap_binary") {
+      // The count of records, and the last one: of features or of sightings.
+      for (const std::uint64_t size : false_sizes) {
+        Bytes bytes = fixture.bytes;
+        put(bytes, 1, size);
+        expect_refused([&] { fuzz::colmap_binary(bytes); }, fixture.name);
+      }
+    } else if (fixture.name == "face_bytes.glb") {
+      // The file's length and the JSON chunk's.
+      for (const std::size_t at : {8, 12})
+        for (const std::uint32_t size : {0x80000000u, 0xfffffffcu}) {
+          Bytes bytes = fixture.bytes;
+          put(bytes, at, size);
+          expect_refused([&] { fuzz::gltf(bytes); }, fixture.name);
+        }
+    } else if (fixture.name == "rgba.png") {
+      for (const std::size_t at : {16, 20})
+        for (const std::uint32_t size : {0x80u, 0xffffff7fu}) {  // big endian: 2^31, 2^31 - 1
+          Bytes bytes = fixture.bytes;
+          put(bytes, at, size);
+          expect_refused([&] { fuzz::image(bytes); }, fixture.name);
+        }
+    } else if (fixture.name == "run.checkpoint") {
+      for (const std::uint64_t size : false_sizes) {
+        // Behind the magic and the version: the length of the configuration.
+        Bytes bytes = fixture.bytes;
+        const std::string text = text_of(bytes);
+        const std::size_t at = text.find('{') - sizeof size;
+        put(bytes, at, size);
+        expect_refused([&] { fuzz::training_checkpoint(bytes); }, fixture.name);
+      }
+    }
+  }
+}
+
+TEST(HostileSizes, InTheJsonOfOurFile) {
+  using testing::glb_json;
+  using testing::with_glb_json;
+  for (const testing::GlbKind& kind : testing::glb_kinds()) {
+    const Bytes bytes = testing::glb_bytes(testing::random_scene(kind, 1, 2), kind.name);
+    const nlohmann::json whole = glb_json(bytes);
+    const auto refuse = [&](const std::string& pointer, std::uint64_t size) {
+      const nlohmann::json::json_pointer at(pointer);
+      if (!whole.contains(at)) return;
+      nlohmann::json changed = whole;
+      changed[at] = size;
+      const Bytes damaged = with_glb_json(bytes, changed);
+      expect_refused([&] { fuzz::gltf(damaged); },
+                     std::string(kind.name) + pointer + " = " + std::to_string(size));
+    };
+    const std::string extension = "/extensions/TUREEN_triangle_soup";
+    for (const std::uint64_t size : false_sizes) {
+      for (const char* key : {"/vertex_count", "/face_count", "/appearance/texel_count",
+                              "/appearance/degree", "/appearance/strips/0/count"})
+        refuse(extension + key, size);
+      for (std::size_t i = 0; i < whole["accessors"].size(); ++i)
+        // Not those of the mesh that other viewers see, which we do not read.
+        if (whole["accessors"][i].value("name", "").empty() && i + 1 == whole["accessors"].size())
+          refuse("/accessors/" + std::to_string(i) + "/count", size);
+    }
+  }
+}
+
+TEST(HostileSizes, InTheJsonOfForeignFiles) {
+  for (const fuzz::Fixture& fixture : fuzz::fixtures()) {
+    if (fixture.name != "foreign.gltf") continue;
+    const auto whole = nlohmann::json::parse(text_of(fixture.bytes));
+    for (const char* pointer :
+         {"/accessors/1/count", "/accessors/3/count", "/accessors/0/sparse/count",
+          "/accessors/3/byteOffset", "/bufferViews/2/byteLength", "/bufferViews/2/byteOffset",
+          "/bufferViews/2/byteStride", "/buffers/0/byteLength", "/nodes/0/mesh",
+          "/meshes/0/primitives/0/indices", "/textures/0/source"})
+      for (const std::uint64_t size : false_sizes) {
+        nlohmann::json changed = whole;
+        changed[nlohmann::json::json_pointer(pointer)] = size;
+        const std::string text = changed.dump();
+        expect_refused([&] { fuzz::gltf(bytes_of(text)); },
+                       std::string(pointer) + " = " + std::to_string(size));
+      }
+    return;
+  }
+  FAIL() << "there is no foreign.gltf";
+}
+
+TEST(HostileSizes, OfTensors) {
+  using testing::TensorFixture;
+  for (const std::uint64_t size : {std::uint64_t(1) << 30, std::uint64_t(0x7fffffff)}) {
+    for (const std::vector<std::uint64_t>& shape :
+         {std::vector<std::uint64_t>{size, 3, 3}, {size, size, size}, {2, 3, size}}) {
+      TensorFixture points = TensorFixture::floats({2, 3, 3}, std::vector<float>(18));
+      points.shape = shape;
+      testing::TorchFixture torch;
+      torch.add("triangles_points", points);
+      const std::string bytes = torch.bytes();
+      expect_refused(
+          [&] { read_checkpoint(Input::memory("a.pt", std::as_bytes(std::span(bytes)))); },
+          "shape");
+    }
+  }
+}
+
+// ---- What unfolds
+
+TEST(HostileBombs, APictureThatUnfoldsBeyondItsPixels) {
+  // A pixel, and 64 MB of zeros behind it that are a few kilobytes in the file.
+  const Bytes bomb = fuzz::PngFixture{.rows = std::string(64 << 20, '\0')}.bytes();
+  EXPECT_LT(bomb.size(), 100u << 10);
+  within_bounds(
+      default_max_memory,
+      [&] {
+        const MemoryMeter meter;
+        EXPECT_THAT(
+            input_error([&] { decode_image(bomb, "bomb.png"); }),
+            HasSubstr("bomb.png: the image is damaged: it unfolds to more than its pixels"));
+        EXPECT_LT(meter.peak(), uncounted);
+      },
+      "bomb");
+}
+
+TEST(HostileBombs, APictureOfMorePixelsThanMemory) {
+  // 10,000 x 10,000 pixels of nothing: 400 MB that are 400 kB in the file.
+  const Bytes large = fuzz::PngFixture{.width = 10000,
+                                       .height = 10000,
+                                       .color_type = 0,
+                                       .rows = std::string(10001u * 10000u, '\0')}
+                          .bytes();
+  EXPECT_LT(large.size(), 1u << 20);
+  within_bounds(
+      256 << 20,
+      [&] {
+        EXPECT_THAT(
+            input_error([&] { decode_image(large, "large.png"); }),
+            HasSubstr("large.png: an image of 10000 x 10000 would take more than the 256 MB"));
+      },
+      "large");
+  const Bytes beyond = fuzz::PngFixture{.width = 60000, .height = 60000, .rows = "x"}.bytes();
+  EXPECT_THAT(input_error([&] { decode_image(beyond, "beyond.png"); }),
+              HasSubstr("60000 x 60000 pixels is beyond what we read"));
+}
+
+TEST(HostileBombs, ManyPicturesInOneScene) {
+  // Each would fit; a hundred do not.
+  const Bytes picture =
+      fuzz::PngFixture{
+          .width = 1000, .height = 1000, .color_type = 0, .rows = std::string(1001u * 1000u, '\0')}
+          .bytes();
+  const TemporaryFolder folder;
+  testing::write_bytes(folder / "a.png", picture);
+  nlohmann::json gltf = nlohmann::json::parse(R"({"asset": {"version": "2.0"},
+    "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "accessors": [{"componentType": 5126, "count": 3, "type": "VEC3"},
+                  {"componentType": 5126, "count": 3, "type": "VEC2"}]})");
+  for (int i = 0; i < 100; ++i) {
+    gltf["images"].push_back({{"uri", "a.png"}});
+    gltf["textures"].push_back({{"source", i}});
+    gltf["materials"].push_back({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", i}}}}}});
+    gltf["meshes"][0]["primitives"].push_back(
+        {{"attributes", {{"POSITION", 0}, {"TEXCOORD_0", 1}}}, {"material", i}});
+  }
+  testing::write_text(folder / "a.gltf", gltf.dump());
+  within_bounds(
+      64 << 20,
+      [&] {
+        EXPECT_THAT(input_error([&] { read_scene(folder / "a.gltf"); }),
+                    AllOf(HasSubstr("a.gltf: images["), HasSubstr("--max-memory changes that")));
+      },
+      "a hundred");
+}
+
+TEST(HostileBombs, AnArchiveThatInflatesBeyondItsSizes) {
+  const std::string zeros(256 << 20, '\0');
+  const std::string packed = testing::ZipFixture::deflated(zeros);
+  EXPECT_LT(packed.size(), 1u << 20);
+  // Says what it holds, says less, and says more than deflate can.
+  for (const std::uint64_t claimed :
+       {std::uint64_t(zeros.size()), std::uint64_t(1000), std::uint64_t(0x7fffffff)}) {
+    testing::ZipFixture zip;
+    zip.entries.push_back({"a/data.pkl", zeros, true});
+    std::string bytes = zip.bytes();
+    const auto size = std::uint32_t(claimed);
+    const std::size_t directory = bytes.rfind(std::string("PK\1\2"));
+    std::memcpy(&bytes[directory + 24], &size, sizeof size);
+    within_bounds(
+        64 << 20,
+        [&] {
+          EXPECT_NE(input_error([&] {
+                      read_checkpoint(Input::memory("bomb.pt", std::as_bytes(std::span(bytes))));
+                    }),
+                    "")
+              << claimed;
+        },
+        "an archive");
+  }
+}
+
+TEST(HostileBombs, PicklesThatDoubleThemselves) {
+  // A list of two of the list before, forty times over: 2^40 elements for whoever walks it.
+  testing::PickleFixture pickle;
+  pickle.op("]q").op(std::string(1, '\0'));
+  for (int i = 1; i < 40; ++i) {
+    pickle.op("](h").op(std::string(1, char(i - 1))).op("h").op(std::string(1, char(i - 1)));
+    pickle.op("eq").op(std::string(1, char(i)));
+  }
+  // All lie on the stack; the pickle is refused for that, or read without being walked.
+  within_bounds(
+      1 << 20, [&] { input_error([&] { fuzz::pickle(bytes_of(pickle.done())); }); },
+      "billion laughs");
+}
+
+// ---- JSON
+
+struct JsonReader {
+  const char* name;
+  void (*read)(const std::string& text, const fs::path& folder);
+};
+
+void read_in_folder(const fs::path& folder, const fuzz::FolderFiles& files, const char* name,
+                    const std::string& text) {
+  for (const auto& [file, bytes] : files) testing::write_bytes(folder / file, bytes);
+  testing::write_text(folder / name, text);
+  read_scene(folder);
+}
+
+const std::array<JsonReader, 10> json_readers{{
+    {"cameras", [](const std::string& text, const fs::path&) { fuzz::cameras(bytes_of(text)); }},
+    {"path", [](const std::string& text, const fs::path&) { fuzz::camera_path(bytes_of(text)); }},
+    {"session", [](const std::string& text, const fs::path&) { fuzz::session(bytes_of(text)); }},
+    {"transforms",
+     [](const std::string& text, const fs::path&) { fuzz::transforms(bytes_of(text)); }},
+    {"gltf", [](const std::string& text, const fs::path&) { fuzz::gltf(bytes_of(text)); }},
+    {"glb",
+     [](const std::string& text, const fs::path&) {
+       std::string padded = text;
+       padded.append((4 - padded.size() % 4) % 4, ' ');
+       const std::uint32_t head[] = {0x46546C67, 2, std::uint32_t(20 + padded.size()),
+                                     std::uint32_t(padded.size()), 0x4E4F534A};
+       Bytes bytes(sizeof head + padded.size());
+       std::memcpy(bytes.data(), head, sizeof head);
+       std::memcpy(bytes.data() + sizeof head, padded.data(), padded.size());
+       fuzz::gltf(bytes);
+     }},
+    {"meta.json",
+     [](const std::string& text, const fs::path& folder) {
+       read_in_folder(folder, fuzz::diffsoup_files(), "meta.json", text);
+     }},
+    {"mlp_weights.json",
+     [](const std::string& text, const fs::path& folder) {
+       read_in_folder(folder, fuzz::diffsoup_files(), "mlp_weights.json", text);
+     }},
+    {"mlp.json",
+     [](const std::string& text, const fs::path& folder) {
+       read_in_folder(folder, fuzz::mobilenerf_files(), "mlp.json", text);
+     }},
+    {"small files",
+     [](const std::string& text, const fs::path&) {
+       Input input = testing::input_of(text, "a.json");
+       read_json(input, RepeatedKeys::refused);
+     }},
+}};
+
+/// {"asset": {"version": "2.0"}, "extras": [[[..]]]}, which any reader takes for what it reads.
+std::string nested(int depth, char open, char close) {
+  std::string text = R"({"asset": {"version": "2.0"}, "extras": )";
+  for (int i = 0; i < depth; ++i)
+    text += open == '{' ? std::string("{\"a\":") : std::string(1, open);
+  text += "1" + std::string(std::size_t(depth), close) + "}";
+  return text;
+}
+
+TEST(HostileJson, NestedDeeperThanOurLimitIsRefusedEverywhere) {
+  for (const JsonReader& reader : json_readers)
+    for (const auto& [open, close] : {std::pair('[', ']'), std::pair('{', '}')}) {
+      const TemporaryFolder folder;
+      SCOPED_TRACE(reader.name);
+      for (const int depth : {64, 65, 1000, 1000000}) {
+        within_bounds(
+            default_max_memory,
+            [&] {
+              EXPECT_THAT(
+                  input_error([&] { reader.read(nested(depth, open, close), folder / ""); }),
+                  AllOf(HasSubstr("JSON nested deeper than 64 levels"), HasSubstr("byte")));
+            },
+            "depth");
+      }
+      // One less is not refused for its depth.
+      EXPECT_THAT(input_error([&] { reader.read(nested(63, open, close), folder / ""); }),
+                  ::testing::Not(HasSubstr("nested deeper")));
+    }
+}
+
+TEST(HostileJson, OfMoreValuesThanMemoryIsRefusedBeforeItIsParsed) {
+  std::string text = R"({"asset": {"version": "2.0"}, "materials": [)";
+  for (int i = 0; i < 1000000; ++i) text += i ? ",{}" : "{}";
+  text += "]}";
+  within_bounds(
+      64 << 20,
+      [&] {
+        EXPECT_THAT(input_error([&] { fuzz::gltf(bytes_of(text)); }),
+                    HasSubstr("the JSON would take more than the 64 MB"));
+      },
+      "materials");
+}
+
+TEST(HostileJson, NumbersThatNoDoubleHoldsAreRefused) {
+  for (const JsonReader& reader : json_readers) {
+    const TemporaryFolder folder;
+    EXPECT_NE(input_error([&] { reader.read("{\"frames\": [1e999]}", folder / ""); }), "")
+        << reader.name;
+    EXPECT_NE(input_error([&] { reader.read("{\"frames\": [-1e999}", folder / ""); }), "")
+        << reader.name;
+  }
+}
+
+// ---- Names
+
+/// Tells whether a file was opened while this lives.
+class Tripwire {
+ public:
+  explicit Tripwire(const fs::path& file) : queue_(inotify_init1(IN_NONBLOCK)) {
+    EXPECT_GE(queue_, 0);
+    EXPECT_GE(inotify_add_watch(queue_, file.c_str(), IN_OPEN | IN_ACCESS), 0);
+  }
+  Tripwire(const Tripwire&) = delete;
+  Tripwire& operator=(const Tripwire&) = delete;
+  ~Tripwire() { close(queue_); }
+
+  bool was_opened() const {
+    char events[4096];
+    return read(queue_, events, sizeof events) > 0;
+  }
+
+ private:
+  int queue_;
+};
+
+TEST(Tripwire, TellsOfAFileThatIsOpened) {
+  const TemporaryFolder folder;
+  testing::write_text(folder / "a", "text");
+  const Tripwire wire(folder / "a");
+  EXPECT_FALSE(wire.was_opened());
+  Input::open(folder / "a").read_rest();
+  EXPECT_TRUE(wire.was_opened());
+}
+
+std::string gltf_with_uri(const std::string& list, const std::string& uri) {
+  auto json = nlohmann::json::parse(R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
+    "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}],
+    "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+    "textures": [{"source": 0}], "images": [{"uri": "inside.png"}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+                  {"componentType": 5126, "count": 3, "type": "VEC2"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri": "inside.bin"}]})");
+  json[list][0]["uri"] = uri;
+  return json.dump();
+}
+
+class HostileNames : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    testing::write_picture(folder / "outside.png", testing::a_picture(8, 6));
+    testing::write_bytes(folder / "outside.bin", Bytes(36));
+    testing::write_picture(folder / "scene/inside.png", testing::a_picture(8, 6));
+    testing::write_bytes(folder / "scene/inside.bin", Bytes(36));
+    fs::create_symlink(folder / "outside.png", folder / "scene/link.png");
+    fs::create_symlink(folder / "outside.bin", folder / "scene/link.bin");
+    fs::create_symlink(folder / "", folder / "scene/up");
+  }
+  TemporaryFolder folder;
+};
+
+TEST_F(HostileNames, OfAGltfDoNotLeadOutOfItsFolder) {
+  const Tripwire picture(folder / "outside.png"), bytes(folder / "outside.bin");
+  testing::write_text(folder / "scene/a.gltf", gltf_with_uri("images", "inside.png"));
+  EXPECT_EQ(input_error([&] { read_scene(folder / "scene/a.gltf"); }), "");
+  for (const auto& [list, extension] : {std::pair("images", ".png"), std::pair("buffers", ".bin")})
+    for (const std::string& name :
+         {std::string("../outside"), std::string("x/../../outside"), std::string("%2e%2e/outside"),
+          std::string("..\\outside"), (folder / "outside").string(),
+          "file://" + (folder / "outside").string(), std::string("link"), std::string("up/outside"),
+          std::string("up/scene/../outside")}) {
+      testing::write_text(folder / "scene/a.gltf", gltf_with_uri(list, name + extension));
+      EXPECT_THAT(input_error([&] { read_scene(folder / "scene/a.gltf"); }),
+                  AllOf(HasSubstr("a.gltf"), HasSubstr(list)))
+          << name;
+    }
+  EXPECT_FALSE(picture.was_opened());
+  EXPECT_FALSE(bytes.was_opened());
+}
+
+TEST_F(HostileNames, OfAFolderOfFixedNamesDoNotLeadOutOfIt) {
+  const auto lead_out = [&](const fuzz::FolderFiles& files) {
+    for (const auto& [name, content] : files) {
+      fs::remove_all(folder / "fixed");
+      for (const auto& [file, bytes] : files)
+        testing::write_bytes(folder / ("fixed/" + file), bytes);
+      EXPECT_EQ(input_error([&] { read_scene(folder / "fixed"); }), "");
+      testing::write_bytes(folder / "elsewhere", content);
+      fs::remove(folder / ("fixed/" + name));
+      fs::create_symlink("../elsewhere", folder / ("fixed/" + name));
+      const Tripwire wire(folder / "elsewhere");
+      EXPECT_THAT(input_error([&] { read_scene(folder / "fixed"); }),
+                  HasSubstr("is a link that leads out of the scene's folder"))
+          << name;
+      EXPECT_FALSE(wire.was_opened()) << name;
+      // A link within the folder is as good as a file.
+      testing::write_bytes(folder / "fixed/other", content);
+      fs::remove(folder / ("fixed/" + name));
+      fs::create_symlink("other", folder / ("fixed/" + name));
+      EXPECT_EQ(input_error([&] { read_scene(folder / "fixed"); }), "") << name;
+    }
+  };
+  lead_out(fuzz::diffsoup_files());
+  lead_out(fuzz::mobilenerf_files());
+}
+
+TEST_F(HostileNames, OfPhotographsDoNotLeadOutOfTheDataset) {
+  const Tripwire picture(folder / "outside.png");
+  for (const char* name : {"../outside.png", "x/../../outside.png", "link.png", "up/outside.png"}) {
+    const std::string frame = std::string(R"({"file_path": ")") + name + R"(",
+      "transform_matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,2],[0,0,0,1]]})";
+    testing::write_text(folder / "scene/transforms.json",
+                        R"({"camera_angle_x": 0.7, "frames": [)" + frame + "," + frame + "]}");
+    EXPECT_THAT(input_error([&] { read_dataset(folder / "scene"); }),
+                AllOf(HasSubstr("transforms.json"), HasSubstr("leads out of the scene's folder")))
+        << name;
+    fs::remove(folder / "scene/transforms.json");
+    testing::ColmapFixture model = testing::upright_colmap(2);
+    for (auto& image : model.images) image.name = std::string("../") + name;
+    testing::write_text(folder / "scene/sparse/0", model);
+    fs::create_directories(folder / "scene/images");
+    EXPECT_THAT(input_error([&] { read_dataset(folder / "scene"); }),
+                HasSubstr("leads out of the scene's folder"));
+    fs::remove_all(folder / "scene/sparse");
+  }
+  EXPECT_FALSE(picture.was_opened());
+}
+
+TEST_F(HostileNames, ThatAreNotUtf8EndInAnErrorOrAreReadAsTheyAre) {
+  const std::string odd = "\xff\xfe\xc3(.off";
+  testing::write_text(folder / odd, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  EXPECT_EQ(testing::soup_of(read_scene(folder / odd)).triangles.size(), 1u);
+  testing::write_text(folder / odd, "OFF\n3 1 0\n");
+  EXPECT_THAT(input_error([&] { read_scene(folder / odd); }), HasSubstr(odd));
+  // In JSON they are no JSON.
+  testing::write_text(folder / "scene/a.gltf",
+                      "{\"asset\": {\"version\": \"2.0\"}, \"images\": [{\"uri\": \"\xff.png\"}]}");
+  EXPECT_THAT(input_error([&] { read_scene(folder / "scene/a.gltf"); }),
+              HasSubstr("not valid JSON"));
+  // COLMAP's names are bytes.
+  testing::ColmapFixture model = testing::upright_colmap(2);
+  model.images[0].name = "\xff\xfe.png";
+  testing::write_binary(folder / "scene/sparse/0", model);
+  for (const std::string& name : {model.images[0].name, model.images[1].name})
+    testing::write_picture(folder / ("scene/images/" + name), testing::a_picture(8, 6));
+  const Dataset dataset = read_dataset(folder / "scene");
+  EXPECT_EQ(dataset.test.size() + dataset.train.size(), 2u);
+  cameras_to_json(std::array{dataset.train[0].camera, dataset.test[0].camera});
+  // A name of 5000 letters, of which the message shows some.
+  testing::write_text(folder / "long.ply", "ply\nformat ascii 1.0\nelement " +
+                                               std::string(5000, '\xff') + " 1 1\nend_header\n");
+  EXPECT_LT(input_error([&] { read_scene(folder / "long.ply"); }).size(), 1000u);
+}
+
+}  // namespace
+}  // namespace tureen

@@ -1,0 +1,21 @@
+// A limit on what reading may take, while a test lasts.
+#pragma once
+
+#include <cstdint>
+
+#include "formats/memory_budget.hpp"
+
+namespace tureen::testing {
+
+class MemoryLimit {
+ public:
+  explicit MemoryLimit(std::uint64_t bytes) { set_max_memory(bytes); }
+  MemoryLimit(const MemoryLimit&) = delete;
+  MemoryLimit& operator=(const MemoryLimit&) = delete;
+  ~MemoryLimit() { set_max_memory(before_); }
+
+ private:
+  const std::uint64_t before_ = max_memory();
+};
+
+}  // namespace tureen::testing

@@ -1,0 +1,12 @@
+// A camera path of ours.
+#include "formats/camera_file.hpp"
+#include "fuzz/targets.hpp"
+
+namespace tureen::fuzz {
+
+void camera_path(Bytes bytes) {
+  Input input = Input::memory("fuzz.json", bytes);
+  path_to_json(read_path(input));
+}
+
+}  // namespace tureen::fuzz

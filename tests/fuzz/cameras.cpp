@@ -1,0 +1,12 @@
+// Camera files in JSON: ours, transforms.json, and that of 3D Gaussian Splatting.
+#include "formats/camera_file.hpp"
+#include "fuzz/targets.hpp"
+
+namespace tureen::fuzz {
+
+void cameras(Bytes bytes) {
+  Input input = Input::memory("fuzz.json", bytes);
+  cameras_to_json(read_cameras(input).cameras);
+}
+
+}  // namespace tureen::fuzz

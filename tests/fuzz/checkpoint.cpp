@@ -1,0 +1,10 @@
+// A checkpoint by torch: the zip archive, the pickle in it, its tensors.
+#include "formats/checkpoint.hpp"
+
+#include "fuzz/scratch.hpp"
+
+namespace tureen::fuzz {
+
+void checkpoint(Bytes bytes) { require_whole(read_checkpoint(Input::memory("fuzz.pt", bytes))); }
+
+}  // namespace tureen::fuzz

@@ -1,0 +1,22 @@
+// COLMAP's binary files. The first byte says which of the three.
+#include "formats/colmap.hpp"
+#include "fuzz/targets.hpp"
+
+namespace tureen::fuzz {
+
+void colmap_binary(Bytes bytes) {
+  if (bytes.empty()) return;
+  Input input = Input::memory("fuzz.bin", bytes.subspan(1));
+  switch (std::to_integer<int>(bytes[0]) % 3) {
+    case 0:
+      read_colmap_cameras_binary(input);
+      return;
+    case 1:
+      read_colmap_images_binary(input);
+      return;
+    default:
+      read_colmap_points_binary(input);
+  }
+}
+
+}  // namespace tureen::fuzz

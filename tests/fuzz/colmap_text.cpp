@@ -1,0 +1,22 @@
+// COLMAP's text files. The first byte says which of the three.
+#include "formats/colmap.hpp"
+#include "fuzz/targets.hpp"
+
+namespace tureen::fuzz {
+
+void colmap_text(Bytes bytes) {
+  if (bytes.empty()) return;
+  Input input = Input::memory("fuzz.txt", bytes.subspan(1));
+  switch (std::to_integer<int>(bytes[0]) % 3) {
+    case 0:
+      read_colmap_cameras_text(input);
+      return;
+    case 1:
+      read_colmap_images_text(input);
+      return;
+    default:
+      read_colmap_points_text(input);
+  }
+}
+
+}  // namespace tureen::fuzz

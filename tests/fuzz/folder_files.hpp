@@ -1,0 +1,34 @@
+// Valid files of the formats that are folders.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fuzz/scratch.hpp"
+
+namespace tureen::fuzz {
+
+/// Names and contents.
+using FolderFiles = std::vector<std::pair<std::string, std::vector<std::byte>>>;
+
+FolderFiles diffsoup_files();
+FolderFiles mobilenerf_files();
+
+/// All of them in a folder, but for one, which holds something else.
+class ScratchFiles {
+ public:
+  ScratchFiles(const std::string& name, FolderFiles valid);
+
+  const std::filesystem::path& folder() const { return scratch_.folder(); }
+  /// From now on it is file `index`, modulo the number of files, that holds `bytes`.
+  void replace(std::size_t index, Bytes bytes);
+
+ private:
+  Scratch scratch_;
+  FolderFiles valid_;
+  std::size_t replaced_ = 0;
+};
+
+}  // namespace tureen::fuzz

@@ -1,0 +1,14 @@
+// A .glb or .gltf: ours with all its kinds, and everybody else's.
+#include "formats/gltf.hpp"
+
+#include "fuzz/scratch.hpp"
+
+namespace tureen::fuzz {
+
+void gltf(Bytes bytes) {
+  static const Scratch empty("gltf");
+  Input input = Input::memory("fuzz.glb", bytes);
+  require_whole(read_gltf_or_glb(input, empty.folder()));
+}
+
+}  // namespace tureen::fuzz

@@ -1,0 +1,17 @@
+// One file of a MobileNeRF scene beside valid others; the first byte says which.
+#include "formats/mobilenerf.hpp"
+
+#include "fuzz/folder_files.hpp"
+#include "fuzz/scratch.hpp"
+
+namespace tureen::fuzz {
+
+void mobilenerf(Bytes bytes) {
+  if (bytes.empty()) return;
+  static ScratchFiles files("mobilenerf", mobilenerf_files());
+  files.replace(std::to_integer<std::size_t>(bytes[0]), bytes.subspan(1));
+  is_mobilenerf(files.folder());
+  require_whole(read_mobilenerf(files.folder()));
+}
+
+}  // namespace tureen::fuzz

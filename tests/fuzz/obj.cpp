@@ -1,0 +1,13 @@
+// The OBJ of a MobileNeRF shape.
+#include "formats/obj.hpp"
+
+#include "fuzz/targets.hpp"
+
+namespace tureen::fuzz {
+
+void obj(Bytes bytes) {
+  Input input = Input::memory("fuzz.obj", bytes);
+  read_obj(input);
+}
+
+}  // namespace tureen::fuzz

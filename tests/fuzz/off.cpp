@@ -1,0 +1,13 @@
+// An OFF or COFF.
+#include "formats/off.hpp"
+
+#include "fuzz/scratch.hpp"
+
+namespace tureen::fuzz {
+
+void off(Bytes bytes) {
+  Input input = Input::memory("fuzz.off", bytes);
+  require_whole(read_off(input));
+}
+
+}  // namespace tureen::fuzz

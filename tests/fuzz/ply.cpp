@@ -1,0 +1,13 @@
+// A PLY, text or binary of either byte order.
+#include "formats/ply.hpp"
+
+#include "fuzz/scratch.hpp"
+
+namespace tureen::fuzz {
+
+void ply(Bytes bytes) {
+  Input input = Input::memory("fuzz.ply", bytes);
+  require_whole(read_ply(input));
+}
+
+}  // namespace tureen::fuzz

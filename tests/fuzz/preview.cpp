@@ -1,0 +1,12 @@
+// The first bytes of a GLB of ours, while it arrives.
+#include "formats/tureen_glb_preview.hpp"
+#include "fuzz/scratch.hpp"
+
+namespace tureen::fuzz {
+
+void preview(Bytes bytes) {
+  tureen_glb_preview_size(bytes, "fuzz.glb");
+  if (const auto scene = read_tureen_glb_preview(bytes, "fuzz.glb")) require_whole(*scene);
+}
+
+}  // namespace tureen::fuzz

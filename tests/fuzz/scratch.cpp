@@ -1,0 +1,41 @@
+#include "fuzz/scratch.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+
+namespace tureen::fuzz {
+
+namespace fs = std::filesystem;
+
+void require_whole(const Scene& scene) {
+  const auto* soup = std::get_if<TriangleSoup>(&scene.primitives);
+  const auto reason = soup ? defect(*soup) : std::nullopt;
+  if (!reason) return;
+  std::fprintf(stderr, "a reader made a scene with a defect: %s\n", reason->c_str());
+  std::abort();
+}
+
+Scratch::Scratch(const std::string& name)
+    : folder_(fs::temp_directory_path() / ("tureen_fuzz_" + name + std::to_string(getpid()))) {
+  fs::remove_all(folder_);
+  fs::create_directories(folder_);
+}
+
+Scratch::~Scratch() {
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+}
+
+void Scratch::write(const std::string& name, Bytes bytes) const {
+  write(name, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+void Scratch::write(const std::string& name, std::string_view text) const {
+  fs::create_directories((folder_ / name).parent_path());
+  std::ofstream(folder_ / name, std::ios::binary).write(text.data(), std::streamsize(text.size()));
+}
+
+}  // namespace tureen::fuzz

@@ -1,0 +1,14 @@
+// A session of the window.
+#include "viewer/session.hpp"
+
+#include "fuzz/scratch.hpp"
+
+namespace tureen::fuzz {
+
+void session(Bytes bytes) {
+  static const Scratch scratch("session");
+  scratch.write("session.json", bytes);
+  viewer::session_to_json(viewer::read_session(scratch.folder() / "session.json"));
+}
+
+}  // namespace tureen::fuzz

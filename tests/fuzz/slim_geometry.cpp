@@ -1,0 +1,14 @@
+// The coded triangles of a slim file. The first two bytes are the numbers of faces and vertices.
+#include "formats/slim_geometry.hpp"
+
+#include "fuzz/targets.hpp"
+
+namespace tureen::fuzz {
+
+void slim_geometry(Bytes bytes) {
+  if (bytes.size() < 2) return;
+  const auto count = [&](std::size_t i) { return std::to_integer<std::size_t>(bytes[i]); };
+  decode_slim_geometry(bytes.subspan(2), count(1), count(0), "fuzz.glb");
+}
+
+}  // namespace tureen::fuzz

@@ -1,0 +1,23 @@
+// A checkpoint of ours: a training run that can go on. The bytes stand before their checksum, which
+// no fuzzer would find.
+#include <zlib.h>
+
+#include <cstring>
+#include <vector>
+
+#include "fuzz/targets.hpp"
+#include "trainer/checkpoint.hpp"
+
+namespace tureen::fuzz {
+
+void training_checkpoint(Bytes bytes) {
+  const auto sum = std::uint32_t(
+      crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size())));
+  std::vector<std::byte> whole(bytes.begin(), bytes.end());
+  whole.resize(bytes.size() + sizeof sum);
+  std::memcpy(whole.data() + bytes.size(), &sum, sizeof sum);
+  Input input = Input::memory("fuzz.checkpoint", whole);
+  trainer::read_checkpoint(input);
+}
+
+}  // namespace tureen::fuzz

@@ -1,0 +1,16 @@
+// A dataset by its transforms.json, beside one picture.
+#include "formats/dataset.hpp"
+#include "formats/png.hpp"
+#include "fuzz/scratch.hpp"
+
+namespace tureen::fuzz {
+
+void transforms(Bytes bytes) {
+  static const Scratch scratch("transforms");
+  [[maybe_unused]] static const bool picture =
+      (scratch.write("a.png", encode_png(Image8(8, 6, glm::u8vec4(10, 20, 30, 255)))), true);
+  scratch.write("transforms.json", bytes);
+  read_dataset(scratch.folder());
+}
+
+}  // namespace tureen::fuzz

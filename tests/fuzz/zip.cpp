@@ -1,0 +1,14 @@
+// A zip archive and all that its entries hold.
+#include <algorithm>
+
+#include "formats/zip_archive.hpp"
+#include "fuzz/targets.hpp"
+
+namespace tureen::fuzz {
+
+void zip(Bytes bytes) {
+  ZipArchive archive(Input::memory("fuzz.zip", bytes));
+  for (const ZipEntry& entry : archive.entries()) archive.read_all(entry, 1 << 20);
+}
+
+}  // namespace tureen::fuzz
