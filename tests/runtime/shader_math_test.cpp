@@ -6,62 +6,17 @@
 #include <vector>
 
 #include "runtime/gl/api.hpp"
-#include "runtime/gl/program.hpp"
 #include "runtime/inspection.hpp"
-#include "runtime/shader_source.hpp"
-#include "runtime/targets.hpp"
 #include "runtime/texel_store.hpp"
 #include "soup/heat_map.hpp"
 #include "soup/lattice.hpp"
 #include "soup/spherical_harmonics.hpp"
 #include "support/contexts.hpp"
 #include "support/random.hpp"
+#include "support/shader_probe.hpp"
 
 namespace tureen::test {
 namespace {
-
-constexpr TargetFormat rgba32f{GL_RGBA32F, GL_RGBA, GL_FLOAT};
-
-/// Evaluates `vec4 probe(vec4 input)` of a shader text on the device for every input.
-class Probe {
- public:
-  Probe(gl::Api api, const std::string& text, const std::map<std::string, std::string>& constants)
-      : program_(assemble({.file = "full_screen.vert"}, api),
-                 assemble({.file = "probe",
-                           .constants = constants,
-                           .generated = {{"probe", text + main_text}}},
-                          api)) {}
-
-  std::vector<glm::vec4> run(const std::vector<glm::vec4>& inputs) const {
-    const int count = static_cast<int>(inputs.size());
-    gl::Texture source = make_target(rgba32f, count, 1);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, count, 1, GL_RGBA, GL_FLOAT, inputs.data());
-    const gl::Texture target = make_target(rgba32f, count, 1);
-    const gl::Framebuffer framebuffer = make_framebuffer({target.id()}, 0);
-    const gl::VertexArray nothing = gl::VertexArray::create();
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
-    glViewport(0, 0, count, 1);
-    glDisable(GL_DEPTH_TEST);
-    program_.use();
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, source.id());
-    program_.set("inputs", 0);
-    program_.set("background_depth", 0.0f);
-    glBindVertexArray(nothing.id());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    std::vector<glm::vec4> results(inputs.size());
-    glReadPixels(0, 0, count, 1, GL_RGBA, GL_FLOAT, results.data());
-    return results;
-  }
-
- private:
-  static constexpr const char* main_text =
-      "\nuniform sampler2D inputs;\n"
-      "layout(location = 0) out vec4 result;\n"
-      "void main() { result = probe(texelFetch(inputs, ivec2(int(gl_FragCoord.x), 0), 0)); }\n";
-
-  gl::Program program_;
-};
 
 class ShaderMath : public testing::TestWithParam<NamedContext> {
  protected:

@@ -1,0 +1,166 @@
+// Cameras at their extremes: the rows C1 to C4.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "numerics/recorder.hpp"
+#include "numerics/scenes.hpp"
+#include "runtime/clip_range.hpp"
+#include "support/agreement.hpp"
+#include "support/random.hpp"
+#include "support/random_soups.hpp"
+
+namespace tureen::test {
+namespace {
+
+struct Mismatch {
+  double fraction = 0, allowed = 0;
+};
+
+/// Pixels that device and oracle cover or name differently, and how many that may be: the
+/// catalogue's 1e-4 of the picture, and of the pixels at edges those that a rounding of
+/// `vertex_rounding` pixels may move an edge across, to either side.
+Mismatch mismatch(const TriangleSoup& soup, const Camera& camera, double vertex_rounding) {
+  const OracleImage expected = snapped_oracle(soup, glm::dvec3(0), camera);
+  const Agreement found = agreement(expected, draw(shared_context(), soup, glm::dvec3(0), camera));
+  std::size_t edges = 0;
+  for (int y = 0; y < camera.height; ++y)
+    for (int x = 0; x < camera.width; ++x) {
+      const std::size_t i = std::size_t(y) * std::size_t(camera.width) + std::size_t(x);
+      edges += (x > 0 && expected.face[i] != expected.face[i - 1]) ||
+               (y > 0 && expected.face[i] != expected.face[i - std::size_t(camera.width)]);
+    }
+  const double pixels = double(camera.width) * camera.height;
+  return {found.coverage_mismatch + found.face_mismatch,
+          1e-4 + 2 * vertex_rounding * double(edges) / pixels};
+}
+
+/// Roundings of a vertex on its way to the picture (G3), for an image coordinate of that size.
+double rounding_of(double pixels) { return (5 + 5 + std::sqrt(3.0)) * epsilon * pixels; }
+
+TEST(Numerics, C1_FieldsOfViewFromATenthTo179Degrees) {
+  Recorder recorder({.stressed = "fields of view: device against oracle",
+                     .parameter = "vertical field of view / degrees",
+                     .unit = "fraction of pixels that show another face"});
+  constexpr int width = 320, height = 240;
+  for (const double degrees : {0.1, 1.0, 10.0, 60.0, 120.0, 170.0, 179.0}) {
+    const double half = glm::radians(degrees) / 2;
+    // From where the unit ball fills the picture, or else from within it.
+    const double distance = std::max(1.1 / std::tan(half), 0.05);
+    Random random(1);
+    const Camera camera =
+        look_at(distance * random.direction(), {0, 0, 0}, {0, 0, 1}, 2 * half, width, height);
+    const TriangleSoup soup = random_soup(71, {.kind = Kind::lattice, .size = 0.2});
+    // A corner less the eye is rounded as the distance is large, and seen at that distance.
+    const double in_pixels = camera.fy * std::max(1.0, std::tan(half));
+    const Mismatch found = mismatch(soup, camera, rounding_of(in_pixels));
+    recorder.add({.at = degrees, .ours = found.fraction, .tolerance = found.allowed});
+  }
+}
+
+TEST(Numerics, C2_PrincipalPointsOutsideThePicture) {
+  Recorder recorder({.stressed = "principal points outside of the picture: device against oracle",
+                     .parameter = "its distance from the middle / widths",
+                     .unit = "fraction of pixels that show another face"});
+  constexpr int width = 320, height = 240;
+  const TriangleSoup soup = random_soup(72, {.kind = Kind::lattice, .size = 0.2});
+  for (const double widths : {0.0, 0.6, 1.0, 3.0, 10.0}) {
+    Camera camera = look_at({0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 0.7, width, height);
+    // The camera moves so that the soup stays in the middle: it is seen from the side.
+    const double shift = widths * width;
+    camera.cx += shift;
+    camera.view_from_world[3] += glm::dvec4(-shift / camera.fx * 4, 0, 0, 0);
+    const Mismatch found = mismatch(soup, camera, rounding_of(shift + width));
+    recorder.add({.at = widths, .ours = found.fraction, .tolerance = found.allowed});
+  }
+}
+
+// What lies far off the axis is far away and yet near in depth: planes of depth know only the axis.
+TEST(Numerics, C2b_WhatLiesFarOffTheAxisIsNotClipped) {
+  Recorder recorder({.stressed = "a plate at a depth of 5, far off the axis: device and oracle",
+                     .parameter = "angle off the axis / degrees",
+                     .unit = "of 1024 pixels missing or too many",
+                     .naive = "near by the distance to the eye"});
+  constexpr int side = 64;
+  for (const bool reversed : {true, false})
+    for (const double degrees : {0.0, 45.0, 70.0, 80.0, 85.0, 89.0, 89.9}) {
+      Camera camera = straight_camera(side, side, side);
+      const double off = 5 * std::tan(glm::radians(degrees));
+      // In the middle of the picture: 32 pixels of 64 both ways.
+      camera.cx -= camera.fx * off / 5;
+      const auto corner = [&](double x, double y) { return glm::vec3(off + x, y, -5); };
+      const double a = 1.25;
+      const TriangleSoup soup = soup_of({corner(-a, -a), corner(a, -a), corner(a, a),
+                                         corner(-a, -a), corner(a, a), corner(-a, a)});
+      const auto count = [&](const std::vector<std::uint32_t>& faces) {
+        return double(faces.size()) - double(std::count(faces.begin(), faces.end(), no_face));
+      };
+      const double device = count(faces_of_device(soup, camera, reversed));
+      const double in_oracle = count(faces_of_oracle(soup, camera));
+      const Bounds box = bounds(soup);
+      const double by_distance = 0.95 * (glm::length(box.centre()) - box.radius());
+      // Corners are floats of `off` and the principal point is as far away: their roundings move
+      // the borders of the plate, two of 32 pixels each.
+      const double moved = rounding_of(camera.fx * off / 5) + camera.fx / 5 * off * epsilon;
+      recorder.add({.at = degrees,
+                    .naive = by_distance > 5 ? 1024.0 : 0.0,
+                    .ours = std::abs(device - 1024) + std::abs(in_oracle - 1024),
+                    .tolerance = std::floor(moved + 0.5) * 4 * 32});
+    }
+}
+
+TEST(Numerics, C3_PicturesOfOnePixelAndOfOneRow) {
+  Recorder recorder({.stressed =
+                         "pictures of 1x1, 1x4096, 4096x1 and 16384x16 pixels: device against "
+                         "oracle",
+                     .parameter = "pixels",
+                     .unit = "fraction of pixels that show another face"});
+  struct Size {
+    int width, height;
+  };
+  for (const auto& [width, height] : {Size{1, 1}, Size{1, 4096}, Size{4096, 1}, Size{16384, 16}}) {
+    const Camera narrow = look_at({0.3, -0.2, 3}, {0, 0, 0}, {0, 1, 0}, 0.9, 100, 100);
+    // The very same picture on other pixels.
+    const Camera camera = resampled(narrow, width, height);
+    const TriangleSoup soup = random_soup(73, {.kind = Kind::lattice, .size = 0.3});
+    const Mismatch found =
+        mismatch(soup, camera, rounding_of(std::max(camera.width, camera.height)));
+    recorder.add(
+        {.at = double(width) * height, .ours = found.fraction, .tolerance = found.allowed});
+  }
+}
+
+TEST(Numerics, C4_SomethingVeryFarHidesNothingNear) {
+  Recorder recorder({.stressed = "one face very far away behind a scene of size 1 about the eye: "
+                                 "reversed depth",
+                     .parameter = "its distance / distance of what is near",
+                     .unit = "fraction of the pixels of what is near that are lost",
+                     .naive = "24 bits, near at a thousandth of the whole: the documented limit"});
+  constexpr int side = 64;
+  const Camera camera = straight_camera(side, side, side);
+  for (const float far : {1e1f, 1e3f, 1e5f, 1e6f, 1e7f, 1e8f}) {
+    const float a = 0.3f;
+    // At a distance of 1, around it, and the one that is far.
+    const std::vector<glm::vec3> corners = {{-a, -a, -1},       {a, -a, -1},       {0, a, -1},
+                                            {2, 2, 2},          {2, 1, 2},         {1, 2, 2},
+                                            {-far, -far, -far}, {far, -far, -far}, {0, far, -far}};
+    const TriangleSoup soup = soup_of(corners);
+    const auto near_face = [](const std::vector<std::uint32_t>& faces) {
+      return double(std::count(faces.begin(), faces.end(), 0u));
+    };
+    const double expected = near_face(faces_of_oracle(
+        soup_of(std::vector<glm::vec3>(corners.begin(), corners.begin() + 6)), camera));
+    ASSERT_GT(expected, 100);
+    const double ours = std::abs(near_face(faces_of_device(soup, camera)) - expected) +
+                        std::abs(near_face(faces_of_oracle(soup, camera)) - expected);
+    const double naive = std::abs(near_face(faces_of_device(soup, camera, false)) - expected);
+    recorder.add(
+        {.at = double(far), .naive = naive / expected, .ours = ours / expected, .tolerance = 0});
+  }
+}
+
+}  // namespace
+}  // namespace tureen::test

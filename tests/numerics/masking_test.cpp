@@ -1,0 +1,221 @@
+// Stochastic masking: the rows S1 to S5.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "numerics/recorder.hpp"
+#include "numerics/scenes.hpp"
+#include "support/random.hpp"
+#include "trainer/kernels/random.hpp"
+#include "trainer/kernels/score.hpp"
+#include "trainer/stages.hpp"
+
+namespace tureen::test {
+namespace {
+
+using trainer::kernels::FragmentRole;
+using trainer::kernels::logit_score;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+float logit_of(double alpha) {
+  return alpha <= 0 ? -200.0f : alpha >= 1 ? 200.0f : float(std::log(alpha / (1 - alpha)));
+}
+
+struct Moments {
+  double sum = 0, squares = 0;
+  int count = 0;
+  void add(double x) {
+    sum += x;
+    squares += x * x;
+    ++count;
+  }
+  double mean() const { return sum / count; }
+  double deviation() const { return std::sqrt(std::max(squares / count - mean() * mean(), 0.0)); }
+  double standard_error() const { return deviation() / std::sqrt(double(count)); }
+};
+
+TEST(Numerics, S1_TheScoreStaysBoundedForEveryOpacity) {
+  Recorder recorder({.stressed =
+                         "how much one draw's gradient by opacity scatters: the score by the "
+                         "logit, with the trainer's draws",
+                     .parameter = "1 - alpha",
+                     .unit = "standard deviation for a loss of 0 or 1",
+                     .naive = "the score by alpha, 1 / alpha and 1 / (1 - alpha)"});
+  constexpr int draws = 1 << 20;
+  for (const double alpha : {0.0, 1e-7, 0.1, 0.5, 0.9, 0.99, 0.999, 0.9999, 1 - 1e-7, 1.0}) {
+    const auto a = float(alpha);
+    Moments by_logit, by_alpha;
+    for (int i = 0; i < draws; ++i) {
+      // A loss of 1 where the fragment does not show: E = 1 - alpha, dE/dlogit = -alpha (1 -
+      // alpha).
+      const bool won = a >= trainer::kernels::uniform_draw(1, std::uint32_t(i), 0);
+      const double loss = won ? 0 : 1;
+      by_logit.add(loss * double(logit_score(won ? FragmentRole::winner : FragmentRole::in_front, a,
+                                             1.0f, a)));
+      by_alpha.add(loss * (won ? 1 / double(a) : -1 / (1 - double(a))));
+    }
+    const double truth = -double(a) * (1 - double(a));
+    // Draws are multiples of 2^-24: a probability is known to that. What happens less than once in
+    // all these draws is not seen.
+    EXPECT_NEAR(by_logit.mean(), truth, 4 * by_logit.standard_error() + 0x1p-24 + 1.0 / draws)
+        << alpha;
+    // With alpha within draws' resolution of 1 hardly any draw loses, and what scatters is not
+    // seen: its deviation is sqrt(1 / (1 - alpha) - 1) and infinite at 1.
+    const double expected = a < 1 ? std::sqrt(std::max(1 / (1 - double(a)) - 1, 0.0)) : infinity;
+    const double scatter = std::max(by_alpha.deviation(), expected);
+    // |score| <= 1, and so is the loss.
+    recorder.add({.at = std::max(1 - alpha, 1e-9),
+                  .naive = scatter,
+                  .ours = by_logit.deviation(),
+                  .tolerance = 1});
+  }
+}
+
+TEST(Numerics, S2_NothingShowsAtAnAlphaOfZero) {
+  Recorder recorder({.stressed = "draws that accept an alpha of 0, or refuse one of 1",
+                     .parameter = "draws",
+                     .unit = "wrong draws",
+                     .naive = "uniform numbers of [0, 1)"});
+  double ours = 0, naive = 0;
+  std::uint32_t next = 0;
+  for (const std::uint32_t draws : {1u << 20, 1u << 24, 1u << 26}) {
+    for (; next < draws; ++next) {
+      const float u = trainer::kernels::uniform_draw(2, next, 5);
+      ours += !(u > 0) + !(u <= 1);
+      naive += 0.0f >= u - 0x1p-24f;  // the same bits, without the one that is added
+    }
+    recorder.add({.at = double(draws), .naive = naive, .ours = ours, .tolerance = 0});
+  }
+}
+
+std::vector<glm::vec3> random_faces(Random& random, int count) {
+  std::vector<glm::vec3> corners;
+  for (int i = 0; i < count; ++i) {
+    const glm::dvec3 middle(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-4, -1.5));
+    for (int k = 0; k < 3; ++k) corners.emplace_back(middle + 0.5 * random.direction());
+  }
+  return corners;
+}
+
+TEST(Numerics, S3_DrawsDoNotDependOnTheOrderOfFragments) {
+  Recorder recorder({.stressed = "the same picture with its tiles and faces taken in another order",
+                     .parameter = "faces",
+                     .unit = "of 9216 pixels show another face",
+                     .naive = "a generator's numbers in the order of fragments"});
+  constexpr int side = 96;
+  const Camera camera = straight_camera(side, side, side);
+  Random random(3);
+  for (const int count : {10, 100, 1000}) {
+    const std::vector<glm::vec3> corners = random_faces(random, count);
+    const trainer::test::Faces faces(corners, 0.0f);
+    trainer::Picture forwards = trainer::test::make_picture(camera);
+    forwards.draw_key = trainer::kernels::draw_key(3, 1, 0);
+    trainer::Picture backwards = forwards;
+    faces.find(forwards, trainer::Masking::stochastic);
+    trainer::bin_faces(backwards, faces.model);
+    for (std::size_t tile = 0; tile + 1 < backwards.bin_begin.size(); ++tile)
+      std::reverse(backwards.bins.begin() + backwards.bin_begin[tile],
+                   backwards.bins.begin() + backwards.bin_begin[tile + 1]);
+    for (std::size_t tile = backwards.bin_begin.size() - 1; tile-- > 0;)
+      trainer::find_visible(backwards, tile, faces.store.alpha.data(), 0,
+                            trainer::Masking::stochastic);
+    double ours = 0;
+    for (std::size_t i = 0; i < forwards.visible.size(); ++i)
+      ours += forwards.visible[i].face != backwards.visible[i].face;
+    const auto by_generator = [&](bool reversed) {
+      Random generator(4);
+      std::vector<std::uint32_t> shown(side * side, no_face);
+      std::vector<float> nearest(side * side);
+      for (int i = 0; i < count; ++i) {
+        const auto face = std::uint32_t(reversed ? count - 1 - i : i);
+        trainer::kernels::for_each_fragment(
+            forwards.view, forwards.projected[face], {0, 0, side, side},
+            [&](const trainer::kernels::Fragment& f) {
+              const auto at = std::size_t(f.y * side + f.x);
+              if (!generator.chance(0.5) || f.inverse_depth <= nearest[at]) return;
+              nearest[at] = f.inverse_depth;
+              shown[at] = face;
+            });
+      }
+      return shown;
+    };
+    recorder.add({.at = double(count),
+                  .naive = differing(by_generator(false), by_generator(true)),
+                  .ours = ours,
+                  .tolerance = 0});
+  }
+}
+
+TEST(Numerics, S4_PixelsOfTheBackgroundTeachOpacity) {
+  Recorder recorder({.stressed = "the gradient by opacity where a loss is on the background alone",
+                     .parameter = "alpha",
+                     .unit = "relative error of the mean of 400 steps, in standard errors",
+                     .naive = "only fragments that show have a gradient"});
+  constexpr int side = 48, steps = 400;
+  for (const double alpha : {0.1, 0.5, 0.9}) {
+    trainer::test::Faces faces({{-9, -8, -2}, {9, -7, -2}, {0.5f, 12, -2.3f}}, logit_of(alpha));
+    std::vector<trainer::Picture> pictures{
+        trainer::test::make_picture(straight_camera(side, side, side / 2.0))};
+    trainer::Picture& picture = pictures[0];
+    Moments gradient, naive;
+    for (int step = 0; step < steps; ++step) {
+      picture.draw_key = trainer::kernels::draw_key(4, std::uint32_t(step), 0);
+      faces.find(picture, trainer::Masking::stochastic);
+      double winners = 0;
+      for (std::size_t i = 0; i < picture.visible.size(); ++i) {
+        const bool background = picture.visible[i].face == no_face;
+        picture.loss[i] = background ? 1.0f : 0.0f;
+        winners += background ? 0 : double(picture.loss[i]) / alpha;
+      }
+      faces.gather(pictures, 0);
+      double sum = 0;
+      for (std::size_t texel = 0; texel < 3; ++texel)
+        sum += faces.by_logit(0, texel, trainer::alpha_channel);
+      gradient.add(sum);
+      naive.add(winners);
+    }
+    // The three texels together: alpha's own derivative, of every pixel.
+    const double truth = -alpha * (1 - alpha) * side * side;
+    recorder.add({.at = alpha,
+                  .naive = std::abs(naive.mean() - truth) / gradient.standard_error(),
+                  .ours = std::abs(gradient.mean() - truth) / gradient.standard_error(),
+                  .tolerance = 4});
+  }
+}
+
+TEST(Numerics, S5_LossAndScoreShareTheirDraw) {
+  Recorder recorder({.stressed = "the mean gradient by opacity over many draws",
+                     .parameter = "alpha",
+                     .unit = "error in standard errors",
+                     .naive = "a loss of one draw with the score of another"});
+  constexpr int draws = 1 << 18;
+  for (const double alpha : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+    const auto a = float(alpha);
+    Moments same, other;
+    for (int i = 0; i < draws; ++i) {
+      const auto won = [&](std::uint32_t key) {
+        return a >= trainer::kernels::uniform_draw(key, std::uint32_t(i), 1);
+      };
+      const bool of_loss = won(5), of_another = won(6);
+      const double loss = of_loss ? 0.2 : 1.0;
+      const auto score = [&](bool w) {
+        return double(logit_score(w ? FragmentRole::winner : FragmentRole::in_front, a, 1.0f, a));
+      };
+      same.add(loss * score(of_loss));
+      other.add(loss * score(of_another));
+    }
+    const double truth = double(a) * (1 - double(a)) * (0.2 - 1.0);
+    recorder.add({.at = alpha,
+                  .naive = std::abs(other.mean() - truth) / other.standard_error(),
+                  .ours = std::abs(same.mean() - truth) / same.standard_error(),
+                  .tolerance = 4});
+  }
+}
+
+}  // namespace
+}  // namespace tureen::test

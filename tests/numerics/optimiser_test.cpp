@@ -1,0 +1,308 @@
+// The optimiser and the loss: the rows O1 to O7.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/mat3x3.hpp>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <vector>
+
+#include "numerics/recorder.hpp"
+#include "numerics/scenes.hpp"
+#include "support/random.hpp"
+#include "trainer/cpu/image_loss.hpp"
+#include "trainer/cuda/kernel.hpp"
+#include "trainer/kernels/adam.hpp"
+#include "trainer/kernels/image_loss.hpp"
+#include "trainer/trainer.hpp"
+
+namespace tureen::test {
+namespace {
+
+namespace kernels = trainer::kernels;
+
+const trainer::Config defaults;
+
+kernels::AdamStep step_at(double t, float rate = 1) {
+  return kernels::adam_step(rate, defaults.beta1, defaults.beta2, defaults.epsilon, t);
+}
+
+TEST(Numerics, O1_RestartedMomentsKick) {
+  Recorder recorder({.stressed =
+                         "the mean step of noise after the moments began again, against their "
+                         "steady state: what carrying moments over avoids",
+                     .parameter = "steps since",
+                     .unit = "steps of the rate beyond the steady state",
+                     .naive = "moments begin again at every resampling"});
+  Random random(1);
+  constexpr int trials = 2000, steady_from = 1000;
+  constexpr int shown[] = {1, 2, 10, 100};
+  std::vector<double> restarted(101), carried(101);
+  double steady = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    float value = 0, first = 0, second = 0, new_value = 0, new_first = 0, new_second = 0;
+    for (int t = 1; t <= steady_from + 100; ++t) {
+      const auto gradient = float(random.normal());
+      const float before = value;
+      kernels::adam(step_at(t), gradient, value, first, second);
+      if (t > steady_from - 100 && t <= steady_from)
+        steady += double(std::abs(value - before)) / (100.0 * trials);
+      if (t <= steady_from) continue;
+      const auto since = std::size_t(t - steady_from);
+      carried[since] += double(std::abs(value - before)) / trials;
+      const float new_before = new_value;
+      kernels::adam(step_at(double(since)), gradient, new_value, new_first, new_second);
+      restarted[since] += double(std::abs(new_value - new_before)) / trials;
+    }
+  }
+  for (const int since : shown) {
+    // One |step| deviates by at most as much as it is long, 0.2; the mean of 2000 by a 45th of it.
+    const double chance = 4 * 0.2 / std::sqrt(double(trials));
+    recorder.add({.at = double(since),
+                  .naive = std::abs(restarted[std::size_t(since)] - steady),
+                  .ours = std::abs(carried[std::size_t(since)] - steady),
+                  .tolerance = chance});
+  }
+}
+
+TEST(Numerics, O2_GradientsNextToNothingMoveNothing) {
+  Recorder recorder(
+      {.stressed = "gradients of next to nothing, the first step of Adam and VectorAdam",
+       .parameter = "gradient",
+       .unit = "step in rates",
+       .naive = "an epsilon of 1e-15"});
+  for (const float gradient : {1e-44f, 1e-30f, 1e-20f, 1e-16f, 1e-14f, 1e-12f}) {
+    float value = 0, first = 0, second = 0;
+    kernels::adam(step_at(1), gradient, value, first, second);
+    float vector[3] = {}, vector_first[3] = {}, vector_second = 0;
+    kernels::vector_adam(step_at(1), {gradient, 0, 0}, vector, vector_first, vector_second);
+    float naive = 0, naive_first = 0, naive_second = 0;
+    kernels::adam(kernels::adam_step(1, defaults.beta1, defaults.beta2, 1e-15f, 1), gradient, naive,
+                  naive_first, naive_second);
+    // Where the square is lost, what is left is gradient / epsilon; 1 - beta1 is known to 6e-7, and
+    // a first moment below the normal numbers to one of their steps.
+    recorder.add({.at = double(gradient),
+                  .naive = std::abs(double(naive)),
+                  .ours = std::max(std::abs(double(value)), std::abs(double(vector[0]))),
+                  .tolerance = double(gradient) / double(defaults.epsilon) * (1 + 1e-6) +
+                               double(std::numeric_limits<float>::denorm_min()) /
+                                   (1 - double(defaults.beta1)) / double(defaults.epsilon)});
+  }
+}
+
+/// Takes note of the rates that a Trainer asks for.
+class RatesBackend final : public trainer::Backend {
+ public:
+  explicit RatesBackend(std::vector<trainer::Rates>& rates) : rates_(rates) {}
+  std::string description() const override { return "notes"; }
+  void upload(const trainer::TrainingState& state) override {
+    state_ = state;
+    state_.errors.resize(state.model.faces());
+  }
+  void download(trainer::TrainingState& state) const override { state = state_; }
+  trainer::StepReport step(std::span<const std::uint32_t>, const trainer::Rates& rates) override {
+    rates_.push_back(rates);
+    ++state_.step;
+    return {};
+  }
+  trainer::StageTimes take_times() override { return {}; }
+  std::vector<std::uint64_t> visible_pixels(std::span<const Camera>) override {
+    return std::vector<std::uint64_t>(state_.model.faces(), 1);
+  }
+  std::vector<float> render(const Camera&) override { return {}; }
+
+ private:
+  std::vector<trainer::Rates>& rates_;
+  trainer::TrainingState state_;
+};
+
+trainer::TrainingState state_of_one_face() {
+  trainer::TrainingState state;
+  state.model.positions = {{-1, -1, -2}, {1, -1, -2}, {0, 1, -2}};
+  state.model.logits.assign(3 * trainer::channels, 0.0f);
+  state.moments.reset_faces(state.model);
+  return state;
+}
+
+TEST(Numerics, O3_RatesDecayToTheirEnd) {
+  Recorder recorder({.stressed = "the rate of the last step, which should be rate x decay",
+                     .parameter = "steps",
+                     .unit = "relative error",
+                     .naive = "a rate in floats multiplied step by step"});
+  for (const int steps : {1, 10, 1000, 100'000}) {
+    trainer::Config config;
+    config.steps = steps;
+    config.triangles = 1;
+    config.resample_every = steps + 1;
+    config.coarse_level = config.min_level = config.max_level = 0;
+    std::vector<trainer::TrainingView> views(1);
+    views[0].camera = straight_camera(8, 8, 8);
+    views[0].target.assign(3 * 64, 0);
+    std::vector<trainer::Rates> rates;
+    trainer::Trainer trainer(config, views, std::make_unique<RatesBackend>(rates),
+                             state_of_one_face());
+    while (!trainer.done()) trainer.step();
+    ASSERT_EQ(rates.size(), std::size_t(steps));
+    const double end = double(config.texture_rate) * double(config.decay);
+    float multiplied = config.texture_rate;
+    const float factor = std::pow(config.decay, 1.0f / float(steps));
+    for (int i = 0; i < steps; ++i) multiplied *= factor;
+    // The first step has decayed once already.
+    const double first = double(config.texture_rate) * std::pow(double(config.decay), 1.0 / steps);
+    // A double that becomes a float.
+    recorder.add({.at = double(steps),
+                  .naive = std::abs(double(multiplied) / end - 1),
+                  .ours = std::max(std::abs(double(rates.back().texture) / end - 1),
+                                   std::abs(double(rates.front().texture) / first - 1)),
+                  .tolerance = epsilon});
+  }
+}
+
+TEST(Numerics, O4_StepsTurnWithTheAxes) {
+  Recorder recorder({.stressed = "200 steps of a corner, in axes that are turned: VectorAdam",
+                     .parameter = "angle / degrees",
+                     .unit = "units, at steps of 0.01",
+                     .naive = "Adam, coordinate by coordinate"});
+  for (const double degrees : {1.0, 10.0, 37.0, 90.0, 179.0}) {
+    const glm::dmat3 turn(
+        glm::rotate(glm::dmat4(1.0), glm::radians(degrees), glm::normalize(glm::dvec3(1, 2, -3))));
+    Random random(4);
+    float value[3] = {}, first[3] = {}, second = 0;
+    float turned[3] = {}, turned_first[3] = {}, turned_second = 0;
+    float plain[2][3] = {}, plain_first[2][3] = {}, plain_second[2][3] = {};
+    double ours = 0, naive = 0, length = 0;
+    for (int t = 1; t <= 200; ++t) {
+      const glm::dvec3 g(random.normal() + 1, random.normal(), 0.01 * random.normal());
+      const glm::dvec3 h = turn * g;
+      const kernels::AdamStep step = step_at(t, 0.01f);
+      kernels::vector_adam(step, {float(g.x), float(g.y), float(g.z)}, value, first, second);
+      kernels::vector_adam(step, {float(h.x), float(h.y), float(h.z)}, turned, turned_first,
+                           turned_second);
+      for (int i = 0; i < 3; ++i) {
+        kernels::adam(step, float(g[i]), plain[0][i], plain_first[0][i], plain_second[0][i]);
+        kernels::adam(step, float(h[i]), plain[1][i], plain_first[1][i], plain_second[1][i]);
+      }
+      const auto off = [&](const float(&from)[3], const float(&to)[3]) {
+        return glm::length(turn * glm::dvec3(from[0], from[1], from[2]) -
+                           glm::dvec3(to[0], to[1], to[2]));
+      };
+      ours = worse(ours, off(value, turned));
+      naive = worse(naive, off(plain[0], plain[1]));
+      length += 0.01;
+    }
+    // A step of at most 0.01 has its gradient rounded, moments and a quotient, six roundings; the
+    // value, at most the way so far, is rounded once a step. Two trajectories, and roundings of
+    // either sign add up as the root of their number.
+    const double tolerance = 2 * std::sqrt(3.0) * std::sqrt(200.0) * (6 * 0.01 + length) * epsilon;
+    recorder.add({.at = degrees, .naive = naive, .ours = ours, .tolerance = tolerance});
+  }
+}
+
+TEST(Numerics, O6_SumsDoNotDependOnTheirOrder) {
+  Recorder recorder(
+      {.stressed = "a sum of gradients in two orders: fixed point of the CUDA backend",
+       .parameter = "terms",
+       .unit = "relative difference of the two",
+       .naive = "atomic additions of floats"});
+  Random random(6);
+  for (const int terms : {100, 10'000, 1'000'000}) {
+    std::vector<float> gradients;
+    for (int i = 0; i < terms; ++i)
+      gradients.push_back(float(1e-4 * random.normal() * std::pow(10.0, random.uniform(-4, 0))));
+    const auto fixed = [&](const std::vector<float>& values) {
+      trainer::cuda::Fixed sum = 0;
+      for (const float value : values)
+        sum += trainer::cuda::to_fixed(value, trainer::cuda::texture_scale);
+      return double(trainer::cuda::from_fixed(sum, trainer::cuda::texture_scale));
+    };
+    const auto in_floats = [](const std::vector<float>& values) {
+      float sum = 0;
+      for (const float value : values) sum += value;
+      return double(sum);
+    };
+    const double magnitude =
+        std::accumulate(gradients.begin(), gradients.end(), 0.0,
+                        [](double sum, float g) { return sum + std::abs(double(g)); });
+    std::vector<float> shuffled = gradients;
+    for (std::size_t i = shuffled.size(); i > 1; --i)
+      std::swap(shuffled[i - 1], shuffled[random.below(std::uint32_t(i))]);
+    recorder.add({.at = double(terms),
+                  .naive = std::abs(in_floats(gradients) - in_floats(shuffled)) / magnitude,
+                  .ours = std::abs(fixed(gradients) - fixed(shuffled)) / magnitude,
+                  .tolerance = 0});
+    // And it is the sum: a unit of the scale for each term, of which one is 2^-50.
+    const double truth = std::accumulate(gradients.begin(), gradients.end(), 0.0);
+    EXPECT_NEAR(fixed(gradients), truth, terms * 0x1p-50 + std::abs(truth) * epsilon);
+  }
+}
+
+TEST(Numerics, O7_FlatPicturesHaveNoNegativeVariance) {
+  Recorder recorder({.stressed =
+                         "1 - SSIM of flat pictures that differ by 1/255 in brightness: the "
+                         "loss in floats",
+                     .parameter = "brightness",
+                     .unit = "relative error",
+                     .naive = "E[x^2] - E[x]^2 of both pictures in floats"});
+  constexpr int side = 24;
+  for (const int level : {1, 32, 128, 200, 254}) {
+    std::vector<float> rendered(3 * side * side), gradient(3 * side * side);
+    // Brighter by a step, and by so little noise that its variance is lost in floats.
+    Random random(9000u + std::uint32_t(level));
+    std::vector<std::uint8_t> target(3 * side * side, std::uint8_t(level));
+    for (float& value : rendered) value = (float(level) + 1 + 1e-3f * float(random.normal())) / 255;
+    const auto loss_of = [&](auto number, std::vector<float>& from) {
+      using Real = decltype(number);
+      const std::vector<Real> colors(from.begin(), from.end());
+      std::vector<Real> by_color(from.size());
+      trainer::ImageLossScratch<Real> scratch;
+      trainer::ThreadPool pool(1);
+      return 2 * trainer::image_loss(trainer::ImageLossView<Real>{.width = side,
+                                                                  .height = side,
+                                                                  .rendered = colors,
+                                                                  .target = target,
+                                                                  .ignored = {},
+                                                                  .l1_weight = 0,
+                                                                  .ssim_weight = 1,
+                                                                  .gradient = by_color,
+                                                                  .pixel_loss = {}},
+                                     scratch, pool)
+                     .loss;
+    };
+    const double truth = loss_of(double(), rendered), ours = loss_of(float(), rendered);
+    // The definition, window by window.
+    double naive = 0;
+    int windows = 0;
+    constexpr float c1 = 1e-4f, c2 = 9e-4f;
+    for (int c = 0; c < 3; ++c)
+      for (int y = 0; y + 11 <= side; ++y)
+        for (int x = 0; x + 11 <= side; ++x) {
+          float a = 0, b = 0, aa = 0, bb = 0, ab = 0;
+          for (int j = 0; j < 11; ++j)
+            for (int i = 0; i < 11; ++i) {
+              const auto w = float(trainer::ssim_weight(std::abs(i - 5)) *
+                                   trainer::ssim_weight(std::abs(j - 5)));
+              const std::size_t at = std::size_t((c * side + y + j) * side + x + i);
+              const float p = rendered[at], q = float(target[at]) / 255;
+              a += w * p, b += w * q, aa += w * p * p, bb += w * q * q, ab += w * p * q;
+            }
+          naive += 1 - double((2 * a * b + c1) * (2 * (ab - a * b) + c2) /
+                              ((a * a + b * b + c1) * (aa - a * a + bb - b * b + c2)));
+          ++windows;
+        }
+    naive /= windows;
+    // d^2 of two means that differ by 1/255: a float's rounding of either, 6e-8 of at most 1, is
+    // 1.5e-5 of the difference, and three times that in the square of it and its sums of eleven
+    // and eleven weights.
+    recorder.add({.at = level / 255.0,
+                  .naive = std::abs(naive / truth - 1),
+                  .ours = std::abs(ours / truth - 1),
+                  .tolerance = 3 * 255 * epsilon});
+  }
+}
+
+}  // namespace
+}  // namespace tureen::test

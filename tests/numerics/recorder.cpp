@@ -1,0 +1,72 @@
+#include "numerics/recorder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace tureen::test {
+
+namespace {
+
+/// JSON has no infinity.
+nlohmann::json error_of(double value) {
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json("none");
+}
+
+}  // namespace
+
+Recorder::Recorder(Case what) : case_(std::move(what)) {}
+
+void Recorder::add(const Measurement& measured) {
+  EXPECT_TRUE(measured.ours <= measured.tolerance)
+      << case_.stressed << ", " << case_.parameter << " " << measured.at << ": the error is "
+      << measured.ours << " " << case_.unit << ", at most " << measured.tolerance << " is allowed";
+  EXPECT_EQ(measured.naive.has_value(), !case_.naive.empty()) << case_.stressed;
+  measurements_.push_back(measured);
+}
+
+Recorder::~Recorder() {
+  EXPECT_FALSE(measurements_.empty()) << case_.stressed << ": nothing was measured";
+  if (!case_.naive.empty()) {
+    EXPECT_TRUE(std::any_of(measurements_.begin(), measurements_.end(),
+                            [](const Measurement& m) { return !(*m.naive <= m.tolerance); }))
+        << case_.stressed << ": the naive form (" << case_.naive
+        << ") is nowhere worse than allowed";
+  }
+  write();
+}
+
+void Recorder::write() const {
+  const char* folder = std::getenv("TUREEN_NUMERICS");
+  if (!folder) return;
+  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  nlohmann::json points = nlohmann::json::array();
+  for (const Measurement& m : measurements_) {
+    nlohmann::json point = {
+        {"at", m.at}, {"ours", error_of(m.ours)}, {"tolerance", error_of(m.tolerance)}};
+    if (m.naive) point["naive"] = error_of(*m.naive);
+    points.push_back(std::move(point));
+  }
+  const nlohmann::json row = {{"test", test->name()},         {"stressed", case_.stressed},
+                              {"parameter", case_.parameter}, {"unit", case_.unit},
+                              {"naive", case_.naive},         {"passed", !test->result()->Failed()},
+                              {"points", std::move(points)}};
+  std::filesystem::create_directories(folder);
+  std::filesystem::path path;
+  int number = 0;
+  do {
+    path = std::filesystem::path(folder) /
+           (test->name() + (number ? "-" + std::to_string(number) : std::string()) + ".json");
+    ++number;
+  } while (std::filesystem::exists(path));
+  std::ofstream(path) << row.dump(1) << "\n";
+  EXPECT_TRUE(std::filesystem::exists(path)) << path;
+}
+
+}  // namespace tureen::test

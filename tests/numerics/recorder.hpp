@@ -1,0 +1,59 @@
+// What a test of numerics measures: a row of docs/numerics.md, and the assertion that goes with it.
+//
+// A case is one way in which numbers go wrong, stressed by one parameter. At each value of the
+// parameter stands the error of our form, the error that it may have, and, where the catalogue of
+// hazards names one, the error of the naive form. Our error must never exceed the tolerance; the
+// naive one must somewhere, or nothing would be lost by going back to it.
+//
+// `./dev numerics` sets TUREEN_NUMERICS to a folder, into which every case writes a file, named
+// after its test; numerics_report makes the page of them. Without it nothing is written.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tureen::test {
+
+/// The larger error; one that is no number is infinite. (std::max would lose it.)
+inline double worse(double a, double b) {
+  return std::isnan(a) || std::isnan(b) ? std::numeric_limits<double>::infinity() : std::max(a, b);
+}
+
+struct Case {
+  std::string stressed;    // in a few words: "vertices and eye far from the origin"
+  std::string parameter;   // the stress, with its unit: "offset / units"
+  std::string unit;        // of the errors: "pixels"
+  std::string naive = {};  // what the naive form does; empty where there is none
+};
+
+struct Measurement {
+  double at = 0;                     // the parameter
+  std::optional<double> naive = {};  // infinite where it gives no number at all
+  double ours = 0;
+  double tolerance = 0;
+};
+
+/// One case of the test that runs. Several in one test are told apart by their order.
+class Recorder {
+ public:
+  explicit Recorder(Case what);
+  /// Asserts that the naive form failed, where there is one, and writes the file.
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  /// Expects that `ours` is a number and at most the tolerance.
+  void add(const Measurement& measured);
+
+ private:
+  void write() const;
+
+  Case case_;
+  std::vector<Measurement> measurements_;
+};
+
+}  // namespace tureen::test

@@ -1,0 +1,399 @@
+// What may not change a picture, and scenes at scale: the rows H1 to H10 (the metamorphic relations
+// and the generator of section 11).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <numeric>
+#include <vector>
+
+#include "numerics/recorder.hpp"
+#include "numerics/scenes.hpp"
+#include "runtime/oracle/oracle.hpp"
+#include "soup/lattice.hpp"
+#include "support/agreement.hpp"
+#include "support/random.hpp"
+#include "support/random_soups.hpp"
+
+namespace tureen::test {
+namespace {
+
+constexpr int width = 240, height = 180;
+constexpr double pixels = double(width) * height;
+
+Drawn drawn(const TriangleSoup& soup, const Camera& camera, glm::dvec3 origin = glm::dvec3(0)) {
+  return draw(shared_context(), soup, origin, camera);
+}
+
+/// Fraction of pixels of which a channel differs by more than `steps` of 8 bits.
+double changed(const Image8& a, const Image8& b, int steps = 0) {
+  double count = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    bool other = false;
+    for (int c = 0; c < 3; ++c)
+      other = other || std::abs(int(a.pixels[i][c]) - int(b.pixels[i][c])) > steps;
+    count += other;
+  }
+  return count / double(a.pixels.size());
+}
+
+/// Fraction of pixels whose left or upper neighbour shows another face.
+double edges(const Drawn& picture) {
+  double count = 0;
+  for (int y = 1; y < height; ++y)
+    for (int x = 1; x < width; ++x) {
+      const std::size_t i = std::size_t(y) * width + std::size_t(x);
+      count +=
+          picture.faces[i] != picture.faces[i - 1] || picture.faces[i] != picture.faces[i - width];
+    }
+  return count / pixels;
+}
+
+/// Vertices on a grid of an eighth, so that shifts by powers of two up to 2^20 are exact.
+TriangleSoup on_a_grid(Kind kind) {
+  TriangleSoup soup = random_soup(81, {.kind = kind, .faces = 150, .size = 0.2, .level = 3});
+  for (glm::vec3& p : soup.positions) p = glm::round(p * 8.0f * 8.0f) / 8.0f;
+  return soup;
+}
+
+Camera camera_about(const glm::dvec3& middle, double scale) {
+  return look_at(middle + scale * glm::dvec3(19.5, 11.25, 7.625), middle, {0, 0, 1}, 0.8, width,
+                 height);
+}
+
+TEST(Numerics, H1_TranslatedPicturesAreTheSame) {
+  Recorder recorder({.stressed = "soup and camera moved by powers of two: whole pictures",
+                     .parameter = "offset / units",
+                     .unit = "fraction of pixels changed"});
+  for (int k = 0; k <= 20; k += 2) {
+    double ours = 0;
+    for (const Kind kind : {Kind::face_colors, Kind::lattice_mlp}) {
+      const TriangleSoup soup = on_a_grid(kind);
+      const glm::vec3 shift = std::ldexp(1.0f, k) * glm::vec3(1, -1, 1);
+      TriangleSoup moved = soup;
+      for (glm::vec3& p : moved.positions) p += shift;
+      // Everything is exact, so that every number on the way is the same.
+      const Camera before = camera_about({0, 0, 0}, 1);
+      Camera after = before;
+      after.view_from_world =
+          before.view_from_world * glm::translate(glm::dmat4(1), -glm::dvec3(shift));
+      ours = worse(ours, changed(drawn(soup, before).color, drawn(moved, after).color));
+    }
+    recorder.add({.at = std::ldexp(1.0, k), .ours = ours, .tolerance = 0});
+  }
+}
+
+TEST(Numerics, H1b_AnOriginMovesNothing) {
+  Recorder recorder({.stressed = "Scene::origin and camera moved together: whole pictures",
+                     .parameter = "offset / units",
+                     .unit = "fraction of pixels changed"});
+  const TriangleSoup soup = on_a_grid(Kind::lattice_mlp);
+  const Camera before = camera_about({0, 0, 0}, 1);
+  const Drawn expected = drawn(soup, before);
+  for (int k = 0; k <= 40; k += 8) {
+    const glm::dvec3 shift = std::ldexp(1.0, k) * glm::dvec3(1, -1, 1);
+    Camera after = before;
+    after.view_from_world = before.view_from_world * glm::translate(glm::dmat4(1), -shift);
+    // The camera's translation is three products of the offset, and so is the eye that is made of
+    // it: twelve roundings to doubles an axis, over a distance of 24. Then those of vertices.
+    const double moved = std::sqrt(3.0) * 12 * std::ldexp(1.0, k) * 0x1p-53 / 24 * before.fy;
+    const double vertex = (5 + 5 + std::sqrt(3.0)) * epsilon * height;
+    recorder.add({.at = std::ldexp(1.0, k),
+                  .ours = changed(expected.color, drawn(soup, after, shift).color, 1),
+                  .tolerance = 2 * (moved + vertex) * edges(expected) + 1 / pixels});
+  }
+}
+
+TEST(Numerics, H2_ScaledPicturesAreTheSame) {
+  Recorder recorder({.stressed = "soup and camera scaled by powers of two: whole pictures",
+                     .parameter = "scale",
+                     .unit = "fraction of pixels changed"});
+  for (const int k : {-20, -10, -3, 3, 10, 20}) {
+    double ours = 0;
+    for (const Kind kind : {Kind::vertex_colors, Kind::lattice_mlp, Kind::vertex_harmonics}) {
+      const TriangleSoup soup = on_a_grid(kind);
+      TriangleSoup scaled = soup;
+      const double scale = std::ldexp(1.0, k);
+      for (glm::vec3& p : scaled.positions) p *= float(scale);
+      const Camera before = camera_about({0, 0, 0}, 1);
+      Camera after = before;
+      after.view_from_world[3] = glm::dvec4(scale * glm::dvec3(before.view_from_world[3]), 1);
+      ours = worse(ours, changed(drawn(soup, before).color, drawn(scaled, after).color));
+    }
+    recorder.add({.at = std::ldexp(1.0, k), .ours = ours, .tolerance = 0});
+  }
+}
+
+TEST(Numerics, H3_TurnedPicturesAreTheSame) {
+  Recorder recorder({.stressed = "soup and camera turned together: whole pictures",
+                     .parameter = "angle / degrees",
+                     .unit = "fraction of pixels changed by more than a step of 8 bits"});
+  const TriangleSoup soup = on_a_grid(Kind::lattice);
+  const Camera before = camera_about({0, 0, 0}, 1);
+  const Drawn expected = drawn(soup, before);
+  for (const double degrees : {1.0, 30.0, 90.0, 137.0, 180.0}) {
+    const glm::dmat4 turn =
+        glm::rotate(glm::dmat4(1), glm::radians(degrees), glm::normalize(glm::dvec3(1, 2, -1.5)));
+    TriangleSoup turned = soup;
+    for (glm::vec3& p : turned.positions) p = glm::vec3(turn * glm::dvec4(p, 1));
+    Camera after = before;
+    after.view_from_world = before.view_from_world * glm::transpose(turn);
+    // Vertices are rounded anew, each axis by half a unit of 8, at a distance of 15 and more.
+    const double moved = std::sqrt(3.0) * 8 * epsilon / 15 * before.fy;
+    const double vertex = (5 + 5 + std::sqrt(3.0)) * epsilon * height;
+    recorder.add({.at = degrees,
+                  .ours = changed(expected.color, drawn(turned, after).color, 1),
+                  .tolerance = 1e-4 + 2 * (moved + vertex) * edges(expected)});
+  }
+}
+
+/// The faces in another order, with what they own.
+TriangleSoup permuted(const TriangleSoup& soup, const std::vector<std::uint32_t>& order) {
+  TriangleSoup result = soup;
+  for (std::size_t t = 0; t < order.size(); ++t) {
+    result.triangles[t] = soup.triangles[order[t]];
+    if (auto* texture = std::get_if<LatticeTexture>(&result.appearance))
+      texture->patches[t] = std::get<LatticeTexture>(soup.appearance).patches[order[t]];
+    if (auto* colors = std::get_if<FaceColors>(&result.appearance))
+      colors->rgba[t] = std::get<FaceColors>(soup.appearance).rgba[order[t]];
+  }
+  return result;
+}
+
+TEST(Numerics, H4_PermutedFacesMakeTheSamePicture) {
+  Recorder recorder({.stressed = "faces in another order: whole pictures",
+                     .parameter = "permutation",
+                     .unit = "fraction of pixels changed"});
+  Random random(4);
+  for (int trial = 1; trial <= 4; ++trial) {
+    double ours = 0;
+    for (const Kind kind : {Kind::face_colors, Kind::lattice_mlp}) {
+      // Off the grid, so that no two depths are the same.
+      const TriangleSoup soup = random_soup(84, {.kind = kind, .faces = 150, .size = 0.2});
+      const Camera camera = look_at({3, 1.5, 1}, {0, 0, 0}, {0, 0, 1}, 0.8, width, height);
+      std::vector<std::uint32_t> order(soup.triangles.size());
+      std::iota(order.begin(), order.end(), 0u);
+      for (std::size_t i = order.size(); i > 1; --i)
+        std::swap(order[i - 1], order[random.below(std::uint32_t(i))]);
+      ours = std::max(
+          ours, changed(drawn(soup, camera).color, drawn(permuted(soup, order), camera).color));
+    }
+    recorder.add({.at = double(trial), .ours = ours, .tolerance = 0});
+  }
+}
+
+/// Every face cut at its edges' midpoints into four, each with the quarter of the lattice that it
+/// covers, a level lower: the very same texels at the very same places.
+TriangleSoup split_in_four(const TriangleSoup& soup) {
+  const auto& from = std::get<LatticeTexture>(soup.appearance);
+  TriangleSoup result;
+  LatticeTexture to;
+  std::vector<float> texels;
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    const LatticePatch patch = from.patches[t];
+    const int n = lattice::resolution(int(patch.level)), half = n / 2;
+    // Corners of the four as (x, y) on the parent's lattice: those with weight 1 of vertex 0, 1, 2.
+    const std::array<std::array<glm::ivec2, 3>, 4> children = {
+        {{{{n, 0}, {half, half}, {half, 0}}},
+         {{{half, half}, {0, n}, {0, half}}},
+         {{{half, 0}, {0, half}, {0, 0}}},
+         {{{0, half}, {half, 0}, {half, half}}}}};
+    for (const auto& child : children) {
+      const auto first = std::uint32_t(result.positions.size());
+      for (const glm::ivec2& at : child) {
+        const double b0 = double(at.x) / n, b1 = double(at.y) / n;
+        const glm::uvec3& corners = soup.triangles[t];
+        result.positions.emplace_back(b0 * glm::dvec3(soup.positions[corners[0]]) +
+                                      b1 * glm::dvec3(soup.positions[corners[1]]) +
+                                      (1 - b0 - b1) * glm::dvec3(soup.positions[corners[2]]));
+      }
+      result.triangles.emplace_back(first, first + 1, first + 2);
+      to.patches.push_back(
+          {std::uint32_t(texels.size() / LatticeTexture::channels), patch.level - 1});
+      for (std::uint32_t i = 0; i < lattice::texel_count(int(patch.level) - 1); ++i) {
+        const auto [x, y] = lattice::texel_coordinates(i);
+        const glm::ivec2 at = (x * child[0] + y * child[1] + (half - x - y) * child[2]) / half;
+        const std::size_t texel = patch.first_texel + lattice::texel_index(at.x, at.y);
+        for (int c = 0; c < LatticeTexture::channels; ++c) texels.push_back(from.value(texel, c));
+      }
+    }
+  }
+  to.texels = texels;
+  to.mlp = from.mlp;
+  result.appearance = to;
+  return result;
+}
+
+TEST(Numerics, H5_SplitFacesShowTheSameTexture) {
+  Recorder recorder(
+      {.stressed = "faces split in four with the texels that they cover: whole pictures",
+       .parameter = "level before",
+       .unit = "fraction of pixels changed by more than a step of 8 bits"});
+  for (const int level : {1, 3, 5}) {
+    const TriangleSoup soup = random_soup(
+        85,
+        {.kind = Kind::lattice, .faces = 40, .size = 0.5, .level = level, .float_texels = true});
+    const Camera camera = look_at({4, 1.5, 1}, {0, 0, 0}, {0, 0, 1}, 0.8, width, height);
+    const Drawn before = drawn(soup, camera);
+    // Midpoints are snapped to 1/256 of a pixel: an outline is off by half of that at most, and a
+    // quarter in the mean. Alpha's own edges move by roundings alone.
+    recorder.add({.at = double(level),
+                  .ours = changed(before.color, drawn(split_in_four(soup), camera).color, 1),
+                  .tolerance = 1e-4 + edges(before) / 512});
+  }
+}
+
+TEST(Numerics, H6_TransparentDuplicatesChangeNothing) {
+  Recorder recorder({.stressed = "every face once more, before itself, with an alpha of 0: whole "
+                                 "pictures",
+                     .parameter = "faces",
+                     .unit = "fraction of pixels changed"});
+  for (const int faces : {20, 100, 400}) {
+    double ours = 0;
+    for (const Kind kind : {Kind::face_colors, Kind::lattice_mlp}) {
+      const TriangleSoup soup = random_soup(
+          86, {.kind = kind, .faces = faces, .size = 0.2, .level = 2, .float_texels = true});
+      TriangleSoup doubled = soup;
+      doubled.triangles.clear();
+      for (const glm::uvec3& triangle : soup.triangles)
+        doubled.triangles.insert(doubled.triangles.end(), 2, triangle);
+      if (auto* colors = std::get_if<FaceColors>(&doubled.appearance)) {
+        const std::vector<glm::vec4> rgba = colors->rgba;
+        colors->rgba.clear();
+        for (const glm::vec4& color : rgba)
+          colors->rgba.insert(colors->rgba.end(), {glm::vec4(1, 1, 1, 0), color});
+      } else {
+        auto& texture = std::get<LatticeTexture>(doubled.appearance);
+        const std::vector<LatticePatch> patches = texture.patches;
+        auto& texels = std::get<std::vector<float>>(texture.texels);
+        const auto transparent = std::uint32_t(texels.size() / LatticeTexture::channels);
+        for (std::uint32_t i = 0; i < lattice::texel_count(2); ++i)
+          for (int c = 0; c < LatticeTexture::channels; ++c)
+            texels.push_back(c == LatticeTexture::features ? 0.0f : 1.0f);
+        texture.patches.clear();
+        for (const LatticePatch& patch : patches)
+          texture.patches.insert(texture.patches.end(), {{transparent, 2}, patch});
+      }
+      const Camera camera = look_at({3, 1.5, 1}, {0, 0, 0}, {0, 0, 1}, 0.8, width, height);
+      ours = worse(ours, changed(drawn(soup, camera).color, drawn(doubled, camera).color));
+    }
+    recorder.add({.at = double(faces), .ours = ours, .tolerance = 0});
+  }
+}
+
+TEST(Numerics, H7_MirroredScenesMakeMirroredPictures) {
+  Recorder recorder({.stressed = "soup and camera mirrored: whole pictures, mirrored back",
+                     .parameter = "seed",
+                     .unit = "fraction of pixels changed by more than a step of 8 bits"});
+  for (const int seed : {1, 2, 3}) {
+    const TriangleSoup soup = random_soup(
+        870 + std::uint64_t(seed), {.kind = Kind::lattice, .faces = 150, .size = 0.2, .level = 3});
+    TriangleSoup mirrored = soup;
+    for (glm::vec3& p : mirrored.positions) p.x = -p.x;
+    const Camera camera = look_at({0, 0.4, 3.5}, {0, 0, 0}, {0, 1, 0}, 0.8, width, height);
+    const Drawn before = drawn(soup, camera);
+    Image8 after = drawn(mirrored, camera).color;
+    for (int y = 0; y < height; ++y)
+      std::reverse(after.pixels.begin() + y * width, after.pixels.begin() + (y + 1) * width);
+    // A coordinate that lies half way between two steps of 1/256 is rounded to the other side.
+    const double vertex = (5 + 5 + std::sqrt(3.0)) * epsilon * height;
+    recorder.add({.at = double(seed),
+                  .ours = changed(before.color, after, 1),
+                  .tolerance = 1e-4 + 2 * vertex * edges(before)});
+  }
+}
+
+TEST(Numerics, H8_OneTriangleAroundTheEye) {
+  Recorder recorder({.stressed =
+                         "one triangle of size 1 closely before the eye, all around it: device "
+                         "and oracle",
+                     .parameter = "its distance / its size",
+                     .unit = "fraction of pixels that it does not cover",
+                     .naive = "near at a thousandth of the radius, as 24 bits want it"});
+  const Camera camera = straight_camera(width, height, height);
+  for (const double distance : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
+    const auto z = float(-distance);
+    const TriangleSoup soup = soup_of({{-0.7f, -0.5f, z}, {0.7f, -0.5f, z}, {0, 0.9f, z}});
+    const auto holes = [&](const std::vector<std::uint32_t>& faces) {
+      return double(std::count(faces.begin(), faces.end(), no_face)) / pixels;
+    };
+    // Clipped to the picture its corners are roundings of its size, which a picture at that
+    // distance shows enlarged: two of 2^-24 of the size at either side of a picture as wide as it
+    // is far.
+    recorder.add({.at = distance,
+                  .naive = holes(faces_of_device(soup, camera, false)),
+                  .ours = std::max(holes(faces_of_device(soup, camera)),
+                                   holes(faces_of_oracle(soup, camera))),
+                  .tolerance = 4 * epsilon / distance});
+  }
+}
+
+TEST(Numerics, H9_AMillionCoplanarFaces) {
+  Recorder recorder(
+      {.stressed = "a plane cut into faces that share edges, seen at an angle: device",
+       .parameter = "faces",
+       .unit = "pixels of 43200 that are holes"});
+  for (const int cells : {70, 224, 708}) {  // 1e4, 1e5, 1e6 faces
+    TriangleSoup soup;
+    Random random(9);
+    for (int y = 0; y <= cells; ++y)
+      for (int x = 0; x <= cells; ++x) {
+        // Vertices are floats on a slanted plane: coplanar but for their rounding.
+        const glm::dvec2 at(12.0 * x / cells - 6, 12.0 * y / cells - 6);
+        soup.positions.emplace_back(at.x, at.y, 0.3 * at.x - 0.2 * at.y);
+      }
+    FaceColors colors;
+    for (int y = 0; y < cells; ++y)
+      for (int x = 0; x < cells; ++x) {
+        const auto at = [&](int i, int j) { return std::uint32_t((y + j) * (cells + 1) + x + i); };
+        soup.triangles.emplace_back(at(0, 0), at(1, 0), at(1, 1));
+        soup.triangles.emplace_back(at(0, 0), at(1, 1), at(0, 1));
+        for (int i = 0; i < 2; ++i)
+          colors.rgba.emplace_back(random.uniform(), random.uniform(), random.uniform(), 1);
+      }
+    soup.appearance = colors;
+    const Camera camera = look_at({0.4, -1.2, 1.5}, {0, 0, 0}, {0, 0, 1}, 0.7, width, height);
+    const Drawn picture = drawn(soup, camera);
+    recorder.add({.at = double(soup.triangles.size()),
+                  .ours = double(std::count(picture.faces.begin(), picture.faces.end(), no_face)),
+                  .tolerance = 0});
+  }
+}
+
+TEST(Numerics, H10_RandomScenesLookTheSameToAllThree) {
+  Recorder recorder({.stressed = "random scenes that mix G1 to G9: device against oracle",
+                     .parameter = "seed",
+                     .unit = "fraction of pixels covered by one alone"});
+  Recorder trainer({.stressed = "the same, opaque: the trainer against the oracle",
+                    .parameter = "seed",
+                    .unit = "pixels that differ away from edges"});
+  for (int seed = 1; seed <= 12; ++seed) {
+    const auto kind = all_kinds[std::size_t(seed) % all_kinds.size()];
+    const TriangleSoup soup =
+        random_soup(900 + std::uint64_t(seed),
+                    {.kind = kind, .size = seed % 3 ? 0.15 : 1.0, .degenerate = true});
+    Random random{std::uint64_t(seed)};
+    Camera camera = random_camera(random, width, height);
+    if (seed % 4 == 0) camera.view_from_world[3] *= glm::dvec4(0.1, 0.1, 0.1, 1);  // from within
+    const OracleImage expected = snapped_oracle(soup, glm::dvec3(0), camera);
+    for (const glm::vec4& pixel : expected.color.pixels)
+      for (int c = 0; c < 4; ++c) ASSERT_TRUE(std::isfinite(pixel[c]));
+    const Agreement found = agreement(expected, drawn(soup, camera));
+    recorder.add({.at = double(seed), .ours = found.coverage_mismatch, .tolerance = 1e-4});
+    std::vector<glm::vec3> corners;
+    for (const glm::uvec3& triangle : soup.triangles)
+      for (int k = 0; k < 3; ++k) corners.push_back(soup.positions[triangle[k]]);
+    const TriangleSoup opaque = soup_of(corners);
+    trainer.add(
+        {.at = double(seed),
+         .ours = differing_away_from_edges(faces_of_oracle(opaque, camera, oracle::Coverage::exact),
+                                           faces_of_trainer(opaque, camera, 1e-6), width, height),
+         .tolerance = 0});
+  }
+}
+
+}  // namespace
+}  // namespace tureen::test

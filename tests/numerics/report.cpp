@@ -1,0 +1,215 @@
+// Puts what the tests of numerics measured into docs/numerics.md: a row a case between two marks,
+// everything else in the page stays as people wrote it; and a plot of those that say most.
+//
+//   numerics_report MEASURED PAGE IMAGES
+//
+// MEASURED is the folder that TUREEN_NUMERICS named, IMAGES where the plots go, relative to PAGE's
+// folder.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "cli/gnuplot.hpp"
+#include "formats/output.hpp"
+#include "soup/error.hpp"
+
+namespace tureen::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// The page's families in their order, and which of their cases are plotted.
+constexpr const char* families = "GDVTSOHCMR";
+constexpr const char* plotted[] = {"G3", "D1", "V1", "V1b", "S1", "M1"};
+
+constexpr const char* begin_mark = "<!-- measured: written by ./dev numerics -->\n";
+constexpr const char* end_mark = "<!-- end of what is measured -->\n";
+
+struct Point {
+  double at, ours, tolerance;
+  std::optional<double> naive;
+};
+
+struct Row {
+  std::string test, id, stressed, parameter, unit, naive;
+  std::vector<Point> points;
+
+  /// Family, number, what is appended: G2, G3, G3b, G10.
+  auto key() const {
+    const std::string all = families;
+    const std::size_t family = all.find(id[0]);
+    std::size_t digits = 1;
+    while (digits < id.size() && std::isdigit(static_cast<unsigned char>(id[digits]))) ++digits;
+    return std::tuple(family, std::stoi(id.substr(1, digits - 1)), id.substr(digits), test,
+                      stressed);
+  }
+};
+
+double number(const Json& value) { return value.is_number() ? value.get<double>() : infinity; }
+
+Row read_row(const fs::path& path) {
+  std::ifstream file(path);
+  const Json json = Json::parse(file);
+  Row row{.test = json.at("test"),
+          .id = {},
+          .stressed = json.at("stressed"),
+          .parameter = json.at("parameter"),
+          .unit = json.at("unit"),
+          .naive = json.at("naive"),
+          .points = {}};
+  row.id = row.test.substr(0, row.test.find('_'));
+  if (!json.at("passed").get<bool>())
+    throw InputError({path.string(), {}, {}}, "the test " + row.test + " failed");
+  for (const Json& point : json.at("points")) {
+    row.points.push_back({number(point.at("at")), number(point.at("ours")),
+                          number(point.at("tolerance")), std::nullopt});
+    if (point.contains("naive")) row.points.back().naive = number(point.at("naive"));
+  }
+  return row;
+}
+
+std::vector<Row> read_rows(const fs::path& folder) {
+  std::vector<Row> rows;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".json") rows.push_back(read_row(entry.path()));
+  if (rows.empty())
+    throw InputError({folder.string(), {}, {}}, "no test has written anything there");
+  std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.key() < b.key(); });
+  return rows;
+}
+
+std::string shown(double value) {
+  if (!std::isfinite(value)) return "no number";
+  return value == 0 ? "0" : fmt::format("{:.2g}", value);
+}
+
+/// The point with the least margin; where errors are all 0, the first one.
+const Point& tightest(const Row& row) {
+  const auto use = [](const Point& p) {
+    return p.tolerance > 0 ? p.ours / p.tolerance : p.ours > 0 ? infinity : 0;
+  };
+  return *std::max_element(row.points.begin(), row.points.end(),
+                           [&](const Point& a, const Point& b) { return use(a) < use(b); });
+}
+
+std::string margin_of(const Point& point) {
+  if (point.ours == 0) return "exact";
+  return fmt::format("{:.2g}", point.tolerance / point.ours);
+}
+
+std::string table(const std::vector<Row>& rows) {
+  std::string text =
+      "| case | stressed | from .. to | error of | naive error | our error | tolerance | margin |\n"
+      "|---|---|---|---|---|---|---|---|\n";
+  for (const Row& row : rows) {
+    double least = infinity, most = -infinity, naive = 0;
+    for (const Point& point : row.points) {
+      least = std::min(least, point.at);
+      most = std::max(most, point.at);
+      if (point.naive) naive = std::max(naive, *point.naive);
+    }
+    const Point& worst = tightest(row);
+    text += fmt::format("| {} | {} | {}: {} .. {} | {} | {} | {} | {} | {} |\n", row.id,
+                        row.stressed, row.parameter, shown(least), shown(most), row.unit,
+                        row.naive.empty() ? "" : shown(naive) + ": " + row.naive, shown(worst.ours),
+                        shown(worst.tolerance), margin_of(worst));
+  }
+  return text;
+}
+
+/// Errors of 0 and of no number have no place on logarithmic axes.
+std::vector<double> on_logarithmic_axes(double x, double y) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  return {x, y > 0 && std::isfinite(y) ? y : none};
+}
+
+cli::Plot plot_of(const Row& row) {
+  std::vector<std::vector<double>> naive, ours, allowed;
+  for (const Point& point : row.points) {
+    if (point.naive) naive.push_back(on_logarithmic_axes(point.at, *point.naive));
+    ours.push_back(on_logarithmic_axes(point.at, point.ours));
+    allowed.push_back(on_logarithmic_axes(point.at, point.tolerance));
+  }
+  const auto line = [](const char* name, int type, const std::string& title, const char* dash) {
+    return fmt::format("${} using 1:2 with linespoints linetype {} {} title {}", name, type, dash,
+                       cli::plot_text(title));
+  };
+  return {.title = row.id + ": " + row.stressed,
+          .script = cli::plot_data("naive", naive) + cli::plot_data("ours", ours) +
+                    cli::plot_data("allowed", allowed) + "set title " +
+                    cli::plot_text(row.id + ": " + row.stressed) +
+                    "\nset logscale xy\nset format xy '%.0e'\nset key top left\nset xlabel " +
+                    cli::plot_text(row.parameter) + "\nset ylabel " + cli::plot_text(row.unit) +
+                    "\nplot " + line("naive", 2, row.naive, "") + ", " +
+                    line("ours", 1, "ours", "") + ", " +
+                    line("allowed", 6, "tolerance", "dashtype 2 pointtype 0")};
+}
+
+/// Draws the plots, and the lines of the page that show them.
+std::string plots(const std::vector<Row>& rows, const fs::path& page, const fs::path& images) {
+  std::string text;
+  for (const char* id : plotted) {
+    const auto row =
+        std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.id == id; });
+    if (row == rows.end())
+      throw InputError({page.string(), {}, {}}, std::string("nothing measured ") + id);
+    const fs::path file = images / fmt::format("numerics-{}.svg", id);
+    if (!cli::write_plot(plot_of(*row), page.parent_path() / file))
+      throw OutputError({}, cli::gnuplot_missing);
+    text += fmt::format("\n![{}: {} against {}]({})\n", id, row->unit, row->parameter,
+                        file.generic_string());
+  }
+  return text;
+}
+
+void write_page(const fs::path& page, const std::string& measured) {
+  std::ifstream file(page, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(file)), {});
+  const std::size_t begin = text.find(begin_mark), end = text.find(end_mark);
+  if (begin == std::string::npos || end == std::string::npos || end < begin)
+    throw InputError({page.string(), {}, {}},
+                     "the page has no place for what is measured, between the lines " +
+                         std::string(begin_mark) + end_mark);
+  const std::size_t after = begin + std::string(begin_mark).size();
+  text.replace(after, end - after, measured);
+  Output output(page);
+  output.write(text);
+  output.commit();
+}
+
+}  // namespace
+
+}  // namespace tureen::test
+
+int main(int argc, char** argv) {
+  using namespace tureen::test;
+  if (argc != 4) {
+    std::fprintf(stderr, "usage: numerics_report MEASURED PAGE IMAGES\n");
+    return 2;
+  }
+  try {
+    const fs::path page = argv[2];
+    const std::vector<Row> rows = read_rows(argv[1]);
+    write_page(page, "\n" + table(rows) + plots(rows, page, argv[3]) + "\n");
+    std::fprintf(stderr, "wrote %s: %zu cases\n", argv[2], rows.size());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "numerics_report: %s\n", error.what());
+    return 1;
+  }
+}

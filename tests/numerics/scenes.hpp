@@ -1,0 +1,45 @@
+// What tests of numerics draw, and who draws it: the oracle, the device, the trainer.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "runtime/gl/context.hpp"
+#include "runtime/oracle/hits.hpp"
+#include "soup/camera.hpp"
+#include "soup/triangle_soup.hpp"
+
+namespace tureen::test {
+
+/// The unit roundoff of floats: half the distance from 1 to the next.
+inline constexpr double epsilon = 0x1p-24;
+
+/// One for all tests of the program, current: OSMesa, desktop OpenGL with clip control.
+gl::Context& shared_context();
+
+/// Three corners a face; faces have colours of their own.
+TriangleSoup soup_of(std::vector<glm::vec3> corners);
+
+/// At the origin, looking along -z, with square pixels and the principal point in the middle.
+Camera straight_camera(int width, int height, double focal);
+
+/// The winner of each pixel, row 0 on top, no_face for none.
+/// Snapped to the device's grid, to be held against the device; exact, against the trainer.
+std::vector<std::uint32_t> faces_of_oracle(const TriangleSoup& soup, const Camera& camera,
+                                           oracle::Coverage coverage = oracle::Coverage::snapped);
+std::vector<std::uint32_t> faces_of_device(const TriangleSoup& soup, const Camera& camera,
+                                           bool reversed_depth = true);
+/// Opaque, as training sees faces; `near` and `far` are the configuration's.
+std::vector<std::uint32_t> faces_of_trainer(const TriangleSoup& soup, const Camera& camera,
+                                            double near = 0.01, double far = 100);
+
+/// How many pixels name different faces.
+double differing(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b);
+
+/// Of those, the ones that do not lie at an edge of `reference`: where all eight neighbours show
+/// the same face there, a rounding cannot have moved an edge across the centre.
+double differing_away_from_edges(const std::vector<std::uint32_t>& reference,
+                                 const std::vector<std::uint32_t>& other, int width, int height);
+
+}  // namespace tureen::test

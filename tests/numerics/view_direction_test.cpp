@@ -1,0 +1,313 @@
+// View directions: the rows V1 to V5.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+#include <vector>
+
+#include "numerics/recorder.hpp"
+#include "numerics/scenes.hpp"
+#include "runtime/geometry.hpp"
+#include "runtime/oracle/hits.hpp"
+#include "runtime/oracle/shade.hpp"
+#include "runtime/texel_store.hpp"
+#include "soup/lattice.hpp"
+#include "soup/spherical_harmonics.hpp"
+#include "support/agreement.hpp"
+#include "support/random.hpp"
+#include "support/random_soups.hpp"
+#include "support/shader_probe.hpp"
+
+namespace tureen::test {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Radians; infinite where either is no direction.
+double angle(const glm::dvec3& a, const glm::dvec3& b) {
+  const double result = std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+  return glm::length(a) > 0 && std::isfinite(result) ? result : infinity;
+}
+
+// -- V1 -----------------------------------------------------------------------------------------
+
+/// The direction to the eye by what the near and the far plane have in a pixel, in floats.
+glm::dvec3 unprojected(const Camera& camera, double near, double far, const glm::vec2& window) {
+  const glm::mat4 clip(clip_from_view(camera, near, far) * camera.view_from_world);
+  const glm::mat4 world = glm::inverse(clip);
+  const glm::vec2 ndc(2 * window.x / float(camera.width) - 1,
+                      2 * window.y / float(camera.height) - 1);
+  const glm::vec4 front = world * glm::vec4(ndc, -1, 1), back = world * glm::vec4(ndc, 1, 1);
+  return glm::dvec3(glm::normalize(glm::vec3(front) / front.w - glm::vec3(back) / back.w));
+}
+
+struct DirectionErrors {
+  double ours = 0, naive = 0;
+};
+
+DirectionErrors direction_errors(const Camera& camera, double near, double far) {
+  const Probe probe(shared_context().capabilities().api,
+                    "#include \"view_direction.glsl\"\n"
+                    "vec4 probe(vec4 x) { return vec4(direction_to_eye(x.xy), 0.0); }",
+                    {});
+  set_rays(probe.program(), camera);
+  Random random(1);
+  std::vector<glm::vec4> windows;
+  for (const double x : {0.5, camera.width - 0.5})
+    for (const double y : {0.5, camera.height - 0.5}) windows.emplace_back(x, y, 0, 0);
+  while (windows.size() < 500)
+    windows.emplace_back(random.below(std::uint32_t(camera.width)) + 0.5,
+                         random.below(std::uint32_t(camera.height)) + 0.5, 0, 0);
+  const std::vector<glm::vec4> results = probe.run(windows);
+  const TriangleSoup nothing = soup_of({});
+  const oracle::Rays rays(nothing, glm::dvec3(0), camera);
+  DirectionErrors errors;
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    const glm::dvec3 truth = rays.to_eye(int(windows[i].x), camera.height - 1 - int(windows[i].y));
+    errors.ours = worse(errors.ours, angle(results[i], truth));
+    errors.naive = worse(errors.naive, angle(unprojected(camera, near, far, windows[i]), truth));
+  }
+  return errors;
+}
+
+// What the catalogue asks of directions from the camera's axes, whatever the planes and the place.
+constexpr double most_angle = 5e-7;
+
+TEST(Numerics, V1_DirectionsDoNotDependOnTheDepthRange) {
+  Recorder recorder({.stressed = "view directions, by the range of depths: view_direction.glsl",
+                     .parameter = "far / near",
+                     .unit = "radians",
+                     .naive = "far point less near point, by the inverse of the matrix in floats"});
+  const Camera camera = look_at({1, 2, 0.5}, {0, 0, 0}, {0, 0, 1}, 0.9, 1280, 720);
+  struct Planes {
+    double near, far;
+  };
+  for (const auto& [near, far] :
+       {Planes{4, 100}, Planes{0.5, 100}, Planes{0.1, 100}, Planes{0.01, 100}, Planes{0.01, 1e3},
+        Planes{0.1, 1e5}, Planes{0.01, 1e5}, Planes{0.01, 1e6}, Planes{1e-3, 1e6}}) {
+    const DirectionErrors errors = direction_errors(camera, near, far);
+    recorder.add(
+        {.at = far / near, .naive = errors.naive, .ours = errors.ours, .tolerance = most_angle});
+  }
+}
+
+TEST(Numerics, V1b_DirectionsDoNotDependOnThePlace) {
+  Recorder recorder({.stressed = "view directions, by the place of the eye, near 0.5 and far 100: "
+                                 "view_direction.glsl",
+                     .parameter = "eye's distance from the origin / near",
+                     .unit = "radians",
+                     .naive = "far point less near point, by the inverse of the matrix in floats"});
+  for (int exponent = 0; exponent <= 6; ++exponent) {
+    const glm::dvec3 place = std::pow(10.0, exponent) * glm::normalize(glm::dvec3(1, -2, 0.7));
+    const Camera camera =
+        look_at(place, place + glm::dvec3(-1, 0.3, 0.2), {0, 0, 1}, 0.9, 1280, 720);
+    const DirectionErrors errors = direction_errors(camera, 0.5, 100);
+    recorder.add({.at = glm::length(place) / 0.5,
+                  .naive = errors.naive,
+                  .ours = errors.ours,
+                  .tolerance = most_angle});
+  }
+}
+
+// -- V2 -----------------------------------------------------------------------------------------
+
+TEST(Numerics, V2_UpIsUpForTheNetwork) {
+  Recorder recorder({.stressed = "the direction that the network sees, told by its colour: device",
+                     .parameter = "vertical field of view / degrees",
+                     .unit = "radians",
+                     .naive = "rows counted from the wrong end"});
+  // A network of one layer that shows sigmoid(gain d).
+  constexpr float gain = 1.5f;
+  ColorMlp network;
+  network.encoding = DirectionEncoding::xyz;
+  network.layers = {{.inputs = 3,
+                     .outputs = 3,
+                     .weights = {gain, 0, 0, 0, gain, 0, 0, 0, gain},
+                     .biases = {0, 0, 0}}};
+  constexpr int side = 64;
+  for (const double degrees : {20.0, 60.0, 100.0, 140.0}) {
+    TriangleSoup soup = soup_of({{-1e3f, -1e3f, -5}, {1e3f, -1e3f, -5}, {0, 2e3f, -5}});
+    LatticeTexture texture;
+    texture.patches = {{0, 0}};
+    texture.texels = std::vector<float>(3 * LatticeTexture::channels, 1.0f);
+    texture.mlp = network;
+    soup.appearance = texture;
+    const Camera camera =
+        straight_camera(side, side, side / 2.0 / std::tan(glm::radians(degrees) / 2));
+    const Drawn drawn = draw(shared_context(), soup, glm::dvec3(0), camera);
+    const oracle::Rays rays(soup, glm::dvec3(0), camera);
+    double ours = 0, naive = 0;
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x) {
+        glm::dvec3 seen;
+        for (int c = 0; c < 3; ++c) {
+          const double shown = drawn.color.at(x, y)[c] / 255.0;
+          seen[c] = std::log(shown / (1 - shown)) / double(gain);
+        }
+        ours = worse(ours, angle(seen, rays.to_eye(x, y)));
+        naive = worse(naive, angle(seen, rays.to_eye(x, side - 1 - y)));
+      }
+    // Half a step of 8 bits through the slope of the sigmoid, which is least at |d| = 1, for each
+    // of three channels.
+    const double edge = 1 / (1 + std::exp(-double(gain)));
+    const double tolerance = std::sqrt(3.0) * 0.5 / 255 / (double(gain) * edge * (1 - edge));
+    recorder.add({.at = degrees, .naive = naive, .ours = ours, .tolerance = tolerance});
+  }
+}
+
+// -- V3, V4 -------------------------------------------------------------------------------------
+
+TEST(Numerics, V3_TurningTheDirectionTurnsTheOddBands) {
+  Recorder recorder({.stressed = "harmonics with the other convention and their odd bands negated: "
+                                 "device, and the oracle beside it",
+                     .parameter = "degree",
+                     .unit = "largest change of a channel",
+                     .naive = "the other convention alone"});
+  Random random(3);
+  const Camera camera = random_camera(random, 96, 72);
+  for (int degree = 0; degree <= 4; ++degree) {
+    const TriangleSoup soup = random_soup(30, {.kind = Kind::face_harmonics, .degree = degree});
+    TriangleSoup turned = soup, forgotten = soup;
+    auto& sh = std::get<Harmonics>(turned.appearance);
+    sh.view = ViewConvention::surface_to_eye;
+    std::get<Harmonics>(forgotten.appearance).view = ViewConvention::surface_to_eye;
+    const auto count = std::size_t(harmonics::count(degree));
+    for (std::size_t i = 0; i < sh.coefficients.size(); ++i) {
+      const std::size_t k = i % count;
+      const bool odd = (k >= 1 && k < 4) || (k >= 9 && k < 16);
+      if (odd) sh.coefficients[i] = -sh.coefficients[i];
+    }
+    const auto picture = [&](const TriangleSoup& of) {
+      return draw(shared_context(), of, glm::dvec3(0), camera).color;
+    };
+    const auto change = [](const Image8& a, const Image8& b) {
+      int most = 0;
+      for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+          most = std::max(most, std::abs(int(a.pixels[i][c]) - int(b.pixels[i][c])));
+      return most / 255.0;
+    };
+    const Image8 first = picture(soup);
+    double in_oracle = 0;
+    const OracleImage expected = snapped_oracle(soup, glm::dvec3(0), camera),
+                      other = snapped_oracle(turned, glm::dvec3(0), camera);
+    for (std::size_t i = 0; i < expected.color.pixels.size(); ++i)
+      in_oracle = std::max(in_oracle,
+                           double(glm::length(expected.color.pixels[i] - other.color.pixels[i])));
+    // Products of negated factors are the same products: nothing changes, not even by rounding.
+    recorder.add({.at = double(degree),
+                  .naive = change(first, picture(forgotten)),
+                  .ours = std::max(change(first, picture(turned)), in_oracle),
+                  .tolerance = 0});
+  }
+}
+
+TEST(Numerics, V4_HarmonicsOfUnitDirectionsKeepTheirPower) {
+  Recorder recorder({.stressed = "the sum of squares of all harmonics: soup and harmonics.glsl",
+                     .parameter = "length of the direction before it is normalised",
+                     .unit = "relative error of (D + 1)^2 / 4 pi",
+                     .naive = "directions that are not normalised"});
+  Random random(4);
+  std::vector<glm::dvec3> directions;
+  for (int i = 0; i < 500; ++i) directions.push_back(random.direction());
+  const auto power_error = [](const auto& basis) {
+    double sum = 0;
+    for (const auto value : basis) sum += double(value) * double(value);
+    return std::abs(sum / (25 / (4 * M_PI)) - 1);
+  };
+  // Three texels of four and a half: all 25 on the device.
+  const gl::Api api = shared_context().capabilities().api;
+  for (const double length : {0.5, 0.99, 1.0, 1.01, 2.0}) {
+    double ours = 0, naive = 0;
+    std::vector<glm::vec4> inputs;
+    for (const glm::dvec3& d : directions) {
+      const glm::dvec3 long_one = length * d;
+      ours = worse(ours, power_error(harmonics::basis(glm::normalize(glm::vec3(long_one)))));
+      naive = worse(naive, power_error(harmonics::basis(long_one)));
+      inputs.emplace_back(glm::vec3(long_one), 0);
+    }
+    const std::vector<glm::vec4> sums =
+        Probe(api,
+              "#include \"harmonics.glsl\"\n"
+              "vec4 probe(vec4 x) { float basis[HARMONICS_COUNT]; "
+              "harmonics_basis(normalize(x.xyz), basis); float sum = 0.0; "
+              "for (int i = 0; i < HARMONICS_COUNT; ++i) sum += basis[i] * basis[i]; "
+              "return vec4(sum); }",
+              {{"HARMONICS_DEGREE", "4"}})
+            .run(inputs);
+    for (const glm::vec4& sum : sums)
+      ours = worse(ours, std::abs(double(sum.x) / (25 / (4 * M_PI)) - 1));
+    // Degree 4 has products of four components of the direction, each rounded three times on its
+    // way; a direction's length is off by two roundings, to the eighth power in the square; and 25
+    // terms are added up.
+    recorder.add({.at = length,
+                  .naive = naive,
+                  .ours = ours,
+                  .tolerance = (8 * 2 + 2 * 4 * 3 + 25) * epsilon});
+  }
+}
+
+// -- V5 -----------------------------------------------------------------------------------------
+
+TEST(Numerics, V5_APrimitiveAtTheEyeHasAColour) {
+  Recorder recorder({.stressed = "harmonics of a primitive at the eye or next to it: "
+                                 "appearance_harmonics.glsl",
+                     .parameter = "its distance / units",
+                     .unit = "largest difference of a channel from the oracle",
+                     .naive = "the offset divided by its length"});
+  const gl::Api api = shared_context().capabilities().api;
+  Harmonics sh;
+  sh.degree = 1;
+  sh.coefficients = {
+      {0.2f, 0.1f, -0.3f}, {0.3f, -0.2f, 0.1f}, {0.25f, 0.3f, -0.1f}, {-0.2f, 0.1f, 0.3f}};
+  const TexelLayout layout{.row_bits = 4, .layer_bits = 1, .max_layers = 8};
+  std::vector<glm::vec4> padded;
+  for (const glm::vec3& c : sh.coefficients) padded.emplace_back(c, 0);
+  const TexelStore coefficients(layout,
+                                TexelSource::of(texel_formats::rgba32f, padded, "coefficients"));
+  const glm::dvec3 eye(0.0);
+  for (const double distance : {0.0, 1e-15, 1e-8, 1e-3, 1.0}) {
+    // A face of one point: its centroid is that point.
+    const glm::vec3 point(distance * glm::normalize(glm::dvec3(1, 2, -2)));
+    const TexelStore anchors(layout, TexelSource::of(texel_formats::rgba32f,
+                                                     std::vector<glm::vec4>{{point, 0}}, "anchor"));
+    const Probe probe(api,
+                      "#include \"appearance_harmonics.glsl\"\n"
+                      "vec4 probe(vec4 x) { return vec4(element_color(0u), 0.0); }",
+                      {{"TEXEL_ROW_BITS", "4"},
+                       {"TEXEL_LAYER_BITS", "1"},
+                       {"HARMONICS_DEGREE", "1"},
+                       {"HARMONICS_PER_VERTEX", "0"},
+                       {"VIEW_SIGN", "-1.0"}});
+    glActiveTexture(GL_TEXTURE1);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, coefficients.texture());
+    glActiveTexture(GL_TEXTURE2);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, anchors.texture());
+    probe.program().set("coefficients", 1);
+    probe.program().set("anchors", 2);
+    set_eye(probe.program(), eye);
+    const glm::dvec3 shown(probe.run({glm::vec4(0)})[0]);
+
+    TriangleSoup soup = soup_of({point, point, point});
+    soup.appearance = sh;
+    const glm::dvec3 expected = oracle::color(soup, {.face = 0, .b0 = 0, .b1 = 0}, {0, 0, 1}, eye);
+    double ours = 0;
+    for (int c = 0; c < 3; ++c) {
+      const double difference = std::abs(shown[c] - expected[c]);
+      ours = std::isnan(difference) ? infinity : std::max(ours, difference);
+    }
+    const glm::vec3 divided = point / glm::length(point);
+    const bool a_direction = std::abs(glm::length(divided) - 1) < 1e-3;
+    // Four terms of at most 0.3 x 0.49 and a half, each of five roundings.
+    recorder.add({.at = distance,
+                  .naive = a_direction ? 0.0 : infinity,
+                  .ours = ours,
+                  .tolerance = 5 * (4 * 0.3 * 0.49 + 0.5) * epsilon});
+  }
+}
+
+}  // namespace
+}  // namespace tureen::test

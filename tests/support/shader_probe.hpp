@@ -1,0 +1,72 @@
+// Evaluates a formula of shaders/ on the device, one input a pixel, and reads the results back.
+#pragma once
+
+#include <glm/vec4.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "runtime/gl/api.hpp"
+#include "runtime/gl/program.hpp"
+#include "runtime/shader_source.hpp"
+#include "runtime/targets.hpp"
+
+namespace tureen::test {
+
+/// Of `vec4 probe(vec4 input)`, which a shader text defines.
+class Probe {
+ public:
+  Probe(gl::Api api, const std::string& text, const std::map<std::string, std::string>& constants,
+        std::map<std::string, std::string> generated = {})
+      : program_(assemble({.file = "full_screen.vert"}, api),
+                 assemble({.file = "probe",
+                           .constants = constants,
+                           .generated = with(std::move(generated), text + main_text)},
+                          api)) {}
+
+  /// For uniforms of the text: in use, as they must be set.
+  const gl::Program& program() const {
+    program_.use();
+    return program_;
+  }
+
+  /// Texture unit 0 is the inputs'; the others stay as they are.
+  std::vector<glm::vec4> run(const std::vector<glm::vec4>& inputs) const {
+    const int count = static_cast<int>(inputs.size());
+    glActiveTexture(GL_TEXTURE0);
+    gl::Texture source = make_target(rgba32f, count, 1);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, count, 1, GL_RGBA, GL_FLOAT, inputs.data());
+    const gl::Texture target = make_target(rgba32f, count, 1);
+    const gl::Framebuffer framebuffer = make_framebuffer({target.id()}, 0);
+    const gl::VertexArray nothing = gl::VertexArray::create();
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+    glViewport(0, 0, count, 1);
+    glDisable(GL_DEPTH_TEST);
+    program_.use();
+    glBindTexture(GL_TEXTURE_2D, source.id());
+    program_.set("inputs", 0);
+    program_.set("background_depth", 0.0f);
+    glBindVertexArray(nothing.id());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    std::vector<glm::vec4> results(inputs.size());
+    glReadPixels(0, 0, count, 1, GL_RGBA, GL_FLOAT, results.data());
+    return results;
+  }
+
+ private:
+  static constexpr TargetFormat rgba32f{GL_RGBA32F, GL_RGBA, GL_FLOAT};
+  static constexpr const char* main_text =
+      "\nuniform sampler2D inputs;\n"
+      "layout(location = 0) out vec4 result;\n"
+      "void main() { result = probe(texelFetch(inputs, ivec2(int(gl_FragCoord.x), 0), 0)); }\n";
+
+  static std::map<std::string, std::string> with(std::map<std::string, std::string> generated,
+                                                 std::string text) {
+    generated["probe"] = std::move(text);
+    return generated;
+  }
+
+  gl::Program program_;
+};
+
+}  // namespace tureen::test
