@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <limits>
+#include <string_view>
 #include <utility>
 
 #include "formats/json_limits.hpp"
@@ -23,6 +25,30 @@ std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
   return text.empty() ? "is not valid glTF" : text;
+}
+
+/// tinygltf keeps indices as int and drops the bits that do not fit, so that vertex 2^32 would be
+/// vertex 0. `view` is looked into; members that name something by number are those of these keys,
+/// and all of "attributes".
+void require_int_indices(const JsonView& view, bool are_attributes = false) {
+  static constexpr std::array<std::string_view, 12> keys = {
+      "buffer", "bufferView", "camera", "index", "indices", "material",
+      "mesh",   "sampler",    "scene",  "skin",  "source",  "texCoord"};
+  const auto require = [](const JsonView& index) {
+    if (index.value().is_number_unsigned()) index.natural(std::numeric_limits<int>::max());
+  };
+  if (view.value().is_array()) {
+    for (std::size_t i = 0; i < view.size(); ++i) require_int_indices(view.at(i));
+  } else if (view.value().is_object()) {
+    for (const auto& [key, value] : view.value().items()) {
+      const JsonView member = *view.find(key.c_str());
+      if (are_attributes || std::find(keys.begin(), keys.end(), key) != keys.end()) require(member);
+      if (key == "children" || key == "nodes")
+        for (std::size_t i = 0; value.is_array() && i < value.size(); ++i) require(member.at(i));
+      if (value.is_structured() && key != "extras")
+        require_int_indices(member, key == "attributes");
+    }
+  }
 }
 
 }  // namespace
@@ -78,6 +104,7 @@ void GltfDocument::parse() {
   nlohmann::json lean = glb_.json;
   for (const char* key : {"buffers", "images", "animations", "skins", "extensions", "extras"})
     lean.erase(key);
+  require_int_indices(JsonView(lean, input_.name()));
   // tinygltf takes an offset or a size that is no integer for none at all; such a file would be
   // read wrongly without a word.
   for (const char* list : {"accessors", "bufferViews"}) {

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "formats/decoder_memory.hpp"
+#include "formats/jpeg_tables.hpp"
 
 #ifndef __EMSCRIPTEN__
 #include <zlib.h>
@@ -73,6 +74,9 @@ Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
     throw InputError({name, {}, {}}, reason);
   };
   if (bytes.size() > std::size_t(INT_MAX)) fail("an image of over 2 GiB");
+  if (const auto byte = oversized_huffman_table(bytes))
+    throw InputError({name, *byte, {}},
+                     "the image is damaged: a Huffman table of more than 256 codes");
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;

@@ -1,0 +1,82 @@
+// Huffman tables that stb would write past its own for: found wherever a decoder could find them,
+// and nowhere else.
+#include "formats/jpeg_tables.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "formats/png.hpp"
+#include "fuzz/fixtures.hpp"
+
+namespace tureen {
+namespace {
+
+using ::testing::Eq;
+using ::testing::HasSubstr;
+using Bytes = std::vector<unsigned>;
+
+std::optional<std::uint64_t> found(const Bytes& values) {
+  std::vector<std::byte> bytes;
+  for (const unsigned value : values) bytes.push_back(static_cast<std::byte>(value));
+  return oversized_huffman_table(bytes);
+}
+
+Bytes operator+(Bytes a, const Bytes& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// A table of `codes` codes, all of 16 bits but for 255 of 15.
+Bytes table(unsigned codes) {
+  const unsigned longest = codes > 255 ? codes - 255 : 0;
+  Bytes bytes{0xff, 0xc4, (19 + codes) >> 8, (19 + codes) & 255, 0x10};
+  for (int i = 1; i <= 14; ++i) bytes.push_back(0);
+  bytes.push_back(codes - longest);
+  bytes.push_back(longest);
+  return bytes + Bytes(codes, 7);
+}
+
+const Bytes soi{0xff, 0xd8}, scan{0xff, 0xda, 0, 8, 1, 1, 0, 0, 63, 0, 0x5a};
+
+TEST(JpegTables, OfMoreThan256CodesAreFoundWhereTheyStand) {
+  EXPECT_THAT(found(soi + table(256) + scan), Eq(std::nullopt));
+  EXPECT_THAT(found(soi + table(257) + scan), Eq(2u));
+  EXPECT_THAT(found(soi + table(12) + table(300) + scan), Eq(2u + 21 + 12));
+  EXPECT_THAT(found(Bytes{0xff, 0xff} + soi + table(257)), Eq(4u));
+  EXPECT_THAT(found(soi + Bytes{1, 2, 0xff} + table(257)), Eq(5u)) << "behind others";
+  EXPECT_THAT(found(soi + scan + Bytes{0x11, 0xff, 0} + table(257)), Eq(2u + scan.size() + 3))
+      << "behind a scan";
+  EXPECT_THAT(found(table(257)), Eq(std::nullopt)) << "no JPEG";
+  EXPECT_THAT(found({}), Eq(std::nullopt));
+  EXPECT_THAT(found(soi), Eq(std::nullopt));
+}
+
+TEST(JpegTables, AreNotFoundInWhatDecodersPassOver) {
+  // The thumbnail of a photograph, and a quantisation table that looks like application data.
+  const Bytes hidden = table(257);
+  const auto size = unsigned(hidden.size() + 2);
+  EXPECT_THAT(found(soi + Bytes{0xff, 0xe1, size >> 8, size & 255} + hidden + scan),
+              Eq(std::nullopt));
+  Bytes quantisation{0xff, 0xdb, 0, 67, 0};
+  for (int i = 0; i < 16; ++i) quantisation = quantisation + Bytes{0xff, 0xe1, 0x7f, 0xff};
+  EXPECT_THAT(found(soi + quantisation + table(257)), Eq(2u + 69));
+}
+
+TEST(JpegTables, AreRefusedBeforeAnythingIsDecoded) {
+  std::vector<std::byte> bytes;
+  for (const unsigned value : soi + table(400) + scan) bytes.push_back(std::byte(value));
+  try {
+    decode_image(bytes, "a.jpg");
+    FAIL() << "decoded";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("a.jpg: byte 2: the image is damaged: a Huffman table of "
+                                        "more than 256 codes"));
+  }
+  for (const fuzz::Fixture& fixture : fuzz::fixtures())
+    EXPECT_THAT(oversized_huffman_table(fixture.bytes), Eq(std::nullopt)) << fixture.name;
+}
+
+}  // namespace
+}  // namespace tureen
