@@ -154,7 +154,7 @@ TEST(Numerics, S3_DrawsDoNotDependOnTheOrderOfFragments) {
 TEST(Numerics, S4_PixelsOfTheBackgroundTeachOpacity) {
   Recorder recorder({.stressed = "the gradient by opacity where a loss is on the background alone",
                      .parameter = "alpha",
-                     .unit = "relative error of the mean of 400 steps, in standard errors",
+                     .unit = "error of the mean of 400 steps in standard errors",
                      .naive = "only fragments that show have a gradient"});
   constexpr int side = 48, steps = 400;
   for (const double alpha : {0.1, 0.5, 0.9}) {

@@ -47,7 +47,7 @@ struct Point {
 };
 
 struct Row {
-  std::string test, id, stressed, parameter, unit, naive;
+  std::string test, id, stressed, parameter, unit, naive, file;
   std::vector<Point> points;
 
   /// Family, number, what is appended: G2, G3, G3b, G10.
@@ -56,8 +56,7 @@ struct Row {
     const std::size_t family = all.find(id[0]);
     std::size_t digits = 1;
     while (digits < id.size() && std::isdigit(static_cast<unsigned char>(id[digits]))) ++digits;
-    return std::tuple(family, std::stoi(id.substr(1, digits - 1)), id.substr(digits), test,
-                      stressed);
+    return std::tuple(family, std::stoi(id.substr(1, digits - 1)), id.substr(digits), file);
   }
 };
 
@@ -72,6 +71,7 @@ Row read_row(const fs::path& path) {
           .parameter = json.at("parameter"),
           .unit = json.at("unit"),
           .naive = json.at("naive"),
+          .file = path.stem().string(),
           .points = {}};
   row.id = row.test.substr(0, row.test.find('_'));
   if (!json.at("passed").get<bool>())
@@ -97,6 +97,16 @@ std::vector<Row> read_rows(const fs::path& folder) {
 std::string shown(double value) {
   if (!std::isfinite(value)) return "no number";
   return value == 0 ? "0" : fmt::format("{:.2g}", value);
+}
+
+/// A place on the axis of stress: with more digits than an error, for ranges that are narrow.
+std::string place(double value) { return fmt::format("{:.4g}", value); }
+
+/// As a cell of a table.
+std::string cell(std::string text) {
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
+    text.insert(at, 1, '\\');
+  return text;
 }
 
 /// The point with the least margin; where errors are all 0, the first one.
@@ -125,10 +135,11 @@ std::string table(const std::vector<Row>& rows) {
       if (point.naive) naive = std::max(naive, *point.naive);
     }
     const Point& worst = tightest(row);
+    const std::string of_naive = row.naive.empty() ? "" : shown(naive) + ": " + row.naive;
     text += fmt::format("| {} | {} | {}: {} .. {} | {} | {} | {} | {} | {} |\n", row.id,
-                        row.stressed, row.parameter, shown(least), shown(most), row.unit,
-                        row.naive.empty() ? "" : shown(naive) + ": " + row.naive, shown(worst.ours),
-                        shown(worst.tolerance), margin_of(worst));
+                        cell(row.stressed), cell(row.parameter), place(least), place(most),
+                        cell(row.unit), cell(of_naive), shown(worst.ours), shown(worst.tolerance),
+                        margin_of(worst));
   }
   return text;
 }
