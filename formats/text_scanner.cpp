@@ -21,7 +21,11 @@ std::string quoted(std::string_view word) {
 }  // namespace
 
 TextScanner::TextScanner(Input& input, TextSyntax syntax)
-    : input_(input), syntax_(syntax), buffer_(window + 1), line_(syntax.first_line) {
+    : input_(input),
+      syntax_(syntax),
+      // Small files are many where readers are fuzzed.
+      buffer_(static_cast<std::size_t>(std::min<std::uint64_t>(window, input.remaining())) + 1),
+      line_(syntax.first_line) {
   next_ = end_ = buffer_.data();
 }
 
