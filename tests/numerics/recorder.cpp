@@ -19,9 +19,18 @@ nlohmann::json error_of(double value) {
   return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json("none");
 }
 
+int next_number() {
+  static const testing::TestInfo* last = nullptr;
+  static int count = 0;
+  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  count = test == last ? count + 1 : 0;
+  last = test;
+  return count;
+}
+
 }  // namespace
 
-Recorder::Recorder(Case what) : case_(std::move(what)) {}
+Recorder::Recorder(Case what) : case_(std::move(what)), number_(next_number()) {}
 
 void Recorder::add(const Measurement& measured) {
   EXPECT_TRUE(measured.ours <= measured.tolerance)
@@ -58,13 +67,9 @@ void Recorder::write() const {
                               {"naive", case_.naive},         {"passed", !test->result()->Failed()},
                               {"points", std::move(points)}};
   std::filesystem::create_directories(folder);
-  std::filesystem::path path;
-  int number = 0;
-  do {
-    path = std::filesystem::path(folder) /
-           (test->name() + (number ? "-" + std::to_string(number) : std::string()) + ".json");
-    ++number;
-  } while (std::filesystem::exists(path));
+  const std::string suffix = number_ > 0 ? "-" + std::to_string(number_) : "";
+  const std::filesystem::path path =
+      std::filesystem::path(folder) / (test->name() + suffix + ".json");
   std::ofstream(path) << row.dump(1) << "\n";
   EXPECT_TRUE(std::filesystem::exists(path)) << path;
 }

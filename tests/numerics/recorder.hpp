@@ -53,6 +53,7 @@ class Recorder {
   void write() const;
 
   Case case_;
+  int number_;  // among the test's cases, from 0
   std::vector<Measurement> measurements_;
 };
 
