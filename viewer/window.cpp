@@ -103,9 +103,9 @@ void want_context(gl::Api api) {
   if (desktop) {
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);  // macOS has no other
+    // To be told of resets (throw_if_lost). For OpenGL ES, GLFW asks in a way that Mesa refuses.
+    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
   }
-  glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS,
-                 GLFW_LOSE_CONTEXT_ON_RESET);  // and be told: throw_if_lost
   // The runtime draws into targets of its own: the window needs colour alone.
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
