@@ -34,6 +34,7 @@ Scope::~Scope() {
 }
 
 bool Scope::take(std::size_t size) {
+  if (beyond_limit_ || beyond_budget_) return false;
   if (size > limit_ - held_)
     beyond_limit_ = true;
   else if (!budget_.take(size))

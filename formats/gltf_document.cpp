@@ -27,28 +27,37 @@ std::string one_line(std::string text) {
   return text.empty() ? "is not valid glTF" : text;
 }
 
-/// tinygltf keeps indices as int and drops the bits that do not fit, so that vertex 2^32 would be
-/// vertex 0. `view` is looked into; members that name something by number are those of these keys,
-/// and all of "attributes".
-void require_int_indices(const JsonView& view, bool are_attributes = false) {
-  static constexpr std::array<std::string_view, 12> keys = {
-      "buffer", "bufferView", "camera", "index", "indices", "material",
-      "mesh",   "sampler",    "scene",  "skin",  "source",  "texCoord"};
-  const auto require = [](const JsonView& index) {
-    if (index.value().is_number_unsigned()) index.natural(std::numeric_limits<int>::max());
-  };
-  if (view.value().is_array()) {
-    for (std::size_t i = 0; i < view.size(); ++i) require_int_indices(view.at(i));
-  } else if (view.value().is_object()) {
-    for (const auto& [key, value] : view.value().items()) {
-      const JsonView member = *view.find(key.c_str());
-      if (are_attributes || std::find(keys.begin(), keys.end(), key) != keys.end()) require(member);
-      if (key == "children" || key == "nodes")
-        for (std::size_t i = 0; value.is_array() && i < value.size(); ++i) require(member.at(i));
-      if (value.is_structured() && key != "extras")
-        require_int_indices(member, key == "attributes");
+/// Whether tinygltf, which keeps indices and enumerations as int and drops the bits that do not
+/// fit, would take this for another: vertex 2^32 for vertex 0.
+bool is_beyond_int(const nlohmann::json& index) {
+  using Int = std::numeric_limits<int>;
+  if (index.is_number_unsigned()) return index.get<std::uint64_t>() > std::uint64_t(Int::max());
+  return index.is_number_integer() && index.get<std::int64_t>() < Int::min();
+}
+
+/// The place, below `value`, of the first number that is_beyond_int where one is looked for: among
+/// members with the names of those that hold indices or enumerations, and in all "attributes". The
+/// place is put together on the way back: names may be long, and values many.
+std::optional<std::string> place_beyond_int(const nlohmann::json& value, bool are_indices = false) {
+  static constexpr std::array<std::string_view, 18> keys = {
+      "attributes", "buffer",  "bufferView", "camera",   "children", "componentType",
+      "index",      "indices", "magFilter",  "material", "mesh",     "minFilter",
+      "mode",       "nodes",   "sampler",    "scene",    "skin",     "source"};
+  if (are_indices && is_beyond_int(value)) return "";
+  if (value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i)
+      if (const auto place = place_beyond_int(value[i], are_indices))
+        return "[" + std::to_string(i) + "]" + *place;
+  } else if (value.is_object()) {
+    for (const auto& [key, member] : value.items()) {
+      if (key == "extras") continue;  // anything at all
+      const bool named =
+          key == "texCoord" || std::find(keys.begin(), keys.end(), key) != keys.end();
+      if (const auto place = place_beyond_int(member, named || are_indices))
+        return "." + key + *place;
     }
   }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -76,6 +85,8 @@ GltfDocument::GltfDocument(Input& input, GlbContainer glb, std::filesystem::path
 /// What the copy of the JSON and tinygltf's model of it will take. Its structures are large: {} is
 /// a material of two kilobytes.
 void GltfDocument::take_model_memory() const {
+  // No longer than the file's text and some two dozen letters a number, both counted when it was
+  // parsed.
   const std::string text = glb_.json.dump();
   const std::uint64_t values = count_json_values(text, input_.name());
   // The copy, its text, tinygltf's own copy, and what it makes of extensions and extras.
@@ -104,7 +115,8 @@ void GltfDocument::parse() {
   nlohmann::json lean = glb_.json;
   for (const char* key : {"buffers", "images", "animations", "skins", "extensions", "extras"})
     lean.erase(key);
-  require_int_indices(JsonView(lean, input_.name()));
+  if (const auto place = place_beyond_int(lean))
+    fail(place->substr(1), "is beyond " + std::to_string(std::numeric_limits<int>::max()));
   // tinygltf takes an offset or a size that is no integer for none at all; such a file would be
   // read wrongly without a word.
   for (const char* list : {"accessors", "bufferViews"}) {

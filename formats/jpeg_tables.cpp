@@ -10,7 +10,7 @@ class Segments {
  public:
   explicit Segments(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
-  std::optional<std::uint64_t> oversized() const {
+  std::optional<OversizedTable> oversized() const {
     std::size_t begin = 0;  // any number of 0xff may stand before what makes them a marker
     while (byte(begin) == 0xff && byte(begin + 1) == 0xff) ++begin;
     if (byte(begin) != 0xff || byte(begin + 1) != soi) return std::nullopt;
@@ -21,7 +21,7 @@ class Segments {
     for (std::size_t at = begin + 2; at + 1 < bytes_.size(); ++at) {
       const unsigned marker = byte(at + 1);
       if (byte(at) != 0xff || marker == 0xff || marker == 0) continue;
-      if (marker == dht && is_oversized(at + 2)) return at;
+      if (marker == dht && is_oversized(at + 2)) return OversizedTable{at, in_header};
       if (marker == sos) in_header = false;
       if (in_header) at += 1 + length(at + 2);  // one less than to what follows: the loop adds it
     }
@@ -53,7 +53,7 @@ class Segments {
 
 }  // namespace
 
-std::optional<std::uint64_t> oversized_huffman_table(std::span<const std::byte> bytes) {
+std::optional<OversizedTable> oversized_huffman_table(std::span<const std::byte> bytes) {
   return Segments(bytes).oversized();
 }
 

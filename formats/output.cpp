@@ -111,7 +111,7 @@ void replace_folder(const std::filesystem::path& made, const std::filesystem::pa
     if (error && replaces) fs::rename(old, path, ignored);
   }
   if (error) throw OutputError({path.string(), {}, {}}, "cannot be replaced: " + error.message());
-  fs::remove_all(old, ignored);
+  if (replaces) fs::remove_all(old, ignored);
 }
 
 void make_folder(const std::filesystem::path& folder) {

@@ -74,9 +74,13 @@ Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
     throw InputError({name, {}, {}}, reason);
   };
   if (bytes.size() > std::size_t(INT_MAX)) fail("an image of over 2 GiB");
-  if (const auto byte = oversized_huffman_table(bytes))
-    throw InputError({name, *byte, {}},
-                     "the image is damaged: a Huffman table of more than 256 codes");
+  if (const auto table = oversized_huffman_table(bytes)) {
+    if (table->in_header)
+      throw InputError({name, table->byte, {}},
+                       "the image is damaged: a Huffman table of more than 256 codes");
+    // Damage, or not the picture's any more: its decoder need not see that far.
+    bytes = bytes.first(static_cast<std::size_t>(table->byte));
+  }
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;

@@ -68,10 +68,10 @@ class FaceLogits {
                         int channel) {
     const LatticePatch& patch = texture.patches[face];
     const auto at = lattice::footprint(static_cast<int>(patch.level), b0, b1);
-    double value = 0;
+    double values[3];
     for (int k = 0; k < 3; ++k)
-      value += at.weights[k] * double(texture.value(patch.first_texel + at.texels[k], channel));
-    return value;
+      values[k] = double(texture.value(patch.first_texel + at.texels[k], channel));
+    return lattice::interpolated(at.weights, values[0], values[1], values[2]);
   }
 
   glm::dvec3 color(std::size_t face, double b0, double b1) const {

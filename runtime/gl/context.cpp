@@ -171,8 +171,7 @@ void throw_if_lost() {
   if (glGetGraphicsResetStatus && glGetGraphicsResetStatus() != GL_NO_ERROR)
     throw ContextError(
         "the graphics device was reset while it was drawing (its driver failed or was replaced, or "
-        "a "
-        "draw took too long), and what it held is gone: start again");
+        "a draw took too long), and what it held is gone: start again");
 #endif
 }
 

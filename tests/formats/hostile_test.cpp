@@ -7,12 +7,14 @@
 #include <sys/inotify.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "formats/camera_file.hpp"
 #include "formats/checkpoint.hpp"
@@ -22,6 +24,7 @@
 #include "formats/format_testing.hpp"
 #include "formats/gltf.hpp"
 #include "formats/json_file.hpp"
+#include "formats/json_view.hpp"
 #include "formats/memory_limit.hpp"
 #include "formats/memory_meter.hpp"
 #include "formats/off.hpp"
@@ -151,11 +154,7 @@ TEST(HostileCrashes, FoundByFuzzersEndInAnErrorOrAScene) {
 // ---- The files of others
 
 /// The folder of hostile files beside the repository, where there is one.
-fs::path hostile_files() {
-  const char* elsewhere = std::getenv("TUREEN_SHARED");
-  const fs::path shared = elsewhere ? elsewhere : TUREEN_SOURCE_DIR "/../shared";
-  return shared / "data/hostile";
-}
+fs::path hostile_files() { return TUREEN_SOURCE_DIR "/../shared/data/hostile"; }
 
 std::map<fs::path, fs::file_time_type> listing(const fs::path& folder) {
   std::map<fs::path, fs::file_time_type> result;
@@ -261,9 +260,11 @@ TEST(HostileSizes, InBinaryFiles) {
   const auto put = [](Bytes& bytes, std::size_t at, auto value) {
     std::memcpy(&bytes.at(at), &value, sizeof value);
   };
+  std::set<std::string> tried;
   for (const fuzz::Fixture& fixture : fuzz::fixtures()) {
+    tried.insert(fixture.target == "colmap_binary" ? fixture.target : fixture.name);
     if (fixture.target == "colmap_binary") {
-      // The count of records, and the last one: of features or of sightings.
+      // The count of records.
       for (const std::uint64_t size : false_sizes) {
         Bytes bytes = fixture.bytes;
         put(bytes, 1, size);
@@ -295,9 +296,12 @@ TEST(HostileSizes, InBinaryFiles) {
       }
     }
   }
+  for (const char* name : {"colmap_binary", "face_bytes.glb", "rgba.png", "run.checkpoint"})
+    EXPECT_TRUE(tried.contains(name)) << name;
 }
 
 TEST(HostileSizes, InTheJsonOfOurFile) {
+  std::set<std::string> tried;
   using testing::glb_json;
   using testing::with_glb_json;
   for (const testing::GlbKind& kind : testing::glb_kinds()) {
@@ -306,6 +310,7 @@ TEST(HostileSizes, InTheJsonOfOurFile) {
     const auto refuse = [&](const std::string& pointer, std::uint64_t size) {
       const nlohmann::json::json_pointer at(pointer);
       if (!whole.contains(at)) return;
+      tried.insert(pointer);
       nlohmann::json changed = whole;
       changed[at] = size;
       const Bytes damaged = with_glb_json(bytes, changed);
@@ -323,6 +328,12 @@ TEST(HostileSizes, InTheJsonOfOurFile) {
           refuse("/accessors/" + std::to_string(i) + "/count", size);
     }
   }
+  // Each was there in one kind of file at least.
+  for (const char* key : {"/vertex_count", "/face_count", "/appearance/texel_count",
+                          "/appearance/degree", "/appearance/strips/0/count"})
+    EXPECT_TRUE(tried.contains(std::string("/extensions/TUREEN_triangle_soup") + key)) << key;
+  EXPECT_TRUE(std::any_of(tried.begin(), tried.end(),
+                          [](const std::string& at) { return at.rfind("/accessors/", 0) == 0; }));
 }
 
 TEST(HostileSizes, InTheJsonOfForeignFiles) {
@@ -565,13 +576,33 @@ TEST(HostileJson, OfMoreValuesThanMemoryIsRefusedBeforeItIsParsed) {
       "materials");
 }
 
+TEST(HostileJson, NamesOfMembersMayBeAnythingAtAnyLength) {
+  const std::string head = R"({"asset": {"version": "2.0"}, "nodes": [{")";
+  const auto read = [&](const std::string& name, const std::string& value) {
+    return input_error([&] { fuzz::gltf(bytes_of(head + name + "\": " + value + "}]}")); });
+  };
+  // The letter 0 ends names in C.
+  EXPECT_THAT(read("a\\u0000b", "[4294967296]"), ::testing::Not(HasSubstr("beyond")));
+  EXPECT_THAT(read("mesh", "4294967296"), HasSubstr("nodes[0].mesh: is beyond 2147483647"));
+  EXPECT_THAT(read("mesh", "-4294967295"), HasSubstr("nodes[0].mesh: is beyond 2147483647"));
+  EXPECT_THAT(read("children", "[0, 4294967296]"), HasSubstr("nodes[0].children[1]: is beyond"));
+  // A long name above many values: what is put together for each of them would be terabytes.
+  std::string many = "[0";
+  for (int i = 0; i < 500000; ++i) many += ",0";
+  within_bounds(
+      default_max_memory, [&] { read(std::string(1 << 20, 'a'), many + "]"); }, "long name");
+}
+
 TEST(HostileJson, NumbersThatNoDoubleHoldsAreRefused) {
-  for (const JsonReader& reader : json_readers) {
-    const TemporaryFolder folder;
-    EXPECT_NE(input_error([&] { reader.read("{\"frames\": [1e999]}", folder / ""); }), "")
-        << reader.name;
-    EXPECT_NE(input_error([&] { reader.read("{\"frames\": [-1e999}", folder / ""); }), "")
-        << reader.name;
+  for (const char* number : {"1e999", "-1e999"}) {
+    const std::string text =
+        R"({"asset": {"version": "2.0"}, "frames": [)" + std::string(number) + "]}";
+    EXPECT_THAT(input_error([&] { parse_json(text, "a.json"); }), HasSubstr(number));
+    for (const JsonReader& reader : json_readers) {
+      const TemporaryFolder folder;
+      EXPECT_THAT(input_error([&] { reader.read(text, folder / ""); }), HasSubstr(number))
+          << reader.name;
+    }
   }
 }
 

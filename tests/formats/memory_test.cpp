@@ -101,8 +101,9 @@ TEST(DecoderMemory, IsZeroAndBounded) {
   // Old and new stand beside each other.
   EXPECT_EQ(decoder_memory::reallocate(block, 1001), nullptr);
   EXPECT_TRUE(scope.beyond_limit());
-  block = static_cast<unsigned char*>(decoder_memory::allocate(1));
-  EXPECT_EQ(block, nullptr) << "what has been refused once stays so";
+  EXPECT_EQ(decoder_memory::allocate(1), nullptr) << "what has been refused once stays so";
+  decoder_memory::release(block);
+  EXPECT_EQ(budget.taken(), 0u);
 }
 
 TEST(DecoderMemory, MovesWhatIsThere) {

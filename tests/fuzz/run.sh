@@ -1,13 +1,19 @@
 #!/bin/sh
-# run.sh SOURCE SEEDS BUILD TARGET SECONDS: replays what is known of a target, then fuzzes it. A crash
-# is left in BUILD/crashes/TARGET. 77, which ctest takes for skipped, where the fuzzer was not built.
+# run.sh SOURCE SEEDS BUILD TARGET SECONDS [CORPUS]: replays what is known of a target, then fuzzes it. What
+# it finds on the way is kept in the folder CORPUS, where one is given; a crash is left in
+# BUILD/crashes/TARGET. 77, which ctest takes for skipped, where the fuzzer was not built.
 set -eu
 source=$1 seeds=$2 build=$3 target=$4 seconds=$5
 here=$source/tests/fuzz
 program=$build/bin/fuzz_$target
 [ -x "$program" ] || { echo "no $program: ./dev fuzz $target builds it"; exit 77; }
 
-corpus=$build/corpus/$target crashes=$build/crashes/$target
+crashes=$build/crashes/$target
+corpus=${6:-}
+if [ -z "$corpus" ]; then
+  corpus=$(mktemp -d)
+  trap 'rm -r "$corpus"' EXIT
+fi
 known=$here/crashes/$target
 mkdir -p "$corpus" "$crashes"
 [ -d "$known" ] || known=$seeds/$target
@@ -19,7 +25,7 @@ dictionary=
 limits="-malloc_limit_mb=100 -rss_limit_mb=1024 -timeout=20 -print_final_stats=1"
 export ASAN_OPTIONS="allocator_may_return_null=1:detect_leaks=1"
 # shellcheck disable=SC2086 -- options without blanks
-"$program" $limits -artifact_prefix="$crashes/" -runs=0 "$corpus" "$seeds/$target" "$known"
+"$program" $limits -artifact_prefix="$crashes/" -runs=0 "$seeds/$target" "$known"
 # shellcheck disable=SC2086
-exec "$program" $limits -artifact_prefix="$crashes/" $dictionary -max_len=16384 \
+"$program" $limits -artifact_prefix="$crashes/" $dictionary -max_len=16384 \
   -max_total_time="$seconds" "$corpus" "$seeds/$target" "$known"

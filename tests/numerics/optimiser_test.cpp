@@ -34,7 +34,7 @@ kernels::AdamStep step_at(double t, float rate = 1) {
 TEST(Numerics, O1_RestartedMomentsKick) {
   Recorder recorder({.stressed =
                          "the mean step of noise after the moments began again, against their "
-                         "steady state: what carrying moments over avoids",
+                         "steady state, of the step alone: what carrying moments over avoids",
                      .parameter = "steps since",
                      .unit = "steps of the rate beyond the steady state",
                      .naive = "moments begin again at every resampling"});

@@ -7,6 +7,8 @@
 //
 // `./dev numerics` sets TUREEN_NUMERICS to a folder, into which every case writes a file, named
 // after its test; numerics_report makes the page of them. Without it nothing is written.
+// "The catalogue" in these tests is the list of hazards, with what was measured of each, that rows
+// are named by; docs/numerics.md has it as far as it concerns us.
 #pragma once
 
 #include <algorithm>

@@ -46,6 +46,14 @@ Commands all_commands() {
   return commands;
 }
 
+}  // namespace
+
+std::string without_options(const std::string& sentence) {
+  return sentence.substr(0, sentence.find("; --"));
+}
+
+namespace {
+
 Json failure(const char* kind, const std::string& message) {
   return {{"error", {{"kind", kind}, {"message", message}}}};
 }
@@ -56,7 +64,7 @@ Json run(const std::string& name, const std::string& given) {
   try {
     return {{"result", commands.at(name)(Json::parse(given))}};
   } catch (const InputError& error) {
-    return failure("input", error.what());
+    return failure("input", without_options(error.what()));
   } catch (const UsageError& error) {
     return failure("usage", error.what());
   } catch (const DeviceLimitError& error) {

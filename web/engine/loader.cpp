@@ -54,11 +54,9 @@ Json promise_of(const Scene& scene) {
           {"views", views}};
 }
 
-/// Without what options of the program would change: a page has none.
 Json notes_of(const Scene& scene) {
   Json notes = Json::array();
-  for (const std::string& note : scene.info.notes)
-    notes.push_back(note.substr(0, note.find("; --")));
+  for (const std::string& note : scene.info.notes) notes.push_back(without_options(note));
   return notes;
 }
 
