@@ -7,6 +7,7 @@
 
 #include "cli/choice.hpp"
 #include "cli/commands.hpp"
+#include "cli/memory_option.hpp"
 #include "cli/picture_file.hpp"
 #include "cli/report.hpp"
 #include "cli/values.hpp"
@@ -137,6 +138,7 @@ Exit codes: 0 done, 1 past --tolerance, 2 wrong usage, 3 a picture cannot be rea
       ->add_option("--diff", options->diff,
                    "write A, B and a heat map of their differences side by side")
       ->option_text("OUT.png");
+  add_memory_option(*command);
   command->callback(
       [options, &action] { action = [options] { return compare_pictures(*options); }; });
 }

@@ -93,7 +93,11 @@ std::size_t JsonView::one_of(std::span<const char* const> names) const {
 }
 
 void JsonView::fail(const std::string& reason) const {
-  throw InputError({*file_, {}, {}}, path_.empty() ? reason : path_ + ": " + reason);
+  // Both may hold what the file says: a letter 0 would end the sentence, a new line forge another.
+  std::string sentence = path_.empty() ? reason : path_ + ": " + reason;
+  for (char& c : sentence)
+    if (static_cast<unsigned char>(c) < 0x20) c = '?';
+  throw InputError({*file_, {}, {}}, sentence);
 }
 
 }  // namespace tureen

@@ -29,7 +29,8 @@ class MaxMemory : public Program {
             {"eval", "scene.off", "photographs"},
             {"bench", "scene.off"},
             {"tradeoff", "scene.off"},
-            {"train", "photographs", "-o", "out.glb"}};
+            {"train", "photographs", "-o", "out.glb"},
+            {"compare", "photographs/a.png", "photographs/a.png"}};
   }
 };
 

@@ -583,6 +583,10 @@ TEST(HostileJson, NamesOfMembersMayBeAnythingAtAnyLength) {
   };
   // The letter 0 ends names in C.
   EXPECT_THAT(read("a\\u0000b", "[4294967296]"), ::testing::Not(HasSubstr("beyond")));
+  const std::string named = input_error([&] {
+    fuzz::gltf(bytes_of(R"({"asset": {"version": "2.0\u0000\n", "minVersion": "a\u0000b\nc"}})"));
+  });
+  EXPECT_THAT(named, HasSubstr("a?b?c; 2.0 is read"));
   EXPECT_THAT(read("mesh", "4294967296"), HasSubstr("nodes[0].mesh: is beyond 2147483647"));
   EXPECT_THAT(read("mesh", "-4294967295"), HasSubstr("nodes[0].mesh: is beyond 2147483647"));
   EXPECT_THAT(read("children", "[0, 4294967296]"), HasSubstr("nodes[0].children[1]: is beyond"));
