@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <exception>
 #include <limits>
 #include <string_view>
@@ -30,34 +31,29 @@ std::string one_line(std::string text) {
 /// Whether tinygltf, which keeps indices and enumerations as int and drops the bits that do not
 /// fit, would take this for another: vertex 2^32 for vertex 0.
 bool is_beyond_int(const nlohmann::json& index) {
-  using Int = std::numeric_limits<int>;
-  if (index.is_number_unsigned()) return index.get<std::uint64_t>() > std::uint64_t(Int::max());
-  return index.is_number_integer() && index.get<std::int64_t>() < Int::min();
+  return index.is_number_integer() &&
+         std::abs(index.get<double>()) > std::numeric_limits<int>::max();
 }
 
-/// The place, below `value`, of the first number that is_beyond_int where one is looked for: among
-/// members with the names of those that hold indices or enumerations, and in all "attributes". The
-/// place is put together on the way back: names may be long, and values many.
-std::optional<std::string> place_beyond_int(const nlohmann::json& value, bool are_indices = false) {
-  static constexpr std::array<std::string_view, 18> keys = {
-      "attributes", "buffer",  "bufferView", "camera",   "children", "componentType",
-      "index",      "indices", "magFilter",  "material", "mesh",     "minFilter",
-      "mode",       "nodes",   "sampler",    "scene",    "skin",     "source"};
-  if (are_indices && is_beyond_int(value)) return "";
-  if (value.is_array()) {
-    for (std::size_t i = 0; i < value.size(); ++i)
-      if (const auto place = place_beyond_int(value[i], are_indices))
-        return "[" + std::to_string(i) + "]" + *place;
-  } else if (value.is_object()) {
-    for (const auto& [key, member] : value.items()) {
-      if (key == "extras") continue;  // anything at all
-      const bool named =
-          key == "texCoord" || std::find(keys.begin(), keys.end(), key) != keys.end();
-      if (const auto place = place_beyond_int(member, named || are_indices))
-        return "." + key + *place;
-    }
+/// Whether there is a number that is_beyond_int where one would be an index or an enumeration: in
+/// members with the names of those, and in all "attributes". Then `place` is where, below `value`;
+/// it is put together on the way back: names may be long, and values many.
+bool find_beyond_int(const nlohmann::json& value, bool are_indices, std::string& place) {
+  static constexpr std::array<std::string_view, 17> keys = {
+      "attributes", "buffer",  "bufferView", "camera", "children", "componentType",
+      "index",      "indices", "material",   "mesh",   "mode",     "nodes",
+      "sampler",    "scene",   "skin",       "source", "texCoord"};
+  if (!value.is_structured()) return are_indices && is_beyond_int(value);
+  for (const auto& [key, member] : value.items()) {
+    // Through lists of indices and into "attributes", but not into the objects of a list.
+    const bool next = value.is_array()
+                          ? are_indices && !member.is_object()
+                          : are_indices || std::find(keys.begin(), keys.end(), key) != keys.end();
+    if (key == "extras" || !find_beyond_int(member, next, place)) continue;
+    place.insert(0, value.is_array() ? "[" + key + "]" : "." + key);
+    return true;
   }
-  return std::nullopt;
+  return false;
 }
 
 }  // namespace
@@ -115,8 +111,8 @@ void GltfDocument::parse() {
   nlohmann::json lean = glb_.json;
   for (const char* key : {"buffers", "images", "animations", "skins", "extensions", "extras"})
     lean.erase(key);
-  if (const auto place = place_beyond_int(lean))
-    fail(place->substr(1), "is beyond " + std::to_string(std::numeric_limits<int>::max()));
+  if (std::string place; find_beyond_int(lean, false, place))
+    fail(place.substr(1), "is beyond 2147483647");
   // tinygltf takes an offset or a size that is no integer for none at all; such a file would be
   // read wrongly without a word.
   for (const char* list : {"accessors", "bufferViews"}) {
