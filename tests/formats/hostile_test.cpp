@@ -1,8 +1,8 @@
 // Files that mean harm, or have met with some: every reader ends with a scene or with an error that
-// names file and reason, within bounds of memory and time, and writes nothing. Rows X1 to X5 of the
-// catalogue of stiff and extreme cases.
+// names file and reason, within bounds of memory and time, and writes nothing.
 //
-// What damage begins with are the fixtures that fuzzers begin with (tests/fuzz/fixtures.cpp).
+// Past 600 lines: every kind of harm is done to every reader, by one set of helpers. What damage
+// begins with are the fixtures that fuzzers begin with (tests/fuzz/fixtures.cpp).
 #include <gmock/gmock.h>
 #include <sys/inotify.h>
 #include <unistd.h>

@@ -165,7 +165,7 @@ cli::Plot plot_of(const Row& row) {
           .script = cli::plot_data("naive", naive) + cli::plot_data("ours", ours) +
                     cli::plot_data("allowed", allowed) + "set title " +
                     cli::plot_text(row.id + ": " + row.stressed) +
-                    "\nset logscale xy\nset format xy '%.0e'\nset key top left\nset xlabel " +
+                    "\nset logscale xy\nset format xy '%.0e'\nset key below\nset xlabel " +
                     cli::plot_text(row.parameter) + "\nset ylabel " + cli::plot_text(row.unit) +
                     "\nplot " + line("naive", 2, row.naive, "") + ", " +
                     line("ours", 1, "ours", "") + ", " +
