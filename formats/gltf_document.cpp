@@ -36,16 +36,16 @@ bool is_beyond_int(const nlohmann::json& index) {
 }
 
 /// Whether there is a number that is_beyond_int where one would be an index or an enumeration: in
-/// members with the names of those, and in all "attributes". Then `place` is where, below `value`;
-/// it is put together on the way back: names may be long, and values many.
+/// members with the names of those, and in all "attributes" and "sparse". Then `place` is where,
+/// below `value`; it is put together on the way back: names may be long, and values many.
 bool find_beyond_int(const nlohmann::json& value, bool are_indices, std::string& place) {
-  static constexpr std::array<std::string_view, 17> keys = {
+  static constexpr std::array<std::string_view, 18> keys = {
       "attributes", "buffer",  "bufferView", "camera", "children", "componentType",
       "index",      "indices", "material",   "mesh",   "mode",     "nodes",
-      "sampler",    "scene",   "skin",       "source", "texCoord"};
+      "sampler",    "scene",   "skin",       "source", "sparse",   "texCoord"};
   if (!value.is_structured()) return are_indices && is_beyond_int(value);
   for (const auto& [key, member] : value.items()) {
-    // Through lists of indices and into "attributes", but not into the objects of a list.
+    // Through lists of indices and into objects of indices, but not into the objects of a list.
     const bool next = value.is_array()
                           ? are_indices && !member.is_object()
                           : are_indices || std::find(keys.begin(), keys.end(), key) != keys.end();

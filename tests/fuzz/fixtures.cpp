@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "cli/bench_result.hpp"
+#include "cli/web_bench.hpp"
 #include "formats/camera_file.hpp"
 #include "formats/dataset_fixture.hpp"
 #include "formats/off.hpp"
@@ -350,12 +352,30 @@ Content training_checkpoint_bytes(const Scratch& scratch) {
   return bytes;
 }
 
+constexpr char training_config_text[] =
+    R"({"preset": "scene", "steps": 5000, "background": [1, 1, 1], "baseline": false})";
+
+constexpr char training_log_text[] =
+    R"({"step":200,"seconds":14.2,"loss":0.081,"l1":0.052,"ssim":0.79,"train_psnr_db":21.3,"test_psnr_db":20.8,"triangles":15000,"it_per_second":14.1,"non_finite":0}
+{"step":400,"seconds":28.4,"loss":null,"l1":0.051,"ssim":0.8,"train_psnr_db":21.4,"triangles":15000,"it_per_second":14.1,"non_finite":7}
+)";
+
 constexpr char session_text[] = R"({ "tureen_session": 1, "window": [640, 480], "events": [
   { "at": 0.0, "pointer": [10, 20.5] }, { "at": 0.1, "button": "left", "down": true },
   { "at": 0.2, "wheel": [0, -1] }, { "at": 0.3, "key": "A", "down": false },
   { "at": 0.4, "code_point": 228 }, { "at": 0.4, "drop": ["soup.glb"] },
   { "at": 0.5, "resize": [800, 600] }, { "at": 0.6, "focus": true }, { "at": 0.7, "await": true },
   { "at": 0.8, "picture": "end" }, { "at": 1, "close": true } ] })";
+
+// ---- Benchmarks
+
+void add_benchmarks(Collection& all) {
+  const std::filesystem::path page = TUREEN_SOURCE_DIR "/tests/cli/web_bench.json";
+  Content bytes = Input::open(page).read_rest();
+  Input input = Input::memory("web_bench.json", bytes);
+  all.add("bench_result", "bench.json", to_json(cli::read_web_bench(input).at(0)).dump());
+  all.add("web_bench", "web_bench.json", std::move(bytes));
+}
 
 }  // namespace
 
@@ -397,12 +417,15 @@ std::vector<Fixture> fixtures() {
   add_torch(all);
   add_cameras(all);
   add_images(all);
+  add_benchmarks(all);
   const FolderFiles diffsoup = diffsoup_files(), mobilenerf = mobilenerf_files();
   for (std::size_t i = 0; i < diffsoup.size(); ++i)
     all.add("diffsoup", diffsoup[i].first, with_first_byte(i, diffsoup[i].second));
   for (std::size_t i = 0; i < mobilenerf.size(); ++i)
     all.add("mobilenerf", mobilenerf[i].first, with_first_byte(i, mobilenerf[i].second));
   all.add("session", "events.json", session_text);
+  all.add("training_config", "config.json", training_config_text);
+  all.add("training_log", "run.jsonl", training_log_text);
   const Scratch scratch("training");
   all.add("training_checkpoint", "run.checkpoint", training_checkpoint_bytes(scratch));
   return std::move(all.list);

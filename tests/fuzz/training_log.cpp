@@ -1,0 +1,14 @@
+// The log of a training run.
+#include "cli/training_log.hpp"
+
+#include "fuzz/scratch.hpp"
+
+namespace tureen::fuzz {
+
+void training_log(Bytes bytes) {
+  static const Scratch scratch("log");
+  scratch.write("run.jsonl", bytes);
+  cli::read_training_log(scratch.folder() / "run.jsonl");
+}
+
+}  // namespace tureen::fuzz

@@ -1,0 +1,13 @@
+// What bench.html measured in a browser.
+#include "cli/web_bench.hpp"
+
+#include "fuzz/targets.hpp"
+
+namespace tureen::fuzz {
+
+void web_bench(Bytes bytes) {
+  Input input = Input::memory("fuzz.json", bytes);
+  for (const cli::BenchResult& result : cli::read_web_bench(input)) cli::to_json(result);
+}
+
+}  // namespace tureen::fuzz
