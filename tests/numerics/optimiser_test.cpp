@@ -31,6 +31,7 @@ kernels::AdamStep step_at(double t, float rate = 1) {
   return kernels::adam_step(rate, defaults.beta1, defaults.beta2, defaults.epsilon, t);
 }
 
+// That a run's moments do follow their faces: Schedule.MomentsFollowTheirFacesThroughAResampling.
 TEST(Numerics, O1_RestartedMomentsKick) {
   Recorder recorder({.stressed =
                          "the mean step of noise after the moments began again, against their "

@@ -38,9 +38,11 @@ class BlindBackend : public Backend {
   }
   std::vector<float> render(const Camera&) override { return {}; }
 
+ protected:
+  TrainingState state_;
+
  private:
   std::size_t unseen_;
-  TrainingState state_;
 };
 
 struct Case {
@@ -231,6 +233,65 @@ TEST(Schedule, RemovesFacesBeforeTheNearPlane) {
   EXPECT_LT(removed, 50u);
   config.clear_near = false;
   EXPECT_EQ(removed_of(config, 0), 0u);
+}
+
+/// Leaves moments by which a face is known again: all are its first corner's x.
+class MarkingBackend final : public BlindBackend {
+ public:
+  using BlindBackend::BlindBackend;
+  StepReport step(std::span<const std::uint32_t> views, const Rates& rates) override {
+    Moments& moments = state_.moments;
+    const std::size_t logits = state_.model.texels() * channels;
+    for (std::size_t face = 0; face < state_.model.faces(); ++face) {
+      const float mark = state_.model.positions[3 * face].x;
+      std::fill_n(moments.first.begin() + std::ptrdiff_t(face * logits), logits, mark);
+      std::fill_n(moments.second.begin() + std::ptrdiff_t(face * logits), logits, mark);
+      std::fill_n(moments.vertex_first.begin() + std::ptrdiff_t(3 * face), 3, glm::vec3(mark));
+      std::fill_n(moments.vertex_second.begin() + std::ptrdiff_t(3 * face), 3, mark);
+      moments.steps[face] = 70;
+    }
+    moments.mlp_steps = 70;
+    return BlindBackend::step(views, rates);
+  }
+};
+
+TEST(Schedule, MomentsFollowTheirFacesThroughAResampling) {
+  Config config;
+  config.steps = 100;
+  config.triangles = 50;
+  config.resample_every = 10;
+  for (const bool reset : {false, true}) {
+    config.reset_moments = reset;
+    const std::vector<TrainingView> views(
+        3, {.camera = test::axis_camera(64, 48, 60), .target = {}, .ignored = {}});
+    Trainer trainer(config, views, std::make_unique<MarkingBackend>(7), first_state(50));
+    while (trainer.steps_done() < config.resample_every) trainer.step();
+    ASSERT_GT(trainer.last_resample().unseen, 0u);
+    const TrainingState state = trainer.state();
+    const Moments& moments = state.moments;
+    const std::size_t logits = state.model.texels() * channels;
+    std::size_t followed = 0, fresh = 0;
+    for (std::size_t face = 0; face < state.model.faces(); ++face) {
+      const bool is_fresh = moments.steps[face] == 0;
+      ++(is_fresh ? fresh : followed);
+      const float mark = is_fresh ? 0 : state.model.positions[3 * face].x;
+      for (std::size_t i = face * logits; i < (face + 1) * logits; ++i) {
+        ASSERT_EQ(moments.first[i], mark) << face;
+        ASSERT_EQ(moments.second[i], mark) << face;
+      }
+      for (std::size_t i = 3 * face; i < 3 * (face + 1); ++i) {
+        ASSERT_EQ(moments.vertex_first[i], glm::vec3(mark)) << face;
+        ASSERT_EQ(moments.vertex_second[i], mark) << face;
+      }
+    }
+    EXPECT_EQ(moments.mlp_steps, 70u);
+    EXPECT_GT(fresh, 0u);
+    if (reset) {
+      EXPECT_EQ(followed, 0u);
+    } else {
+      EXPECT_GT(followed, 10u);
+    }
+  }
 }
 
 TEST(Schedule, FacesStayAfterTheLastResampling) {
