@@ -95,11 +95,8 @@ TEST(Numerics, C2b_WhatLiesFarOffTheAxisIsNotClipped) {
       const double a = 1.25;
       const TriangleSoup soup = soup_of({corner(-a, -a), corner(a, -a), corner(a, a),
                                          corner(-a, -a), corner(a, a), corner(-a, a)});
-      const auto count = [&](const std::vector<std::uint32_t>& faces) {
-        return double(faces.size()) - double(std::count(faces.begin(), faces.end(), no_face));
-      };
-      const double device = count(faces_of_device(soup, camera, reversed));
-      const double in_oracle = count(faces_of_oracle(soup, camera));
+      const double device = shown(faces_of_device(soup, camera, reversed));
+      const double in_oracle = shown(faces_of_oracle(soup, camera));
       const Bounds box = bounds(soup);
       const double by_distance = 0.95 * (glm::length(box.centre()) - box.radius());
       // Corners are floats of `off` and the principal point is as far away: their roundings move

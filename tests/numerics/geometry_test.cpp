@@ -286,9 +286,6 @@ TEST(Numerics, G4_AFloorThroughTheCameraIsClippedNotDropped) {
     }
     const TriangleSoup soup = soup_of(corners);
     const Faces expected = faces_of_oracle(soup, camera);
-    const auto shown = [](const Faces& faces) {
-      return double(faces.size()) - double(std::count(faces.begin(), faces.end(), no_face));
-    };
     ASSERT_GT(shown(expected), side * side / 4);
     const double device =
         differing_away_from_edges(expected, faces_of_device(soup, camera), side, side);

@@ -62,6 +62,10 @@ std::vector<std::uint32_t> faces_of_trainer(const TriangleSoup& soup, const Came
   return result;
 }
 
+double shown(const std::vector<std::uint32_t>& faces) {
+  return double(faces.size()) - double(std::count(faces.begin(), faces.end(), no_face));
+}
+
 double differing(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
   return double(std::inner_product(a.begin(), a.end(), b.begin(), std::size_t(0), std::plus<>(),
                                    std::not_equal_to<>()));

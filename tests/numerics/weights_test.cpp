@@ -263,11 +263,6 @@ TriangleSoup of_constant_alpha(Kind kind, float alpha, int level, bool bytes) {
   return soup;
 }
 
-/// Pixels that a soup of one face shows, on the device by `plan` and with the oracle.
-double shown(const std::vector<std::uint32_t>& faces) {
-  return double(faces.size()) - double(std::count(faces.begin(), faces.end(), no_face));
-}
-
 TEST(Numerics, M4_AlphasNextToTheThreshold) {
   Recorder recorder({.stressed =
                          "alpha within 1/255 of its threshold, in floats and in bytes: device "
