@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "cli/program_fixture.hpp"
+#include "support/measured.hpp"
 
 namespace tureen {
 namespace {
@@ -180,8 +181,9 @@ TEST_F(Faults, ASignalAtAnyMomentLeavesTheOldOrTheNewWhole) {
     const auto before = contents("a/" + output), after = contents("b/" + output);
     ASSERT_NE(before, after);
     for (const int signal : {SIGKILL, SIGINT}) {
-      int cut_short = 0;
-      for (int i = 0; i < 16; ++i) {
+      constexpr int sent = 16;
+      int cut_short = 0, replaced = 0;
+      for (int i = 0; i < sent; ++i) {
         put("a/" + output, output);
         // Half of them early: the run that was timed may have been a slow one.
         const auto latest = whole.count() >> (i % 4);
@@ -193,6 +195,7 @@ TEST_F(Faults, ASignalAtAnyMomentLeavesTheOldOrTheNewWhole) {
         const auto now = contents(output);
         EXPECT_TRUE(now == before || now == after)
             << output << " after signal " << signal << " at " << moment.count() << " us";
+        replaced += now == after;
         if (result.exit_code == 0) {
           EXPECT_EQ(now, after);
           continue;
@@ -209,6 +212,15 @@ TEST_F(Faults, ASignalAtAnyMomentLeavesTheOldOrTheNewWhole) {
         }
       }
       EXPECT_GT(cut_short, 0) << "no moment was early enough";
+      const std::string name = signal == SIGKILL ? "SIGKILL" : "SIGINT";
+      test::leave_measured(
+          "signal-" + output + "-" + name,
+          {{"what", "convert over " + std::string(is_folder ? "a folder" : "a file")},
+           {"signal", name},
+           {"sent", sent},
+           {"cut_short", cut_short},
+           {"old", sent - replaced},
+           {"new", replaced}});
     }
   }
 }

@@ -14,6 +14,7 @@
 #include "cli/program_fixture.hpp"
 #include "formats/scene_file.hpp"
 #include "soup/camera.hpp"
+#include "support/measured.hpp"
 
 namespace tureen {
 namespace {
@@ -210,7 +211,8 @@ TEST_F(Train, GoesOnAfterAKillAsIfItHadNotHappened) {
   ASSERT_EQ(train("whole/ball.glb", {}, steps).exit_code, 0);
   const std::vector<std::string> often{"--checkpoint-every", "7"};
   // Twice, at moments that nobody chooses: the second also while it goes on from the first.
-  for (int kills = 0; kills < 2; ++kills) {
+  constexpr int sent = 2;
+  for (int kills = 0; kills < sent; ++kills) {
     std::vector<std::string> more = often;
     if (kills > 0) more.emplace_back("--resume");
     const std::string before = bytes("ball.checkpoint");
@@ -227,6 +229,9 @@ TEST_F(Train, GoesOnAfterAKillAsIfItHadNotHappened) {
   EXPECT_EQ(bytes("ball.glb"), bytes("whole/ball.glb"));
   const std::string log = bytes("ball.jsonl"), whole = bytes("whole/ball.jsonl");
   EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), std::count(whole.begin(), whole.end(), '\n'));
+  test::leave_measured("resume", {{"kills", sent},
+                                  {"steps", std::stoi(steps)},
+                                  {"equal", bytes("ball.glb") == bytes("whole/ball.glb")}});
 }
 
 TEST_F(Train, CheckpointsAsOftenAsItIsTold) {

@@ -39,6 +39,7 @@
 #include "fuzz/fixtures.hpp"
 #include "fuzz/folder_files.hpp"
 #include "fuzz/targets.hpp"
+#include "support/measured.hpp"
 #include "support/random.hpp"
 
 namespace tureen {
@@ -62,16 +63,24 @@ constexpr std::size_t uncounted = 4 << 20;
 /// read whose time grows with a number in the file takes minutes.
 constexpr double longest_read = 20;
 
+/// What reads took at most.
+struct Cost {
+  std::size_t bytes = 0;  // of `new`
+  double seconds = 0;
+};
+
 /// Calls `read` with no more memory than `limit`, and holds it to that.
 template <class Read>
-void within_bounds(std::uint64_t limit, Read&& read, const std::string& what) {
+Cost within_bounds(std::uint64_t limit, Read&& read, const std::string& what) {
   const MemoryLimit scoped(limit);
   const MemoryMeter meter;
   const auto start = std::chrono::steady_clock::now();
   read();
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  EXPECT_LT(meter.peak(), limit + uncounted) << what;
-  EXPECT_LT(seconds.count(), longest_read) << what;
+  const Cost cost{meter.peak(), seconds.count()};
+  EXPECT_LT(cost.bytes, limit + uncounted) << what;
+  EXPECT_LT(cost.seconds, longest_read) << what;
+  return cost;
 }
 
 std::string text_of(const Bytes& bytes) {
@@ -95,21 +104,25 @@ TEST_P(Hostile, DamageEndsInAnErrorOrAScene) {
   const fuzz::Target& target = GetParam();
   constexpr std::uint64_t limit = 8 << 20;
   std::size_t fixtures = 0;
+  Cost most;
+  testing::Survival cut, flipped;
   for (const fuzz::Fixture& fixture : fuzz::fixtures()) {
     if (fixture.target != target.name) continue;
     ++fixtures;
     SCOPED_TRACE(fixture.name);
     ASSERT_NO_THROW(target.read(fixture.bytes));
     const auto read = [&](std::span<const std::byte> bytes) {
-      within_bounds(
+      const Cost cost = within_bounds(
           limit, [&] { target.read(bytes); }, "one of the reads");
+      most = {std::max(most.bytes, cost.bytes), std::max(most.seconds, cost.seconds)};
     };
-    testing::Survival cut = testing::survive_truncation(fixture.bytes, read);
-    EXPECT_EQ(cut.read + cut.refused, fixture.bytes.size());
+    const std::size_t cut_before = cut.read + cut.refused;
+    testing::survive_truncation(fixture.bytes, read, cut);
+    EXPECT_EQ(cut.read + cut.refused - cut_before, fixture.bytes.size());
 
     const unsigned seed = 1;
     test::Random random(seed);
-    testing::Survival flipped;
+    const std::size_t flipped_before = flipped.read + flipped.refused;
     for (int i = 0; i < flips; ++i) {
       Bytes bytes = fixture.bytes;
       // One bit most of the time; sometimes several, and whole bytes.
@@ -123,9 +136,16 @@ TEST_P(Hostile, DamageEndsInAnErrorOrAScene) {
           flipped);
       if (HasFailure()) return;
     }
-    EXPECT_EQ(flipped.read + flipped.refused, std::size_t(flips));
+    EXPECT_EQ(flipped.read + flipped.refused - flipped_before, std::size_t(flips));
   }
   EXPECT_GT(fixtures, 0u) << "no fixture for this target";
+  test::leave_measured("damage-" + std::string(target.name),
+                       {{"reader", target.name},
+                        {"fixtures", fixtures},
+                        {"cut", {{"read", cut.read}, {"refused", cut.refused}}},
+                        {"flipped", {{"read", flipped.read}, {"refused", flipped.refused}}},
+                        {"bytes", most.bytes},
+                        {"seconds", most.seconds}});
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, Hostile, ::testing::ValuesIn(fuzz::targets),
@@ -192,8 +212,7 @@ TEST(HostileFiles, OfOthersEndInAnErrorOrASceneAndNothingIsWritten) {
   // Some of them are valid: the reader says no to what is wrong and not to everything.
   EXPECT_GT(read, 50u);
   EXPECT_GT(refused, 50u);
-  RecordProperty("read", int(read));
-  RecordProperty("refused", int(refused));
+  test::leave_measured("files-of-others", {{"read", read}, {"refused", refused}});
 }
 
 // ---- Sizes that are false

@@ -42,11 +42,16 @@ void expect_survival(std::span<const std::byte> bytes, Read&& read, const std::s
 
 /// Reads the first 0, 1, .. size - 1 bytes.
 template <class Read>
-Survival survive_truncation(std::span<const std::byte> bytes, Read&& read) {
-  Survival survival;
+void survive_truncation(std::span<const std::byte> bytes, Read&& read, Survival& survival) {
   for (std::size_t length = 0; length < bytes.size(); ++length)
     expect_survival(bytes.first(length), read, "cut to " + std::to_string(length) + " bytes",
                     survival);
+}
+
+template <class Read>
+Survival survive_truncation(std::span<const std::byte> bytes, Read&& read) {
+  Survival survival;
+  survive_truncation(bytes, read, survival);
   return survival;
 }
 

@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>
+
+#include "support/measured.hpp"
 
 namespace tureen::test {
 
@@ -52,8 +51,6 @@ Recorder::~Recorder() {
 }
 
 void Recorder::write() const {
-  const char* folder = std::getenv("TUREEN_NUMERICS");
-  if (!folder) return;
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
   nlohmann::json points = nlohmann::json::array();
   for (const Measurement& m : measurements_) {
@@ -62,16 +59,14 @@ void Recorder::write() const {
     if (m.naive) point["naive"] = error_of(*m.naive);
     points.push_back(std::move(point));
   }
-  const nlohmann::json row = {{"test", test->name()},         {"stressed", case_.stressed},
-                              {"parameter", case_.parameter}, {"unit", case_.unit},
-                              {"naive", case_.naive},         {"passed", !test->result()->Failed()},
-                              {"points", std::move(points)}};
-  std::filesystem::create_directories(folder);
   const std::string suffix = number_ > 0 ? "-" + std::to_string(number_) : "";
-  const std::filesystem::path path =
-      std::filesystem::path(folder) / (test->name() + suffix + ".json");
-  std::ofstream(path) << row.dump(1) << "\n";
-  EXPECT_TRUE(std::filesystem::exists(path)) << path;
+  leave_measured(test->name() + suffix, {{"test", test->name()},
+                                         {"stressed", case_.stressed},
+                                         {"parameter", case_.parameter},
+                                         {"unit", case_.unit},
+                                         {"naive", case_.naive},
+                                         {"passed", !test->result()->Failed()},
+                                         {"points", std::move(points)}});
 }
 
 }  // namespace tureen::test

@@ -5,7 +5,7 @@
 // hazards names one, the error of the naive form. Our error must never exceed the tolerance; the
 // naive one must somewhere, or nothing would be lost by going back to it.
 //
-// `./dev numerics` sets TUREEN_NUMERICS to a folder, into which every case writes a file, named
+// `./dev numerics` sets TUREEN_MEASURED to a folder, into which every case writes a file, named
 // after its test; numerics_report makes the page of them. Without it nothing is written.
 // "The catalogue" in these tests is the list of hazards, with what was measured of each, that rows
 // are named by; docs/numerics.md has it as far as it concerns us.

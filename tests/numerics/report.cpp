@@ -3,7 +3,7 @@
 //
 //   numerics_report MEASURED PAGE IMAGES
 //
-// MEASURED is the folder that TUREEN_NUMERICS named, IMAGES where the plots go, relative to PAGE's
+// MEASURED is the folder that TUREEN_MEASURED named, IMAGES where the plots go, relative to PAGE's
 // folder.
 #include <fmt/format.h>
 
@@ -12,18 +12,15 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "cli/gnuplot.hpp"
-#include "formats/output.hpp"
 #include "soup/error.hpp"
+#include "support/measured.hpp"
 
 namespace tureen::test {
 
@@ -37,9 +34,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // The page's families in their order, and which of their cases are plotted.
 constexpr const char* families = "GDVTSOHCMR";
 constexpr const char* plotted[] = {"G3", "D1", "V1", "V1b", "S1", "M1"};
-
-constexpr const char* begin_mark = "<!-- measured: written by ./dev numerics -->\n";
-constexpr const char* end_mark = "<!-- end of what is measured -->\n";
 
 struct Point {
   double at, ours, tolerance;
@@ -62,20 +56,19 @@ struct Row {
 
 double number(const Json& value) { return value.is_number() ? value.get<double>() : infinity; }
 
-Row read_row(const fs::path& path) {
-  std::ifstream file(path);
-  const Json json = Json::parse(file);
+Row read_row(const Measured& measured) {
+  const Json& json = measured.json;
   Row row{.test = json.at("test"),
           .id = {},
           .stressed = json.at("stressed"),
           .parameter = json.at("parameter"),
           .unit = json.at("unit"),
           .naive = json.at("naive"),
-          .file = path.stem().string(),
+          .file = measured.name,
           .points = {}};
   row.id = row.test.substr(0, row.test.find('_'));
   if (!json.at("passed").get<bool>())
-    throw InputError({path.string(), {}, {}}, "the test " + row.test + " failed");
+    throw InputError({measured.name, {}, {}}, "the test " + row.test + " failed");
   for (const Json& point : json.at("points")) {
     row.points.push_back({number(point.at("at")), number(point.at("ours")),
                           number(point.at("tolerance")), std::nullopt});
@@ -86,10 +79,7 @@ Row read_row(const fs::path& path) {
 
 std::vector<Row> read_rows(const fs::path& folder) {
   std::vector<Row> rows;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().extension() == ".json") rows.push_back(read_row(entry.path()));
-  if (rows.empty())
-    throw InputError({folder.string(), {}, {}}, "no test has written anything there");
+  for (const Measured& measured : read_measured(folder)) rows.push_back(read_row(measured));
   std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.key() < b.key(); });
   return rows;
 }
@@ -101,13 +91,6 @@ std::string shown(double value) {
 
 /// A place on the axis of stress: with more digits than an error, for ranges that are narrow.
 std::string place(double value) { return fmt::format("{:.4g}", value); }
-
-/// As a cell of a table.
-std::string cell(std::string text) {
-  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
-    text.insert(at, 1, '\\');
-  return text;
-}
 
 /// The point with the least margin; where errors are all 0, the first one.
 const Point& tightest(const Row& row) {
@@ -137,9 +120,9 @@ std::string table(const std::vector<Row>& rows) {
     const Point& worst = tightest(row);
     const std::string of_naive = row.naive.empty() ? "" : shown(naive) + ": " + row.naive;
     text += fmt::format("| {} | {} | {}: {} .. {} | {} | {} | {} | {} | {} |\n", row.id,
-                        cell(row.stressed), cell(row.parameter), place(least), place(most),
-                        cell(row.unit), cell(of_naive), shown(worst.ours), shown(worst.tolerance),
-                        margin_of(worst));
+                        table_cell(row.stressed), table_cell(row.parameter), place(least),
+                        place(most), table_cell(row.unit), table_cell(of_naive), shown(worst.ours),
+                        shown(worst.tolerance), margin_of(worst));
   }
   return text;
 }
@@ -189,21 +172,6 @@ std::string plots(const std::vector<Row>& rows, const fs::path& page, const fs::
   return text;
 }
 
-void write_page(const fs::path& page, const std::string& measured) {
-  std::ifstream file(page, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(file)), {});
-  const std::size_t begin = text.find(begin_mark), end = text.find(end_mark);
-  if (begin == std::string::npos || end == std::string::npos || end < begin)
-    throw InputError({page.string(), {}, {}},
-                     "the page has no place for what is measured, between the lines " +
-                         std::string(begin_mark) + end_mark);
-  const std::size_t after = begin + std::string(begin_mark).size();
-  text.replace(after, end - after, measured);
-  Output output(page);
-  output.write(text);
-  output.commit();
-}
-
 }  // namespace
 
 }  // namespace tureen::test
@@ -217,7 +185,8 @@ int main(int argc, char** argv) {
   try {
     const fs::path page = argv[2];
     const std::vector<Row> rows = read_rows(argv[1]);
-    write_page(page, "\n" + table(rows) + plots(rows, page, argv[3]) + "\n");
+    write_between(page, Marks("./dev numerics"),
+                  "\n" + table(rows) + plots(rows, page, argv[3]) + "\n");
     std::fprintf(stderr, "wrote %s: %zu cases\n", argv[2], rows.size());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "numerics_report: %s\n", error.what());
