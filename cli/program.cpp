@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 #include <new>
+#include <sstream>
 
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
@@ -122,7 +123,8 @@ bad, 4 no OpenGL context, 5 anything else.)");
   add_tradeoff(program, action, {argv + std::min(argc, 1), argv + argc});
 
   if (argc < 2) {
-    say(program.help());
+    std::istringstream help(program.help());
+    for (std::string line; std::getline(help, line);) say(line);
     return int(ExitCode::usage);
   }
   if (is_unknown_command(program, argc, argv))

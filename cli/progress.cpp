@@ -12,6 +12,7 @@
 #endif
 
 #include "cli/interrupt.hpp"
+#include "formats/shown_text.hpp"
 
 namespace tureen::cli {
 
@@ -31,8 +32,8 @@ Progress::Output Progress::standard_error() {
           }};
 }
 
-Progress::Progress(std::string task, Output output)
-    : task_(std::move(task)), output_(std::move(output)), start_(output_.seconds()) {}
+Progress::Progress(const std::string& task, Output output)
+    : task_(shown_text(task)), output_(std::move(output)), start_(output_.seconds()) {}
 
 Progress::~Progress() {
   if (shown_ && output_.terminal) std::fputs("\r\033[K", output_.stream);
