@@ -9,9 +9,9 @@
 #include "cli/bench_markdown.hpp"
 #include "cli/bench_page.hpp"
 #include "cli/bench_plots.hpp"
+#include "formats/existing_path.hpp"
 #include "formats/input.hpp"
 #include "formats/output.hpp"
-#include "formats/suggestion.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {
@@ -102,9 +102,7 @@ void add_bench_report_options(CLI::App& command, BenchReportOptions& options) {
 std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& options) {
   std::optional<BenchResult> then;
   if (!options.against.empty()) {
-    std::error_code error;
-    if (!fs::exists(options.against, error))
-      throw InputError({options.against, {}, {}}, why_missing(options.against));
+    require_there(options.against);
     const std::vector<std::byte> bytes = bytes_of(options.against);
     then = bench_result_from_json(
         std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), options.against);

@@ -65,7 +65,8 @@ ExitCode evaluate_scene(Options options) {
     evaluation.background = glm::vec3(parse_background(options.background));
   evaluation.folder = options.folder;
   const std::filesystem::path data = options.dataset.path;
-  evaluation.spared = std::filesystem::is_directory(data) ? data : data.parent_path();
+  std::error_code unknown;  // which reading it says
+  evaluation.spared = std::filesystem::is_directory(data, unknown) ? data : data.parent_path();
 
   Scene scene = read(options.scene);
   const TriangleSoup& soup = opaque_soup(scene);

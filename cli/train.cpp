@@ -21,6 +21,7 @@
 #include "cli/training_plot.hpp"
 #include "cli/training_session.hpp"
 #include "formats/diffsoup_export.hpp"
+#include "formats/existing_path.hpp"
 #include "formats/output.hpp"
 #include "formats/scene_file.hpp"
 #include "formats/suggestion.hpp"
@@ -238,9 +239,8 @@ bool shows_something(trainer::Backend& backend, std::span<const trainer::Trainin
 std::optional<Scene> read_mesh(const ConfigOptions& options) {
   const fs::path path = options.mesh();
   if (path.empty()) return std::nullopt;
-  std::error_code error;
   const std::vector<std::string> words{"random", "points"};
-  if (!fs::exists(path, error))
+  if (is_missing(path))
     throw InputError({path.string(), {}, {}}, why_missing(path) +
                                                   "; --init takes random, points or a scene" +
                                                   did_you_mean(path.string(), words));
