@@ -9,6 +9,7 @@
 #include "cli/bench_markdown.hpp"
 #include "cli/bench_page.hpp"
 #include "cli/bench_plots.hpp"
+#include "cli/output_argument.hpp"
 #include "formats/existing_path.hpp"
 #include "formats/input.hpp"
 #include "formats/output.hpp"
@@ -107,8 +108,12 @@ std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& optio
     then = bench_result_from_json(
         std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), options.against);
   }
-  for (const std::string& each : {options.folder, options.plots})
-    if (!each.empty()) make_folder(each);
+  for (const std::string& each : {options.folder, options.plots}) {
+    if (each.empty()) continue;
+    make_folder(each);
+    require_writable_folder(each);
+  }
+  if (!options.csv.empty()) require_writable_file(options.csv);
   return then;
 }
 

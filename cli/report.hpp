@@ -21,8 +21,8 @@ void say_list(const std::string& heading, const std::vector<std::string>& lines)
 /// Standard output; throws OutputError where it cannot be written, as do the two below.
 void print_text(const std::string& text);
 
-/// The document and a line's end. Text that is not UTF-8 has U+FFFD where it breaks; characters that
-/// steer a terminal are escaped.
+/// The document and a line's end. Text that is not UTF-8 has U+FFFD where it breaks; characters
+/// that steer a terminal are escaped.
 void print_json(const Json& document);
 
 /// The same in one line, for programs that read output line by line.

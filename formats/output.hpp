@@ -14,7 +14,8 @@ namespace tureen {
 
 class Output {
  public:
-  /// Opens a temporary file beside `path`. Throws OutputError.
+  /// Opens a temporary file beside `path`, or, where that is a symbolic link, beside what it leads
+  /// to: the link stays. Throws OutputError, also for what is never replaced (output_path.hpp).
   explicit Output(std::filesystem::path path);
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
@@ -35,7 +36,7 @@ class Output {
  private:
   [[noreturn]] void fail(const char* what) const;
 
-  std::filesystem::path path_;
+  std::filesystem::path path_;  // with links followed
   std::filesystem::path temporary_;
   std::FILE* file_ = nullptr;
   std::uint64_t position_ = 0;

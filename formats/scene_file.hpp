@@ -29,6 +29,9 @@ bool is_scene(const std::filesystem::path& path);
 /// Throws InputError.
 Scene read_scene(const std::filesystem::path& path, const ReadOptions& options = {});
 
+/// Throws UsageError where write_scene would for the name alone.
+void require_written_format(const std::filesystem::path& path);
+
 /// Writes by the extension of `path` (.glb, .off, .ply; a DiffSoup export folder where there is no
 /// extension), whole or not at all. Returns what the format cannot hold, a sentence each. Throws
 /// UsageError when the format cannot hold this scene at all or the extension is unknown, and
