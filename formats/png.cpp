@@ -81,18 +81,23 @@ Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
     // Damage, or not the picture's any more: its decoder need not see that far.
     bytes = bytes.first(static_cast<std::size_t>(table->byte));
   }
+  const std::string beyond = " is beyond what we read: " + std::to_string(max_image_side) +
+                             " pixels a side and " + std::to_string(max_image_pixels) + " in all";
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;
   {
     const decoder_memory::Scope tables(MemoryBudget(decoder_tables), decoder_tables);
-    if (!stbi_info_from_memory(data, size, &width, &height, &channels))
-      fail(std::string("not a PNG or JPEG image: ") + stbi_failure_reason());
+    if (!stbi_info_from_memory(data, size, &width, &height, &channels)) {
+      const std::string reason = stbi_failure_reason();
+      // So stb calls sides whose product it could not hold; it does not tell them.
+      fail(reason == "too large" ? "the image" + beyond : "not a PNG or JPEG image: " + reason);
+    }
   }
   if (width < 1 || height < 1 || width > max_image_side || height > max_image_side ||
       std::size_t(width) * height > max_image_pixels)
-    fail("an image of " + std::to_string(width) + " x " + std::to_string(height) +
-         " pixels is beyond what we read");
+    fail("an image of " + std::to_string(width) + " x " + std::to_string(height) + " pixels" +
+         beyond);
   PassingMemory passing(budget);
   const std::string what = "an image of " + std::to_string(width) + " x " + std::to_string(height);
   const std::uint64_t result_bytes = std::uint64_t(width) * std::uint64_t(height) * 4;

@@ -51,8 +51,7 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
   program
       .add_option_function<std::string>(
           "--max-memory", [](const std::string& text) { set_max_memory(parse_memory_size(text)); },
-          "what reading a scene or a dataset may take, 4GB by default: a file that asks for more "
-          "is refused")
+          max_memory_help)
       ->option_text("SIZE");
   program.add_flag("--no-settings", arguments.no_settings,
                    "neither read nor keep what the last run left");
