@@ -176,8 +176,11 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options) 
       std::any_of(formats().begin(), formats().end(), promises))
     scene.info.notes.push_back("The name ends in " + extension + ", but the content is " +
                                format.name + ".");
-  if (const auto* soup = std::get_if<TriangleSoup>(&scene.primitives))
+  if (const auto* soup = std::get_if<TriangleSoup>(&scene.primitives)) {
     if (const auto reason = defect(*soup)) throw InputError({path.string(), {}, {}}, *reason);
+    if (soup->triangles.empty())
+      throw InputError({path.string(), {}, {}}, "the file holds no triangles");
+  }
   return scene;
 }
 
