@@ -1,6 +1,7 @@
 #include "cli/memory_option.hpp"
 
 #include "formats/memory_budget.hpp"
+#include "formats/memory_help.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {

@@ -32,8 +32,8 @@ Progress::Output Progress::standard_error() {
           }};
 }
 
-Progress::Progress(const std::string& task, Output output)
-    : task_(shown_text(task)), output_(std::move(output)), start_(output_.seconds()) {}
+Progress::Progress(std::string task, Output output)
+    : task_(std::move(task)), output_(std::move(output)), start_(output_.seconds()) {}
 
 Progress::~Progress() {
   if (shown_ && output_.terminal) std::fputs("\r\033[K", output_.stream);
@@ -50,7 +50,7 @@ void Progress::update(double fraction, const std::string& detail) {
   if (output_.terminal)
     draw_bar(fraction, detail);
   else
-    std::fprintf(output_.stream, "%s: %d %%%s%s\n", task_.c_str(), percent(fraction),
+    std::fprintf(output_.stream, "%s: %d %%%s%s\n", shown_text(task_).c_str(), percent(fraction),
                  detail.empty() ? "" : ", ", detail.c_str());
   std::fflush(output_.stream);
 }
@@ -60,7 +60,7 @@ void Progress::draw_bar(double fraction, const std::string& detail) {
   const int width = detail.empty() ? 30 : 10;
   const int full = percent(fraction) * width / 100;
   const std::string text = detail.empty() ? std::to_string(percent(fraction)) + " %" : detail;
-  std::fprintf(output_.stream, "\r%s [%s%s] %s\033[K", task_.c_str(),
+  std::fprintf(output_.stream, "\r%s [%s%s] %s\033[K", shown_text(task_).c_str(),
                std::string(std::size_t(full), '#').c_str(),
                std::string(std::size_t(width - full), '.').c_str(), text.c_str());
 }

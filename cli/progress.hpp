@@ -21,7 +21,7 @@ class Progress {
   static Output standard_error();
 
   /// `task` such as "reading soup.glb".
-  explicit Progress(const std::string& task, Output output = standard_error());
+  explicit Progress(std::string task, Output output = standard_error());
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   /// Wipes the bar.

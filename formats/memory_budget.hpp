@@ -28,11 +28,6 @@ std::uint64_t max_memory();
 /// UsageError for anything else, for nothing and for more than a file can have.
 std::uint64_t parse_memory_size(const std::string& text);
 
-/// What --max-memory is, for the help of every program that has it.
-inline constexpr const char* max_memory_help =
-    "what reading a scene or a dataset may take, 4GB by default: a file that asks for more is "
-    "refused";
-
 /// The same the other way round: "4 GB", "1.5 MB", "17 bytes".
 std::string memory_size_text(std::uint64_t bytes);
 

@@ -14,8 +14,7 @@ namespace tureen {
 
 class Output {
  public:
-  /// Opens a temporary file beside `path`, or, where that is a symbolic link, beside what it leads
-  /// to: the link stays. Throws OutputError, also for what is never replaced (output_path.hpp).
+  /// Opens a temporary file beside what writable_file (output_path.hpp) says. Throws OutputError.
   explicit Output(std::filesystem::path path);
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "formats/memory_budget.hpp"
+#include "formats/memory_help.hpp"
 #include "formats/shown_text.hpp"
 #include "soup/error.hpp"
 #include "viewer/application.hpp"
