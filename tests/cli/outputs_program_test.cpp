@@ -146,7 +146,7 @@ TEST_F(Outputs, AndInputsHaveNames) {
   expect({"convert", "scene.off", ""}, 2, "OUT is empty");
   expect({"info", ""}, 2, "SCENE is empty");
   expect({"render", "scene.off", "-o", ""}, 2, "--output is empty");
-  expect({"compare", "a.png", "a.png", "--diff="}, 2, "--diff is empty");
+  expect({"compare", "a.png", "a.png", "--diff", ""}, 2, "--diff is empty");
   expect({"eval", "scene.off", ""}, 2, "DATASET is empty");
   expect({"plot", ""}, 2, "LOG is empty");
 }
