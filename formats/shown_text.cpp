@@ -60,7 +60,7 @@ std::string shown_text(std::string_view text) {
 std::string shown_line(std::string_view text) {
   // Enough for any sentence of ours with two paths of usual length in it.
   constexpr std::size_t most = 1000;
-  const std::string shown = shown_text(text);
+  std::string shown = shown_text(text);
   if (shown.size() <= most) return shown;
   std::size_t head = most / 2, tail = shown.size() - most / 2;
   while (!begins_character(shown[head])) --head;
