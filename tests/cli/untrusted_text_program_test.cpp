@@ -49,7 +49,7 @@ TEST_F(UntrustedText, BeginsNoLineAndSteersNoTerminal) {
   EXPECT_THAT(lines(result.err), Each(Not(StartsWith("  triangles    9"))));
   EXPECT_THAT(lines(result.err)[0],
               HasSubstr("glTF by x\\n  triangles    9 of 9 vertices\\r\\u001b[2J\\u009b\\u007f"));
-  for (const std::string& steering : {"\r", "\x1b", "\xc2\x9b", "\x7f"}) {
+  for (const char* steering : {"\r", "\x1b", "\xc2\x9b", "\x7f"}) {
     EXPECT_THAT(result.err, Not(HasSubstr(steering)));
     EXPECT_THAT(result.out, Not(HasSubstr(steering)));
   }
