@@ -6,16 +6,27 @@
 
 #ifdef _WIN32
 #include <io.h>
-#define access _access
-constexpr int may_write = 2;
 #else
+#include <fcntl.h>
 #include <unistd.h>
-constexpr int may_write = W_OK;
 #endif
 
 namespace tureen {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+bool may_write(const fs::path& path) {
+#ifdef _WIN32
+  return _waccess(path.c_str(), 2) == 0;
+#else
+  // For whom the program runs, as opening would ask, and not who started it.
+  return faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0;
+#endif
+}
+
+}  // namespace
 
 fs::path followed(const fs::path& path) {
   constexpr int most_links = 40;  // as Linux follows in one path
@@ -41,7 +52,7 @@ fs::path writable_file(const fs::path& path) {
   if (fs::is_directory(status)) fail("cannot be written: it is a folder");
   if (!fs::is_regular_file(status))
     fail("cannot be written: it is a pipe or a device, and only files are replaced");
-  if (access(path.c_str(), may_write) != 0) fail("cannot be replaced: it is write-protected");
+  if (!may_write(path)) fail("cannot be replaced: it is write-protected");
   return followed(path);
 }
 
