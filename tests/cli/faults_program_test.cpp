@@ -129,6 +129,7 @@ TEST_F(Faults, WhereNothingMayBeWrittenNothingIs) {
   fs::permissions(folder, fs::perms::all);
   fs::permissions(folder / "scene.off", fs::perms(0644));
   test::make_streams_for_all(folder);
+  fs::permissions(folder / "locked/out.glb", fs::perms(0666));  // it is the folder that forbids
   fs::permissions(folder / "locked", fs::perms(0555));
   std::vector<ChildResult> results;
   {
