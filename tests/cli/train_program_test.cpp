@@ -390,7 +390,8 @@ TEST_F(Train, KeepsWhatItHasLearnedWhereAFileCannotBeWritten) {
   const ChildResult failed = train("ball.glb", previews);
   EXPECT_EQ(failed.exit_code, 5);
   EXPECT_THAT(failed.err, HasSubstr("wrote ball.checkpoint after step 20 of 40"));
-  EXPECT_THAT(failed.err, HasSubstr("ball.previews/step_20.png: cannot be replaced"));
+  EXPECT_THAT(failed.err,
+              HasSubstr("ball.previews/step_20.png: cannot be written: it is a folder"));
   EXPECT_FALSE(exists("ball.glb"));
 
   const ChildResult went_on = train("ball.glb", {"--resume"});
