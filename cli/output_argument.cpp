@@ -30,6 +30,9 @@ void require_writable_folder(const fs::path& folder) {
   fs::path there = folder;
   while (!there.empty() && !fs::exists(there, error) && there != there.parent_path())
     there = there.parent_path();
+  if (!there.empty() && !fs::is_directory(there, error))
+    throw OutputError({folder.string(), {}, {}},
+                      "cannot be made a folder: " + there.string() + " is none");
   try_in(there, folder);
 }
 
