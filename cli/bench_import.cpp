@@ -11,8 +11,8 @@
 #include "cli/bench_table.hpp"
 #include "cli/gnuplot.hpp"
 #include "cli/web_bench.hpp"
+#include "formats/existing_path.hpp"
 #include "formats/output.hpp"
-#include "formats/suggestion.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {
@@ -33,8 +33,7 @@ std::vector<DeviceBench> read_devices(const std::vector<std::string>& files) {
   std::vector<DeviceBench> devices;
   for (const std::string& name : device_names(files)) {
     const std::string& file = files[devices.size()];
-    std::error_code error;
-    if (!fs::exists(file, error)) throw InputError({file, {}, {}}, why_missing(file));
+    require_there(file);
     Input input = Input::open(file);
     devices.push_back({name, read_web_bench(input)});
   }

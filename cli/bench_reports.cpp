@@ -9,9 +9,10 @@
 #include "cli/bench_markdown.hpp"
 #include "cli/bench_page.hpp"
 #include "cli/bench_plots.hpp"
+#include "cli/output_argument.hpp"
+#include "formats/existing_path.hpp"
 #include "formats/input.hpp"
 #include "formats/output.hpp"
-#include "formats/suggestion.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {
@@ -102,15 +103,17 @@ void add_bench_report_options(CLI::App& command, BenchReportOptions& options) {
 std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& options) {
   std::optional<BenchResult> then;
   if (!options.against.empty()) {
-    std::error_code error;
-    if (!fs::exists(options.against, error))
-      throw InputError({options.against, {}, {}}, why_missing(options.against));
+    require_there(options.against);
     const std::vector<std::byte> bytes = bytes_of(options.against);
     then = bench_result_from_json(
         std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), options.against);
   }
-  for (const std::string& each : {options.folder, options.plots})
-    if (!each.empty()) make_folder(each);
+  for (const std::string& each : {options.folder, options.plots}) {
+    if (each.empty()) continue;
+    make_folder(each);
+    require_writable_folder(each);
+  }
+  if (!options.csv.empty()) require_writable_file(options.csv);
   return then;
 }
 

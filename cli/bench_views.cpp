@@ -7,6 +7,7 @@
 #include "cli/dataset_argument.hpp"
 #include "cli/values.hpp"
 #include "cli/view_options.hpp"
+#include "formats/existing_path.hpp"
 #include "runtime/camera_sets.hpp"
 #include "soup/error.hpp"
 
@@ -174,11 +175,9 @@ void check(const BenchViewOptions& options) {
   for (const CameraSet& set : sets) {
     if (set.kind == CameraSet::Kind::dataset && options.dataset.empty())
       throw UsageError("--cameras dataset wants a DATASET after the scene");
-    std::error_code error;
     // A file may have any name, but one that is not there is more likely a word that was mistyped.
     const std::string file = set.name.substr(0, set.name.rfind(':'));
-    if (set.kind == CameraSet::Kind::file && !std::filesystem::exists(set.name, error) &&
-        !std::filesystem::exists(file, error))
+    if (set.kind == CameraSet::Kind::file && is_missing(set.name) && is_missing(file))
       throw UsageError(
           "--cameras takes hemisphere[:N], orbit[:N], adversarial, dataset or a file "
           "of cameras, not '" +

@@ -8,6 +8,7 @@
 #include "cli/choice.hpp"
 #include "cli/commands.hpp"
 #include "cli/memory_option.hpp"
+#include "cli/output_argument.hpp"
 #include "cli/picture_file.hpp"
 #include "cli/report.hpp"
 #include "cli/values.hpp"
@@ -63,7 +64,10 @@ Json to_json(const Options& options, const Metrics& metrics, std::optional<bool>
 }
 
 ExitCode compare_pictures(const Options& options) {
-  if (!options.diff.empty()) require_png_name(options.diff);
+  if (!options.diff.empty()) {
+    require_png_name(options.diff);
+    require_writable_file(options.diff);
+  }
   const glm::vec3 background(parse_background(options.background));
   const ImageF a = composited(to_float(read_picture(options.a)), background);
   const ImageF b = composited(to_float(read_picture(options.b)), background);

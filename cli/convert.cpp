@@ -6,6 +6,7 @@
 #include "cli/commands.hpp"
 #include "cli/convert_slim.hpp"
 #include "cli/memory_option.hpp"
+#include "cli/output_argument.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/scene_page.hpp"
@@ -26,16 +27,36 @@ struct Options {
   SlimArguments slim;
 };
 
+/// A folder, where no extension says otherwise.
+bool is_export(const fs::path& output) { return output.extension().empty(); }
+
+void require_known_extension(const fs::path& output) {
+  if (is_scene_page(output)) return;
+  try {
+    require_written_format(output);
+  } catch (const UsageError& error) {
+    throw UsageError(error.reason() + "; a page is .html");
+  }
+}
+
 /// Before the scene is read, which may take a while.
 void check_output(const Options& options) {
   const fs::path output = options.output;
+  check_slim(options.slim, output);
+  require_known_extension(output);
   std::error_code error;
   if (fs::exists(output, error)) {
     if (fs::equivalent(output, options.scene.path, error))
       throw UsageError(options.output + " is the scene itself; choose another name");
-    if (!options.force) throw UsageError(options.output + " exists already; --force replaces it");
+    // Of a pipe or a device --force would change nothing, which is said below.
+    const bool replaceable = fs::is_regular_file(output, error) || fs::is_directory(output, error);
+    if (replaceable && !options.force)
+      throw UsageError(options.output + " exists already; --force replaces it");
   }
-  check_slim(options.slim, output);
+  if (is_export(output))
+    require_writable_export(output);
+  else
+    require_writable_file(output);
 }
 
 /// Writes `file`, in the format that its name says. Says what that lost, and returns it.
@@ -59,7 +80,12 @@ Json write_page(const ScenePageTemplate& page, Scene scene, const Options& optio
     return {{"notes", scene.info.notes}, {"lost", Json::array()}};
   }
   const Scratch glb(options.output + ".glb", "the scene that the page will hold");
-  Json figures = write(std::move(scene), options, glb.path());
+  Json figures;
+  try {
+    figures = write(std::move(scene), options, glb.path());
+  } catch (const OutputError& error) {
+    throw OutputError({options.output, {}, {}}, error.reason());
+  }
   page.write(glb.path(), name, output);
   return figures;
 }

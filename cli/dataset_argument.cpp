@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "cli/progress.hpp"
-#include "formats/suggestion.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {
@@ -68,9 +67,6 @@ void require_sides(const DatasetArgument& argument, const Dataset& dataset, Side
 
 Dataset read(const DatasetArgument& argument, DatasetPart part) {
   const std::filesystem::path path = argument.path;
-  std::error_code error;
-  if (!std::filesystem::exists(path, error))
-    throw InputError({argument.path, {}, {}}, why_missing(path));
   const std::filesystem::path name = path.has_filename() ? path : path.parent_path();
   Progress progress("reading photographs of " + name.filename().string());
   DatasetOptions options = argument.options;

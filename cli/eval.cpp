@@ -9,6 +9,7 @@
 #include "cli/dataset_argument.hpp"
 #include "cli/evaluation.hpp"
 #include "cli/memory_option.hpp"
+#include "cli/output_argument.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
@@ -64,8 +65,10 @@ ExitCode evaluate_scene(Options options) {
   if (!options.background.empty())
     evaluation.background = glm::vec3(parse_background(options.background));
   evaluation.folder = options.folder;
+  if (!options.folder.empty()) require_writable_folder(options.folder);
   const std::filesystem::path data = options.dataset.path;
-  evaluation.spared = std::filesystem::is_directory(data) ? data : data.parent_path();
+  std::error_code unknown;  // which reading it says
+  evaluation.spared = std::filesystem::is_directory(data, unknown) ? data : data.parent_path();
 
   Scene scene = read(options.scene);
   const TriangleSoup& soup = opaque_soup(scene);

@@ -1,9 +1,9 @@
 #include "cli/html_page.hpp"
 
 #include <cassert>
-#include <cstdint>
 
 #include "cli/base64.hpp"
+#include "formats/utf8.hpp"
 
 namespace tureen::cli {
 
@@ -28,29 +28,6 @@ figure img{max-width:100%;height:auto}
 details{margin:.8rem 0}summary{cursor:pointer;color:var(--faint)}
 )";
 
-/// How many bytes of `text` from `at` on are one character of UTF-8; 0 where they are none.
-std::size_t character_length(const std::string& text, std::size_t at) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned first = byte(at);
-  const std::size_t length = first < 0x80       ? 1
-                             : first >> 5 == 6  ? 2
-                             : first >> 4 == 14 ? 3
-                             : first >> 3 == 30 ? 4
-                                                : 0;
-  if (length < 2) return length;
-  if (at + length > text.size()) return 0;
-  std::uint32_t code = first & (0x7fu >> length);
-  for (std::size_t i = 1; i < length; ++i) {
-    if (byte(at + i) >> 6 != 2) return 0;
-    code = code << 6 | (byte(at + i) & 0x3fu);
-  }
-  // Longer than need be, half of a surrogate pair, no character, beyond Unicode.
-  constexpr std::uint32_t least[]{0, 0, 0x80, 0x800, 0x10000};
-  const bool allowed = code >= least[length] && (code < 0xd800 || code > 0xdfff) &&
-                       code != 0xfffe && code != 0xffff && code <= 0x10ffff;
-  return allowed ? length : 0;
-}
-
 std::string element(const char* name, const std::string& text) {
   return std::string("<") + name + ">" + html_escaped(text) + "</" + name + ">\n";
 }
@@ -65,7 +42,7 @@ std::string html_escaped(const std::string& text) {
   std::string result;
   for (std::size_t i = 0; i < text.size();) {
     const char c = text[i];
-    const std::size_t length = character_length(text, i);
+    const std::size_t length = utf8_character(text, i).length;
     if (c == '&')
       result += "&amp;";
     else if (c == '<')

@@ -1,17 +1,14 @@
 #include "cli/memory_option.hpp"
 
 #include "formats/memory_budget.hpp"
+#include "formats/memory_help.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {
 
 void add_memory_option(CLI::App& command) {
   const auto set = [](const std::string& text) { set_max_memory(parse_memory_size(text)); };
-  command
-      .add_option_function<std::string>(
-          "--max-memory", set,
-          "what reading a scene or a dataset may take, 4GB by default: a file that asks for more "
-          "is refused")
+  command.add_option_function<std::string>("--max-memory", set, max_memory_help)
       ->option_text("SIZE");
 }
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cctype>
 
+#include "formats/existing_path.hpp"
 #include "formats/output.hpp"
 #include "formats/png.hpp"
-#include "formats/suggestion.hpp"
 
 namespace tureen::cli {
 
@@ -46,9 +46,7 @@ std::string expanded(const std::string& pattern, int index, bool& replaced) {
 }  // namespace
 
 Image8 read_picture(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error))
-    throw InputError({path.string(), {}, {}}, why_missing(path));
+  require_there(path);
   Input input = Input::open(path);
   return read_image(input);
 }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "cli/commands.hpp"
+#include "cli/output_argument.hpp"
 #include "cli/report.hpp"
 #include "cli/training_plot.hpp"
 #include "formats/output.hpp"
@@ -75,6 +76,7 @@ ExitCode plot(const Options& options) {
   if (!options.labels.empty() && options.labels.size() != options.logs.size())
     throw UsageError(fmt::format("{} labels for {} logs; give one for each, in their order",
                                  options.labels.size(), options.logs.size()));
+  require_writable_file(options.output);
   const std::vector<TrainingRun> runs = read_runs(options);
   Output output(options.output);
   output.write(training_plot(runs));

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <memory>
 #include <new>
+#include <optional>
+#include <sstream>
 
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
@@ -83,6 +85,17 @@ int refuse(const CLI::App& program, const std::string& reason) {
   return int(ExitCode::usage);
 }
 
+/// The first argument that is there and says nothing, as "$UNSET" does in a shell.
+std::optional<std::string> empty_argument(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options())
+    // An option whose value may be left out has an empty one then.
+    if (const std::vector<std::string>& values = option->results();
+        option->get_items_expected_min() > 0 &&
+        std::find(values.begin(), values.end(), "") != values.end())
+      return option->get_name();
+  return std::nullopt;
+}
+
 /// CLI11 would take a mistyped subcommand for an argument too many.
 bool is_unknown_command(const CLI::App& program, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return false;
@@ -122,7 +135,8 @@ bad, 4 no OpenGL context, 5 anything else.)");
   add_tradeoff(program, action, {argv + std::min(argc, 1), argv + argc});
 
   if (argc < 2) {
-    say(program.help());
+    std::istringstream help(program.help());
+    for (std::string line; std::getline(help, line);) say(line);
     return int(ExitCode::usage);
   }
   if (is_unknown_command(program, argc, argv))
@@ -130,6 +144,8 @@ bad, 4 no OpenGL context, 5 anything else.)");
                                did_you_mean(argv[1], command_names(program)));
   try {
     program.parse(argc, argv);
+    if (const auto name = empty_argument(named_command(program)))
+      return refuse(program, *name + " is empty");
   } catch (const CLI::Success& help_or_version) {
     return program.exit(help_or_version);
   } catch (const UsageError& error) {

@@ -12,6 +12,7 @@
 #endif
 
 #include "cli/interrupt.hpp"
+#include "formats/shown_text.hpp"
 
 namespace tureen::cli {
 
@@ -49,7 +50,7 @@ void Progress::update(double fraction, const std::string& detail) {
   if (output_.terminal)
     draw_bar(fraction, detail);
   else
-    std::fprintf(output_.stream, "%s: %d %%%s%s\n", task_.c_str(), percent(fraction),
+    std::fprintf(output_.stream, "%s: %d %%%s%s\n", shown_text(task_).c_str(), percent(fraction),
                  detail.empty() ? "" : ", ", detail.c_str());
   std::fflush(output_.stream);
 }
@@ -59,7 +60,7 @@ void Progress::draw_bar(double fraction, const std::string& detail) {
   const int width = detail.empty() ? 30 : 10;
   const int full = percent(fraction) * width / 100;
   const std::string text = detail.empty() ? std::to_string(percent(fraction)) + " %" : detail;
-  std::fprintf(output_.stream, "\r%s [%s%s] %s\033[K", task_.c_str(),
+  std::fprintf(output_.stream, "\r%s [%s%s] %s\033[K", shown_text(task_).c_str(),
                std::string(std::size_t(full), '#').c_str(),
                std::string(std::size_t(width - full), '.').c_str(), text.c_str());
 }

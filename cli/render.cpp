@@ -8,6 +8,7 @@
 #include "cli/drawing_options.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory_option.hpp"
+#include "cli/output_argument.hpp"
 #include "cli/picture_file.hpp"
 #include "cli/pictures.hpp"
 #include "cli/report.hpp"
@@ -85,11 +86,17 @@ void require_shown(const ShowOption& show, const TriangleSoup& soup) {
   if (refusal) throw UsageError(std::string("--show ") + name_of(show.what) + ": " + *refusal);
 }
 
-/// Throws UsageError.
+/// Throws UsageError and OutputError.
 void check_output(const Options& options, const glm::vec4& background) {
   if (!is_video_name(options.output)) {
     require_png_name(options.output);
-    picture_name(options.output, 0, std::max(options.views.orbit, 1));
+    const std::filesystem::path first =
+        picture_name(options.output, 0, std::max(options.views.orbit, 1));
+    // How many views a file of cameras or a film has, and so how they are called, it tells later.
+    if (options.views.is_film() || !options.views.camera.empty())
+      require_writable_beside(first);
+    else
+      require_writable_file(first);
     return;
   }
   if (!options.views.is_film())
@@ -101,6 +108,7 @@ void check_output(const Options& options, const glm::vec4& background) {
         "a video shows no transparency: leave --background transparent away, or write "
         "pictures, -o frame_%04d.png");
   if (!have_ffmpeg()) throw UsageError(ffmpeg_missing);
+  require_writable_file(options.output);
 }
 
 /// What was written, for people: each file, or the first and last frame.

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <string_view>
 
+#include "formats/shown_text.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {
@@ -13,7 +16,15 @@ namespace {
 
 /// `indent` -1 writes no line's end but the last.
 void print(const Json& document, int indent) {
-  print_text(document.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n");
+  const std::string text = document.dump(indent, ' ', false, Json::error_handler_t::replace);
+  // JSON itself escapes only some of what steers a terminal; what we write for it is JSON, too.
+  std::string shown;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    shown += shown_text(std::string_view(text).substr(at, end - at)) + "\n";
+    at = end + 1;
+  }
+  print_text(shown);
 }
 
 }  // namespace
@@ -23,12 +34,7 @@ void print_text(const std::string& text) {
     throw OutputError({}, "standard output cannot be written");
 }
 
-void say(const std::string& line) {
-  std::string safe = line;
-  for (char& c : safe)
-    if ((static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') || c == 0x7f) c = '?';
-  std::fprintf(stderr, "%s\n", safe.c_str());
-}
+void say(const std::string& line) { std::fprintf(stderr, "%s\n", shown_line(line).c_str()); }
 
 void say_list(const std::string& heading, const std::vector<std::string>& lines) {
   if (lines.empty()) return;

@@ -11,8 +11,8 @@ namespace tureen::cli {
 /// Keys stay in the order in which they were written.
 using Json = nlohmann::ordered_json;
 
-/// A line of prose. Control characters in it are shown as '?': names from files must not steer a
-/// terminal.
+/// A line of prose, never more than one: what files say steers no terminal and passes for no line
+/// of ours (formats/shown_text.hpp).
 void say(const std::string& line);
 
 /// Lines under a heading, indented; nothing when there are none.
@@ -21,7 +21,7 @@ void say_list(const std::string& heading, const std::vector<std::string>& lines)
 /// Standard output; throws OutputError where it cannot be written, as do the two below.
 void print_text(const std::string& text);
 
-/// The document and a line's end. Text that is not UTF-8 has U+FFFD where it breaks.
+/// The document and a line's end; U+FFFD where text is no UTF-8, and nothing steers a terminal.
 void print_json(const Json& document);
 
 /// The same in one line, for programs that read output line by line.

@@ -5,7 +5,7 @@
 #include "cli/choice.hpp"
 #include "cli/progress.hpp"
 #include "cli/values.hpp"
-#include "formats/suggestion.hpp"
+#include "formats/existing_path.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {
@@ -37,9 +37,7 @@ Scene read(const SceneArgument& argument) {
     if (!(glm::length(up) > 0)) throw UsageError("--up 0,0,0 is no direction");
   }
   const std::filesystem::path path = argument.path;
-  std::error_code error;
-  if (!std::filesystem::exists(path, error))
-    throw InputError({argument.path, {}, {}}, why_missing(path));
+  require_there(path);
   Progress progress("reading " + path.filename().string());
   ReadOptions options;
   options.vertex_colors = argument.vertex_colors;

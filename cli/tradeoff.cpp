@@ -12,6 +12,7 @@
 #include "cli/dataset_argument.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory_option.hpp"
+#include "cli/output_argument.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
@@ -95,7 +96,8 @@ fs::path preset_path(const Options& options) {
 }
 
 /// Said before anything is measured: minutes of work must not end in a refusal.
-void require_writable_preset(const Options& options) {
+void require_writable_outputs(const Options& options) {
+  if (!options.folder.empty()) require_writable_folder(options.folder);
   if (!options.write_preset) return;
   const fs::path path = preset_path(options);
   if (path.extension() != ".glb")
@@ -103,6 +105,7 @@ void require_writable_preset(const Options& options) {
   std::error_code error;
   if (fs::exists(path, error) && !options.force)
     throw UsageError(path.string() + " exists; name another file, or give --force to replace it");
+  require_writable_file(path);
 }
 
 /// Plots as SVG and PNG, where gnuplot is there, and all else that a folder is to hold.
@@ -251,7 +254,7 @@ ExitCode tradeoff(const Options& options) {
   // Everything that can be wrong with the arguments is said before anything is read.
   const Defaults defaults = defaults_of(options.effort);
   check(view_options(options, defaults));
-  require_writable_preset(options);
+  require_writable_outputs(options);
 
   Scene scene = read(options.scene);
   const TriangleSoup& soup = opaque_soup(scene);

@@ -21,6 +21,7 @@
 #include "cli/training_plot.hpp"
 #include "cli/training_session.hpp"
 #include "formats/diffsoup_export.hpp"
+#include "formats/existing_path.hpp"
 #include "formats/output.hpp"
 #include "formats/scene_file.hpp"
 #include "formats/suggestion.hpp"
@@ -238,9 +239,8 @@ bool shows_something(trainer::Backend& backend, std::span<const trainer::Trainin
 std::optional<Scene> read_mesh(const ConfigOptions& options) {
   const fs::path path = options.mesh();
   if (path.empty()) return std::nullopt;
-  std::error_code error;
   const std::vector<std::string> words{"random", "points"};
-  if (!fs::exists(path, error))
+  if (is_missing(path))
     throw InputError({path.string(), {}, {}}, why_missing(path) +
                                                   "; --init takes random, points or a scene" +
                                                   did_you_mean(path.string(), words));
@@ -261,6 +261,20 @@ void check_existing(const Options& options, const TrainingFiles& files) {
                      "it to begin again");
 }
 
+/// Reads what a run begins with. Ctrl-C in it, unlike later, leaves no checkpoint, which people may
+/// expect.
+template <class Work>
+auto before_the_first_step(const Options& options, Work&& read) {
+  try {
+    return read();
+  } catch (const Interrupted&) {
+    if (!options.print_config)
+      say(options.resume ? "no step was done: the checkpoint is as it was"
+                         : "no step was done, so there is no checkpoint to go on from");
+    throw;
+  }
+}
+
 ExitCode train(const Options& options) {
   // Everything that can be wrong with the arguments is said before the photographs are read.
   TrainingFiles files;
@@ -279,10 +293,12 @@ ExitCode train(const Options& options) {
   if (options.resume) checkpoint = trainer::read_checkpoint(files.checkpoint);
   const Checkpoint* before = checkpoint ? &*checkpoint : nullptr;
   config_of(options, Preset::object, before);
-  const std::optional<Scene> mesh =
-      checkpoint || options.print_config ? std::nullopt : read_mesh(options.config);
+  const std::optional<Scene> mesh = before_the_first_step(options, [&] {
+    return checkpoint || options.print_config ? std::nullopt : read_mesh(options.config);
+  });
 
-  Dataset dataset = read(options.dataset, DatasetPart::all);
+  Dataset dataset =
+      before_the_first_step(options, [&] { return read(options.dataset, DatasetPart::all); });
   check_pictures(options, dataset);
   const Config config = config_of(options, preset_for(dataset), before);
   if (options.print_config) {

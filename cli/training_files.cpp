@@ -4,9 +4,8 @@
 #include <span>
 #include <string_view>
 
-#include "formats/diffsoup_export.hpp"
+#include "cli/output_argument.hpp"
 #include "formats/input.hpp"
-#include "formats/output.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {
@@ -14,13 +13,6 @@ namespace tureen::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-void try_to_write(const fs::path& file) {
-  std::error_code error;
-  if (fs::is_directory(file, error))
-    throw OutputError({file.string(), {}, {}}, "cannot be written: it is a folder");
-  const Output probe(file);  // removes its temporary file
-}
 
 /// A log is begun anew, so what is there must be one, or nothing: not a scene, not a dataset.
 void check_log(const TrainingFiles& files) {
@@ -58,7 +50,7 @@ TrainingFiles training_files(const fs::path& scene) {
 
 void check_writable(const TrainingFiles& files) {
   for (const fs::path& file : {files.scene, files.checkpoint, files.log, files.plot})
-    try_to_write(file);
+    require_writable_file(file);
   check_log(files);
   const fs::path& folder = files.diffsoup_export;
   if (folder.empty()) return;
@@ -66,13 +58,7 @@ void check_writable(const TrainingFiles& files) {
        {files.scene, files.checkpoint, files.log, files.plot, files.previews, files.lock})
     if (folder.lexically_normal() == other.lexically_normal())
       throw UsageError("the export cannot be " + other.string() + ", which is written, too");
-  std::error_code error;
-  if (!fs::exists(folder, error)) {
-    try_to_write(folder);
-  } else if (!is_diffsoup_export(folder) &&
-             !(fs::is_directory(folder, error) && fs::is_empty(folder, error))) {
-    throw UsageError(folder.string() + " exists and is no DiffSoup export; choose another name");
-  }
+  require_writable_export(folder);
 }
 
 }  // namespace tureen::cli

@@ -20,7 +20,7 @@ struct TrainingFiles {
 TrainingFiles training_files(const std::filesystem::path& scene);
 
 /// Hours may pass until the files are written, so each is tried before: a temporary file in its
-/// folder, which goes again. Throws OutputError; UsageError where a folder other than a DiffSoup
+/// folder, which goes again. Throws OutputError; UsageError where something other than a DiffSoup
 /// export stands where the export is to be.
 void check_writable(const TrainingFiles& files);
 

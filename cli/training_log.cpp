@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "formats/existing_path.hpp"
 #include "formats/input.hpp"
 #include "formats/json_view.hpp"
-#include "formats/suggestion.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {
@@ -114,9 +114,7 @@ void TrainingLog::append(const TrainingRecord& record) {
 }
 
 std::vector<TrainingRecord> read_training_log(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error))
-    throw InputError({path.string(), {}, {}}, why_missing(path));
+  require_there(path);
   return parse_log(path).records;
 }
 

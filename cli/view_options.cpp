@@ -9,8 +9,8 @@
 
 #include "cli/values.hpp"
 #include "formats/camera_file.hpp"
+#include "formats/existing_path.hpp"
 #include "formats/scene_file.hpp"
-#include "formats/suggestion.hpp"
 #include "runtime/camera_path.hpp"
 #include "runtime/navigation.hpp"
 #include "soup/error.hpp"
@@ -34,9 +34,8 @@ struct CameraArgument {
 
   CameraArgument(const std::string& text, std::string which_without)
       : file(text), which(std::move(which_without)) {
-    std::error_code error;
     const std::size_t colon = text.rfind(':');
-    if (fs::exists(file, error) || colon == std::string::npos) return;
+    if (!is_missing(file) || colon == std::string::npos) return;
     const std::string suffix = text.substr(colon + 1);
     const bool digits = !suffix.empty() && std::all_of(suffix.begin(), suffix.end(), [](char c) {
       return std::isdigit(static_cast<unsigned char>(c)) != 0;
@@ -48,8 +47,8 @@ struct CameraArgument {
 };
 
 CameraFile cameras_in(const fs::path& file, const Scene& scene, const std::string& scene_path) {
+  require_there(file);
   std::error_code error;
-  if (!fs::exists(file, error)) throw InputError({file.string(), {}, {}}, why_missing(file));
   if (fs::equivalent(file, scene_path, error)) return {scene.cameras, {}};
   if (is_camera_file(file)) return read_cameras(file);
   return {read_scene(file).cameras, {}};
@@ -68,8 +67,7 @@ Views film(CameraPathData data, const FrameRate& rate) {
 }
 
 Views film_along(const fs::path& file, FrameRate rate, const std::optional<PictureSize>& size) {
-  std::error_code error;
-  if (!fs::exists(file, error)) throw InputError({file.string(), {}, {}}, why_missing(file));
+  require_there(file);
   CameraPathData path = read_path(file);
   const Camera& first = path.keyframes.front().camera;
   rate.width = size ? size->width : first.width;

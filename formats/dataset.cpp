@@ -7,6 +7,7 @@
 #include <string>
 
 #include "formats/colmap.hpp"
+#include "formats/existing_path.hpp"
 #include "formats/photograph.hpp"
 #include "formats/transforms_dataset.hpp"
 #include "formats/uri.hpp"
@@ -122,10 +123,9 @@ Outline colmap_outline(const fs::path& folder, const fs::path& model_folder,
 
 Outline make_outline(const fs::path& path, const DatasetOptions& options,
                      const MemoryBudget& budget) {
+  require_there(path);
   std::error_code ignored;
-  if (fs::is_regular_file(path, ignored)) return one_transforms_file(path, options, budget);
-  if (!fs::is_directory(path, ignored))
-    throw InputError({path.string(), {}, {}}, "no such file or folder");
+  if (!fs::is_directory(path, ignored)) return one_transforms_file(path, options, budget);
   for (const char* name : {"transforms_train.json", "transforms_test.json"})
     if (fs::exists(path / name, ignored)) return file_a_split(path, options, budget);
   if (fs::exists(path / "transforms.json", ignored))

@@ -17,6 +17,7 @@
 #include "formats/diffsoup_export.hpp"
 #include "formats/diffsoup_mesh.hpp"
 #include "formats/output.hpp"
+#include "formats/output_path.hpp"
 #include "formats/png.hpp"
 #include "soup/lattice.hpp"
 #include "soup/lattice_refine.hpp"
@@ -189,6 +190,9 @@ class NewFolder {
         !(fs::is_directory(path_, error) && fs::is_empty(path_, error)))
       throw OutputError({path_.string(), {}, {}},
                         "is there and is no DiffSoup export: not replaced");
+#ifndef __EMSCRIPTEN__  // where there are no links
+    path_ = followed(path_);
+#endif
     static std::atomic<unsigned> counter{0};
     temporary_ = path_;
     temporary_ += ".tmp" + std::to_string(getpid()) + "-" + std::to_string(counter++);

@@ -44,7 +44,6 @@ class Importer {
     walk();
     Scene scene;
     TriangleSoup soup = builder_.finish();
-    if (soup.triangles.empty()) document_.fail("", "the file holds no triangles");
     if (const auto reason = defect(soup)) document_.fail("", *reason);
     if (builder_.has_vertex_colors()) builder_.notes.push_back(color_note());
     if (!document_.model().animations.empty())

@@ -22,8 +22,10 @@ Input Input::open(const std::filesystem::path& path, MemoryBudget budget) {
     throw InputError({input.name_, {}, {}}, "no such file");
   if (!std::filesystem::status_known(status))  // links in a ring, a name too long, no permission
     throw InputError({input.name_, {}, {}}, "cannot be looked up: " + error.message());
-  if (std::filesystem::is_directory(status))
-    throw InputError({input.name_, {}, {}}, "is a folder, expected a file");
+  if (!std::filesystem::is_regular_file(status))
+    throw InputError({input.name_, {}, {}}, std::filesystem::is_directory(status)
+                                                ? "is a folder, expected a file"
+                                                : "is a pipe or a device, expected a file");
   input.size_ = std::filesystem::file_size(path, error);
   if (error) throw InputError({input.name_, {}, {}}, "cannot be read: " + error.message());
   input.file_.reset(std::fopen(path.c_str(), "rb"));

@@ -14,7 +14,7 @@ namespace tureen {
 
 class Output {
  public:
-  /// Opens a temporary file beside `path`. Throws OutputError.
+  /// Opens a temporary file beside what writable_file (output_path.hpp) says. Throws OutputError.
   explicit Output(std::filesystem::path path);
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
@@ -35,7 +35,7 @@ class Output {
  private:
   [[noreturn]] void fail(const char* what) const;
 
-  std::filesystem::path path_;
+  std::filesystem::path path_;  // with links followed
   std::filesystem::path temporary_;
   std::FILE* file_ = nullptr;
   std::uint64_t position_ = 0;

@@ -66,6 +66,12 @@ std::uint64_t decoder_limit(std::size_t file, int width, int height) {
   return 4 * std::uint64_t(file) + 28 * padded(width) * padded(height) + decoder_tables;
 }
 
+std::string beyond(std::int64_t width, std::int64_t height) {
+  return "an image of " + std::to_string(width) + " x " + std::to_string(height) +
+         " pixels is beyond what we read: " + std::to_string(max_image_side) +
+         " pixels a side and " + std::to_string(max_image_pixels) + " in all";
+}
+
 }  // namespace
 
 Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
@@ -86,13 +92,21 @@ Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
   int width = 0, height = 0, channels = 0;
   {
     const decoder_memory::Scope tables(MemoryBudget(decoder_tables), decoder_tables);
-    if (!stbi_info_from_memory(data, size, &width, &height, &channels))
+    if (!stbi_info_from_memory(data, size, &width, &height, &channels)) {
+      // Of a PNG that it could not hold stb does not tell the size, which stands in the header.
+      const auto side = [&](std::size_t at) {
+        return std::uint32_t(data[at]) << 24 | data[at + 1] << 16 | data[at + 2] << 8 |
+               data[at + 3];
+      };
+      if (size >= 24 && std::memcmp(data, "\x89PNG", 4) == 0 &&
+          std::uint64_t(side(16)) * side(20) > max_image_pixels)
+        fail(beyond(side(16), side(20)));
       fail(std::string("not a PNG or JPEG image: ") + stbi_failure_reason());
+    }
   }
   if (width < 1 || height < 1 || width > max_image_side || height > max_image_side ||
       std::size_t(width) * height > max_image_pixels)
-    fail("an image of " + std::to_string(width) + " x " + std::to_string(height) +
-         " pixels is beyond what we read");
+    fail(beyond(width, height));
   PassingMemory passing(budget);
   const std::string what = "an image of " + std::to_string(width) + " x " + std::to_string(height);
   const std::uint64_t result_bytes = std::uint64_t(width) * std::uint64_t(height) * 4;

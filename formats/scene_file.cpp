@@ -39,12 +39,6 @@ struct Format {
   std::vector<std::string> (*write)(const Scene&, const std::filesystem::path&) = nullptr;
 };
 
-/// A .gltf would need its bytes in a second file, which is what a GLB is there to avoid.
-std::vector<std::string> write_glb(const Scene& scene, const std::filesystem::path& path) {
-  if (path.extension() == ".gltf") throw UsageError("glTF is written as .glb only");
-  return write_tureen_glb(scene, path);
-}
-
 /// In the order in which they are asked whether they recognise a file.
 const std::vector<Format>& formats() {
   using Path = std::filesystem::path;
@@ -54,7 +48,7 @@ const std::vector<Format>& formats() {
        .extensions = {".glb", ".gltf"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_gltf(c.head); },
        .read = read_gltf_or_glb,
-       .write = write_glb},
+       .write = write_tureen_glb},
       {.name = "OFF",
        .description = "triangles with a colour a face or a vertex, as text (OFF, COFF)",
        .extensions = {".off", ".coff"},
@@ -146,6 +140,20 @@ const Format& format_to_read(const Candidate& candidate) {
                        listed([](const Format& format) { return format.read != nullptr; }));
 }
 
+/// By name.
+const Format& format_to_write(const std::filesystem::path& path) {
+  const std::string extension = extension_of(path);
+  // Its bytes would lie in a second file, which is what a GLB is there to avoid.
+  if (extension == ".gltf") throw UsageError("glTF is written as .glb only");
+  for (const Format& format : formats())
+    if (format.write && (extension.empty() ? format.is_folder : has_extension(format, extension)))
+      return format;
+  throw UsageError((extension.empty() ? "no extension tells which format to write"
+                                      : "no format that we write ends in " + extension) +
+                   std::string("; written are ") +
+                   listed([](const Format& format) { return format.write != nullptr; }));
+}
+
 }  // namespace
 
 bool is_scene(const std::filesystem::path& path) {
@@ -168,20 +176,18 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options) 
       std::any_of(formats().begin(), formats().end(), promises))
     scene.info.notes.push_back("The name ends in " + extension + ", but the content is " +
                                format.name + ".");
-  if (const auto* soup = std::get_if<TriangleSoup>(&scene.primitives))
+  if (const auto* soup = std::get_if<TriangleSoup>(&scene.primitives)) {
     if (const auto reason = defect(*soup)) throw InputError({path.string(), {}, {}}, *reason);
+    if (soup->triangles.empty())
+      throw InputError({path.string(), {}, {}}, "the file holds no triangles");
+  }
   return scene;
 }
 
+void require_written_format(const std::filesystem::path& path) { format_to_write(path); }
+
 std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path) {
-  const std::string extension = extension_of(path);
-  for (const Format& format : formats())
-    if (format.write && (extension.empty() ? format.is_folder : has_extension(format, extension)))
-      return format.write(scene, path);
-  throw UsageError((extension.empty() ? "no extension tells which format to write"
-                                      : "no format that we write ends in " + extension) +
-                   std::string("; written are ") +
-                   listed([](const Format& format) { return format.write != nullptr; }));
+  return format_to_write(path).write(scene, path);
 }
 
 std::vector<FormatInfo> known_formats() {

@@ -25,9 +25,12 @@ struct ReadOptions {
 bool is_scene(const std::filesystem::path& path);
 
 /// Reads any scene that we know: .glb/.gltf (ours and foreign), .off, .ply, a DiffSoup export
-/// folder, a MobileNeRF folder (or its .obj), a .pt checkpoint. The scene has no defect().
-/// Throws InputError.
+/// folder, a MobileNeRF folder (or its .obj), a .pt checkpoint. The scene has no defect(), and
+/// triangles. Throws InputError.
 Scene read_scene(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// Throws UsageError where write_scene would for the name alone.
+void require_written_format(const std::filesystem::path& path);
 
 /// Writes by the extension of `path` (.glb, .off, .ply; a DiffSoup export folder where there is no
 /// extension), whole or not at all. Returns what the format cannot hold, a sentence each. Throws

@@ -18,6 +18,7 @@
 #include <string_view>
 #include <utility>
 
+#include "formats/output_path.hpp"
 #include "soup/error.hpp"
 
 extern char** environ;  // POSIX has it in no header
@@ -118,8 +119,9 @@ VideoFile::VideoFile(fs::path path, const Format& format)
   std::error_code error;
   if (!folder.empty() && !fs::is_directory(folder, error))
     throw OutputError({path_.string(), {}, {}}, "there is no folder " + folder.string());
+  target_ = writable_file(path_);
   static std::atomic<unsigned> counter{0};
-  temporary_ = path_;
+  temporary_ = target_;
   temporary_ += ".tmp" + std::to_string(getpid()) + "-" + std::to_string(counter++);
   bytes_.resize(std::size_t(3) * even(format.width) * even(format.height));
   start();
@@ -215,7 +217,7 @@ void VideoFile::commit() {
   assert(process_ >= 0);
   if (wait() != 0) fail();
   std::error_code error;
-  fs::rename(temporary_, path_, error);
+  fs::rename(temporary_, target_, error);
   if (error) throw OutputError({path_.string(), {}, {}}, "cannot be replaced: " + error.message());
   temporary_.clear();
 }

@@ -59,7 +59,7 @@ class VideoFile {
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
-  std::filesystem::path path_, temporary_;
+  std::filesystem::path path_, target_, temporary_;  // the second with links followed
   Format format_;
   std::unique_ptr<std::FILE, Close> complaints_;  // without a name
   int input_ = -1;                                // our end of its standard input

@@ -8,8 +8,8 @@
 #include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "formats/existing_path.hpp"
 #include "formats/output.hpp"
-#include "formats/suggestion.hpp"
 #include "soup/lattice.hpp"
 #include "trainer/config_fields.hpp"
 #include "trainer/config_file.hpp"
@@ -258,9 +258,7 @@ Checkpoint read_checkpoint(Input& input) {
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error))
-    throw InputError({path.string(), {}, {}}, why_missing(path));
+  require_there(path);
   Input input = Input::open(path);
   return read_checkpoint(input);
 }

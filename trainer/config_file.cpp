@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "formats/existing_path.hpp"
 #include "formats/json_file.hpp"
 #include "formats/json_view.hpp"
 #include "formats/suggestion.hpp"
@@ -89,9 +90,7 @@ Config read_config(Input& input, const ConfigDefaults& defaults) {
 }
 
 Config read_config(const std::filesystem::path& path, const ConfigDefaults& defaults) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error))
-    throw InputError({path.string(), {}, {}}, why_missing(path));
+  require_there(path);
   Input input = Input::open(path);
   return read_config(input, defaults);
 }

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "formats/memory_budget.hpp"
+#include "formats/memory_help.hpp"
+#include "formats/shown_text.hpp"
 #include "soup/error.hpp"
 #include "viewer/application.hpp"
 
@@ -50,8 +52,7 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
   program
       .add_option_function<std::string>(
           "--max-memory", [](const std::string& text) { set_max_memory(parse_memory_size(text)); },
-          "what reading a scene or a dataset may take, 4GB by default: a file that asks for more "
-          "is refused")
+          max_memory_help)
       ->option_text("SIZE");
   program.add_flag("--no-settings", arguments.no_settings,
                    "neither read nor keep what the last run left");
@@ -100,7 +101,8 @@ int run(const Arguments& arguments) {
                  application.report().first_picture_seconds, application.report().longest_busy_ms);
   if (arguments.replay.empty()) return int(ExitCode::done);
   const std::vector<std::string> errors = application.errors();
-  for (const std::string& error : errors) std::fprintf(stderr, "tureen-view: %s\n", error.c_str());
+  for (const std::string& error : errors)
+    std::fprintf(stderr, "tureen-view: %s\n", shown_line(error).c_str());
   return int(errors.empty() ? ExitCode::done : ExitCode::failed);
 }
 
@@ -127,10 +129,11 @@ or the settings cannot be read, 4 no display or no OpenGL, 5 anything else.)");
   } catch (const CLI::Success& help) {
     return program.exit(help);
   } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "tureen view: %s\nTry: tureen view --help\n", error.what());
+    std::fprintf(stderr, "tureen view: %s\nTry: tureen view --help\n",
+                 tureen::shown_line(error.what()).c_str());
     return int(ExitCode::usage);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "tureen view: %s\n", error.what());
+    std::fprintf(stderr, "tureen view: %s\n", tureen::shown_line(error.what()).c_str());
     return int(code_of(error));
   }
 }

@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "formats/shown_text.hpp"
+
 namespace tureen::viewer {
 
-void Messages::note(std::string text, double now) {
-  add({Message::Kind::note, "", std::move(text), now});
+void Messages::note(const std::string& text, double now) {
+  add({Message::Kind::note, "", shown_line(text), now});
 }
 
-void Messages::error(std::string title, std::string reason, double now) {
-  add({Message::Kind::error, std::move(title), std::move(reason), now});
+void Messages::error(const std::string& title, const std::string& reason, double now) {
+  add({Message::Kind::error, shown_line(title), shown_line(reason), now});
 }
 
 void Messages::add(Message message) {

@@ -21,8 +21,9 @@ class Messages {
   static constexpr double note_seconds = 6;
   static constexpr std::size_t most = 5;  // of which the newest stay
 
-  void note(std::string text, double now);
-  void error(std::string title, std::string reason, double now);
+  /// Texts may come from files: shown_line (formats/shown_text.hpp).
+  void note(const std::string& text, double now);
+  void error(const std::string& title, const std::string& reason, double now);
   void dismiss(std::size_t index);
   /// Takes away the notes that have been seen.
   void age(double now);

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <thread>
 
+#include "cli/nobody.hpp"
 #include "cli/program_fixture.hpp"
 #include "support/measured.hpp"
 
@@ -21,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using test::ChildResult;
+using test::Nobody;
 using testing::Contains;
 using testing::Each;
 using testing::HasSubstr;
@@ -41,22 +43,6 @@ class SmallDisk {
 
  private:
   rlimit before_{};
-};
-
-/// Children that start meanwhile are nobody's where the test is root's, whom no permission stops.
-class Nobody {
- public:
-  Nobody() : was_root_(::geteuid() == 0) {
-    if (was_root_ && ::seteuid(65534) != 0) throw std::runtime_error("root cannot be nobody");
-  }
-  Nobody(const Nobody&) = delete;
-  Nobody& operator=(const Nobody&) = delete;
-  ~Nobody() {
-    if (was_root_ && ::seteuid(0) != 0) std::abort();
-  }
-
- private:
-  bool was_root_;
 };
 
 class Faults : public test::Program {
@@ -143,8 +129,8 @@ TEST_F(Faults, WhereNothingMayBeWrittenNothingIs) {
   const auto before = contents("locked");
   fs::permissions(folder, fs::perms::all);
   fs::permissions(folder / "scene.off", fs::perms(0644));
-  for (const char* stream : {"stdout.txt", "stderr.txt"})
-    fs::permissions(folder / stream, fs::perms(0666));
+  test::make_streams_for_all(folder);
+  fs::permissions(folder / "locked/out.glb", fs::perms(0666));  // it is the folder that forbids
   fs::permissions(folder / "locked", fs::perms(0555));
   std::vector<ChildResult> results;
   {

@@ -204,6 +204,35 @@ TEST_F(Train, GoesOnAfterCtrlCAsIfItHadNotHappened) {
   EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), std::count(whole.begin(), whole.end(), '\n'));
 }
 
+TEST_F(Train, SaysThatCtrlCBeforeTheFirstStepLeavesNoCheckpoint) {
+  make_dataset();
+  // The same photograph so often that reading takes a while.
+  auto document = nlohmann::json::parse(bytes("ball/transforms_train.json"));
+  const nlohmann::json frame = document["frames"][0];
+  for (int i = 0; i < 30'000; ++i) document["frames"].push_back(frame);
+  write("ball/transforms_train.json", document.dump());
+  test::Child child(arguments("a.glb"), folder);
+  while (child.running() && !exists("a.lock"))
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  child.signal(SIGINT);
+  const ChildResult result = child.wait();
+  EXPECT_EQ(result.exit_code, 5);
+  EXPECT_THAT(result.err, HasSubstr("no step was done, so there is no checkpoint to go on from\n"
+                                    "tureen: interrupted"));
+  EXPECT_THAT(files(), IsEmpty());
+}
+
+TEST_F(Train, RefusesACheckpointThatIsAFolder) {
+  make_dataset();
+  fs::create_directory(folder / "a.checkpoint");
+  for (const std::vector<std::string>& more :
+       std::vector<std::vector<std::string>>{{}, {"--resume"}}) {
+    const ChildResult result = train("a.glb", more);
+    EXPECT_EQ(result.exit_code, 5);
+    EXPECT_THAT(result.err, HasSubstr("a.checkpoint: cannot be written: it is a folder"));
+  }
+}
+
 TEST_F(Train, GoesOnAfterAKillAsIfItHadNotHappened) {
   make_dataset();
   fs::create_directories(folder / "whole");
@@ -366,7 +395,8 @@ TEST_F(Train, KeepsWhatItHasLearnedWhereAFileCannotBeWritten) {
   const ChildResult failed = train("ball.glb", previews);
   EXPECT_EQ(failed.exit_code, 5);
   EXPECT_THAT(failed.err, HasSubstr("wrote ball.checkpoint after step 20 of 40"));
-  EXPECT_THAT(failed.err, HasSubstr("ball.previews/step_20.png: cannot be replaced"));
+  EXPECT_THAT(failed.err,
+              HasSubstr("ball.previews/step_20.png: cannot be written: it is a folder"));
   EXPECT_FALSE(exists("ball.glb"));
 
   const ChildResult went_on = train("ball.glb", {"--resume"});

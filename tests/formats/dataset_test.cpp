@@ -371,7 +371,7 @@ TEST(Dataset, RefusesAnEmptySplit) {
 
 TEST(Dataset, RefusesWhatIsNoDataset) {
   const TemporaryFolder folder;
-  EXPECT_THAT(refusal(folder / "nowhere"), HasSubstr("nowhere: no such file or folder"));
+  EXPECT_THAT(refusal(folder / "nowhere"), HasSubstr("nowhere: there is no such file or folder"));
   EXPECT_THAT(refusal(folder / ""), HasSubstr("no dataset that we know"));
   write_text(folder / "transforms.json", "{\"cameras\": []}");
   EXPECT_THAT(refusal(folder / ""), HasSubstr("there is no \"frames\""));

@@ -512,8 +512,6 @@ TEST_F(Gltf, SaysWhereTheFileIsWrong) {
               HasSubstr("nodes[0].scale: expected 3 numbers"));
   EXPECT_THAT(changed([](auto& b) { b.document["asset"]["version"] = "1.0"; }),
               HasSubstr("asset.version: glTF 1.0; 2.0 is read"));
-  EXPECT_THAT(changed([](auto& b) { b.document["meshes"][0]["primitives"][0]["mode"] = 1; }),
-              HasSubstr("the file holds no triangles"));
   EXPECT_THAT(changed([](auto& b) {
                 json deep = 1;
                 for (int i = 0; i < 100; ++i) deep = json::array({deep});
@@ -614,7 +612,7 @@ TEST_F(Gltf, HostileFilesEndInAResultOrASentence) {
     if (extension != ".gltf" && extension != ".glb") continue;
     SCOPED_TRACE(entry.path().string());
     try {
-      const Scene scene = read_gltf_or_glb(entry.path());
+      const Scene scene = read_scene(entry.path());
       EXPECT_FALSE(defect(soup_of(scene)));
       EXPECT_FALSE(soup_of(scene).triangles.empty());
       std::printf("  read     %s (%zu triangles)\n", entry.path().filename().c_str(),

@@ -439,7 +439,13 @@ TEST(HostileBombs, APictureOfMorePixelsThanMemory) {
   const Bytes beyond =
       fuzz::PngFixture{.width = 20000, .height = 20000, .color_type = 0, .rows = "x"}.bytes();
   EXPECT_THAT(input_error([&] { decode_image(beyond, "beyond.png"); }),
-              HasSubstr("20000 x 20000 pixels is beyond what we read"));
+              HasSubstr("20000 x 20000 pixels is beyond what we read: 65536 pixels a side and "
+                        "268435456 in all"));
+  // So large that stb itself refuses it.
+  const Bytes farther =
+      fuzz::PngFixture{.width = 30000, .height = 30000, .color_type = 2, .rows = "x"}.bytes();
+  EXPECT_THAT(input_error([&] { decode_image(farther, "farther.png"); }),
+              HasSubstr("farther.png: an image of 30000 x 30000 pixels is beyond what we read"));
 }
 
 TEST(HostileBombs, ManyPicturesInOneScene) {

@@ -42,6 +42,27 @@ TEST(SceneFile, AsksTheNameWhereTheContentSaysNothing) {
               HasSubstr("a.OFF:2: the file is empty, OFF or COFF is expected"));
 }
 
+/// A picture of nothing would leave open whether the file or the view is to blame.
+TEST(SceneFile, RefusesFilesWithoutTrianglesAlikeInEveryFormat) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.off", "OFF\n1 0 0\n0 0 0\n");
+  write_text(folder / "a.ply",
+             "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
+             "property float z\nelement face 0\nproperty list uchar int vertex_indices\n"
+             "end_header\n");
+  write_text(folder / "a.gltf",
+             R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+                 "nodes": [{}]})");
+  Scene ours;
+  TriangleSoup soup;
+  soup.appearance = FaceColors{};
+  ours.primitives = soup;
+  write_scene(ours, folder / "ours.glb");
+  for (const char* name : {"a.off", "a.ply", "a.gltf", "ours.glb"})
+    EXPECT_THAT(input_error([&] { read_scene(folder / name); }),
+                HasSubstr(std::string(name) + ": the file holds no triangles"));
+}
+
 TEST(SceneFile, ListsWhatIsReadWhereNothingFits) {
   const TemporaryFolder folder;
   write_text(folder / "a.txt", "hello");

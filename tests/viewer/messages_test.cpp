@@ -28,5 +28,13 @@ TEST(Messages, TheSameAgainIsNotASecondOne) {
   EXPECT_EQ(messages.list().back().text, "29");
 }
 
+TEST(Messages, OfFilesDoNotFillTheWindow) {
+  Messages messages;
+  messages.error("bad.glb", "it wants " + std::string(1'000'000, 'x') + "\nall is well", 1.0);
+  const std::string& text = messages.list()[0].text;
+  EXPECT_LT(text.size(), 1100u);
+  EXPECT_EQ(text.find('\n'), std::string::npos);
+}
+
 }  // namespace
 }  // namespace tureen::viewer

@@ -1,0 +1,48 @@
+#include "cli/output_argument.hpp"
+
+#include "formats/diffsoup_export.hpp"
+#include "formats/output.hpp"
+#include "soup/error.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether files can be made in `folder`, which is there or ""; told of `path`.
+void try_in(const fs::path& folder, const fs::path& path) {
+  try {
+    const Output probe(folder / "tureen");  // removes its temporary file
+  } catch (const OutputError& error) {
+    throw OutputError({path.string(), {}, {}}, error.reason());
+  }
+}
+
+}  // namespace
+
+void require_writable_file(const fs::path& path) { const Output probe(path); }
+
+void require_writable_beside(const fs::path& path) { try_in(path.parent_path(), path); }
+
+void require_writable_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::path there = folder;
+  while (!there.empty() && !fs::exists(there, error) && there != there.parent_path())
+    there = there.parent_path();
+  if (!there.empty() && !fs::is_directory(there, error))
+    throw OutputError({folder.string(), {}, {}},
+                      "cannot be made a folder: " + there.string() + " is none");
+  try_in(there, folder);
+}
+
+void require_writable_export(const fs::path& folder) {
+  const fs::path path = folder.has_filename() ? folder : folder.parent_path();
+  std::error_code error;
+  if (fs::exists(path, error) && !is_diffsoup_export(path) &&
+      !(fs::is_directory(path, error) && fs::is_empty(path, error)))
+    throw UsageError(path.string() + " exists and is no DiffSoup export; choose another name");
+  require_writable_beside(path);
+}
+
+}  // namespace tureen::cli

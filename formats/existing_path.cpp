@@ -1,0 +1,35 @@
+#include "formats/existing_path.hpp"
+
+#include <string>
+
+#include "formats/suggestion.hpp"
+#include "soup/error.hpp"
+
+namespace tureen {
+
+namespace fs = std::filesystem;
+
+bool is_missing(const fs::path& path) {
+  std::error_code ignored;
+  return fs::status(path, ignored).type() == fs::file_type::not_found;
+}
+
+void require_there(const fs::path& path) {
+  const auto fail = [&](const std::string& reason) {
+    throw InputError({path.string(), {}, {}}, reason);
+  };
+  if (path.empty()) throw UsageError("the name of an input is empty");
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) {
+    std::error_code none;
+    const fs::path target = fs::read_symlink(path, none);
+    fail(none ? why_missing(path) : "is a link to " + target.string() + ", which is not there");
+  }
+  if (!fs::status_known(status)) fail("cannot be looked up: " + error.message());
+  // What lies in a folder that may not be entered looks as if it were not there.
+  if (fs::is_directory(status) && !fs::status_known(fs::status(path / ".", error)))
+    fail("cannot be opened: " + error.message());
+}
+
+}  // namespace tureen

@@ -1,0 +1,95 @@
+// Inputs that are no files, or that may not be read: told as what they are, and never waited for.
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/nobody.hpp"
+#include "cli/program_fixture.hpp"
+
+namespace tureen {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ChildResult;
+using test::Nobody;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class Inputs : public test::Program {
+ protected:
+  void expect(const std::vector<std::string>& arguments, const std::string& words,
+              int exit_code = 3) const {
+    const ChildResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, exit_code) << arguments[0];
+    EXPECT_THAT(result.err, StartsWith("tureen: " + words)) << arguments[0];
+  }
+  /// Every command that reads, with `file` as its input.
+  std::vector<std::vector<std::string>> readers(const std::string& file) const {
+    return {{"info", file},
+            {"render", file},
+            {"convert", file, "out.glb"},
+            {"bench", file},
+            {"compare", file, file},
+            {"eval", "scene.off", file},
+            {"train", file, "-o", "out.glb"},
+            {"train", "photographs", "-o", "out.glb", "--config", file},
+            {"render", "scene.off", "--camera", file},
+            {"render", "scene.off", "--path", file, "-o", "f_%d.png"},
+            {"bench", "scene.off", "--against", file},
+            {"bench", "--import", file},
+            {"plot", file}};
+  }
+};
+
+TEST_F(Inputs, ThatMayNotBeReadAreNotToldAsMissing) {
+  write_scene();
+  fs::create_directory(folder / "locked");
+  fs::copy(folder / "scene.off", folder / "locked/scene.off");
+  fs::copy(folder / "scene.off", folder / "secret.off");
+  fs::permissions(folder, fs::perms::all);
+  fs::permissions(folder / "scene.off", fs::perms(0644));
+  fs::permissions(folder / "secret.off", fs::perms::none);
+  test::make_streams_for_all(folder);
+  fs::permissions(folder / "locked", fs::perms::none);
+  {
+    const Nobody nobody;
+    if (::eaccess(TUREEN_PROGRAM, X_OK) == 0) {
+      for (const auto& arguments : readers("locked/scene.off"))
+        expect(arguments, "locked/scene.off: cannot be looked up: Permission denied");
+      for (const auto& arguments : readers("secret.off"))
+        expect(arguments, "secret.off: cannot be opened: Permission denied");
+      for (const char* command : {"info", "render"})
+        expect({command, "locked"}, "locked: cannot be opened: Permission denied");
+      expect({"eval", "scene.off", "locked"}, "locked: cannot be opened: Permission denied");
+    }
+  }
+  fs::permissions(folder / "locked", fs::perms::owner_all);
+}
+
+TEST_F(Inputs, ThatAreNoFilesAreRefusedAtOnce) {
+  write_scene();
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0644), 0);
+  // Nobody ever writes into it: whoever opened it would wait for good.
+  for (const char* file : {"pipe", "/dev/zero"})
+    for (const auto& arguments : readers(file))
+      expect(arguments, std::string(file) + ": is a pipe or a device, expected a file");
+}
+
+TEST_F(Inputs, ThatAreFoldersWhereFilesAreExpectedAreToldSo) {
+  write_scene();
+  fs::create_directory(folder / "folder");
+  expect({"compare", "folder", "folder"}, "folder: is a folder, expected a file");
+  expect({"plot", "folder"}, "folder: is a folder, expected a file");
+  expect({"bench", "--import", "folder"}, "folder: is a folder, expected a file");
+  expect({"render", "scene.off", "--path", "folder", "-o", "f_%d.png"},
+         "folder: is a folder, expected a file");
+  expect({"info", "folder"}, "folder: not a folder of a kind that we read");
+}
+
+TEST_F(Inputs, ThatAreLinksToNothingAreToldSo) {
+  fs::create_symlink("gone.off", folder / "link.off");
+  expect({"info", "link.off"}, "link.off: is a link to gone.off, which is not there");
+}
+
+}  // namespace
+}  // namespace tureen

@@ -1,0 +1,155 @@
+// Where outputs go: through links, never over what is no file or is protected, and told of before
+// anything is read.
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/nobody.hpp"
+#include "cli/program_fixture.hpp"
+#include "formats/scene_file.hpp"
+
+namespace tureen {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ChildResult;
+using test::Nobody;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+class Outputs : public test::Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    write_scene();
+    // No command gets so far as to read it.
+    write("bad.off", "COFF\nnonsense\n");
+    write_png("a.png", Image8(8, 8));
+    write("log.jsonl", "");
+  }
+  void expect(const std::vector<std::string>& arguments, int exit_code,
+              const std::string& words) const {
+    SCOPED_TRACE(arguments[0] + " " + arguments.back());
+    const ChildResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, exit_code);
+    EXPECT_THAT(result.err, HasSubstr(words));
+  }
+  std::size_t triangles(const std::string& file) const {
+    return std::get<TriangleSoup>(read_scene(folder / file).primitives).triangles.size();
+  }
+};
+
+TEST_F(Outputs, GoWhereLinksLeadAndTheLinksStay) {
+  fs::create_directory(folder / "far");
+  const auto is_link = [&](const char* name) { return fs::is_symlink(folder / name); };
+  fs::create_symlink("far/new.ply", folder / "new.ply");  // which leads nowhere yet
+  EXPECT_EQ(run({"convert", "scene.off", "new.ply"}).exit_code, 0);
+  EXPECT_TRUE(is_link("new.ply"));
+  EXPECT_EQ(triangles("far/new.ply"), 3u);
+
+  write("far/old.ply", "precious");
+  fs::create_symlink("far/old.ply", folder / "middle");
+  fs::create_symlink("middle", folder / "old.ply");
+  expect({"convert", "scene.off", "old.ply"}, 2, "old.ply exists already; --force replaces it");
+  EXPECT_EQ(fs::file_size(folder / "far/old.ply"), 8u);
+  EXPECT_EQ(run({"convert", "scene.off", "old.ply", "--force"}).exit_code, 0);
+  EXPECT_TRUE(is_link("old.ply"));
+  EXPECT_TRUE(is_link("middle"));
+  EXPECT_EQ(triangles("far/old.ply"), 3u);
+
+  fs::create_symlink("ring.ply", folder / "ring.ply");
+  expect({"convert", "scene.off", "ring.ply"}, 5,
+         "ring.ply: cannot be written: Too many levels of symbolic links");
+}
+
+TEST_F(Outputs, ThatAreFoldersGoWhereLinksLead) {
+  write("one.glb", "");
+  fs::remove(folder / "one.glb");
+  ASSERT_EQ(run({"convert", "scene.off", "real/"}).exit_code, 0);
+  const auto before = fs::last_write_time(folder / "real/mesh.ply");
+  fs::create_symlink("real", folder / "export");
+  EXPECT_EQ(run({"convert", "scene.off", "export", "--force"}).exit_code, 0);
+  EXPECT_TRUE(fs::is_symlink(folder / "export"));
+  EXPECT_NE(fs::last_write_time(folder / "real/mesh.ply"), before);
+}
+
+TEST_F(Outputs, AreNoPipesNorDevices) {
+  ASSERT_EQ(::mkfifo((folder / "pipe.ply").c_str(), 0644), 0);
+  fs::create_symlink("/dev/null", folder / "null.ply");
+  for (const char* output : {"pipe.ply", "null.ply"}) {
+    const std::string words = std::string(output) + ": cannot be written: it is a pipe or a device";
+    expect({"convert", "bad.off", output}, 5, words);
+    expect({"convert", "bad.off", output, "--force"}, 5, words);
+  }
+  ASSERT_EQ(::mkfifo((folder / "pipe.png").c_str(), 0644), 0);
+  expect({"render", "bad.off", "-o", "pipe.png"}, 5, "pipe.png: cannot be written");
+  EXPECT_TRUE(fs::is_fifo(folder / "pipe.ply"));
+}
+
+TEST_F(Outputs, DoNotReplaceWhatIsWriteProtected) {
+  write("precious.ply", "precious");
+  fs::permissions(folder, fs::perms::all);
+  fs::permissions(folder / "precious.ply", fs::perms(0444));
+  test::make_streams_for_all(folder);
+  const Nobody nobody;
+  if (::eaccess(TUREEN_PROGRAM, X_OK) != 0) GTEST_SKIP() << TUREEN_PROGRAM << " is not for all";
+  expect({"convert", "bad.off", "precious.ply", "--force"}, 5,
+         "precious.ply: cannot be replaced: it is write-protected");
+  EXPECT_EQ(fs::file_size(folder / "precious.ply"), 8u);
+}
+
+TEST_F(Outputs, ThatCannotBeWrittenAreToldBeforeAnythingIsRead) {
+  fs::create_directory(folder / "folder.ply");
+  write("file", "");
+  expect({"convert", "bad.off", "nowhere/out.ply"}, 5,
+         "nowhere/out.ply: there is no folder nowhere");
+  expect({"convert", "bad.off", "nowhere/export/"}, 5, "there is no folder nowhere");
+  expect({"convert", "bad.off", "folder.ply", "--force"}, 5,
+         "folder.ply: cannot be written: it is a folder");
+  expect({"convert", "bad.off", "file", "--force"}, 2, "file exists and is no DiffSoup export");
+  expect({"convert", "bad.off", "out.xyz"}, 2, "no format that we write ends in .xyz");
+  expect({"convert", "bad.off", "out.xyz"}, 2, "; a page is .html");
+  expect({"convert", "bad.off", "out.gltf"}, 2, "glTF is written as .glb only");
+  expect({"render", "bad.off", "-o", "nowhere/out.png"}, 5, "there is no folder nowhere");
+  expect({"render", "bad.off", "--orbit", "3", "-o", "nowhere/o.png"}, 5,
+         "there is no folder nowhere");
+  expect({"render", "bad.off", "--turntable", "1", "-o", "nowhere/o.png"}, 5,
+         "there is no folder nowhere");
+  expect({"compare", "bad.png", "a.png", "--diff", "nowhere/d.png"}, 5,
+         "there is no folder nowhere");
+  expect({"plot", "bad.jsonl", "-o", "nowhere/p.svg"}, 5, "there is no folder nowhere");
+  expect({"eval", "bad.off", "photographs", "-o", "file/views"}, 5, "file/views: cannot be");
+  expect({"bench", "bad.off", "--csv", "nowhere/b.csv"}, 5, "there is no folder nowhere");
+  expect({"tradeoff", "bad.off", "-o", "file/t"}, 5, "file/t: cannot be");
+  expect({"tradeoff", "bad.off", "--write-preset", "nowhere/t.glb"}, 5,
+         "there is no folder nowhere");
+}
+
+TEST_F(Outputs, ProbesLeaveNothing) {
+  const auto count = [&] {
+    return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+  };
+  run({"convert", "bad.off", "out.glb"});
+  const auto before = count();  // with the streams
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"convert", "bad.off", "export/"},
+                                             {"render", "bad.off"},
+                                             {"eval", "bad.off", "photographs", "-o", "views"},
+                                             {"compare", "bad.png", "a.png", "--diff", "d.png"}})
+    EXPECT_EQ(run(arguments).exit_code, 3) << arguments[0];
+  EXPECT_EQ(count(), before);
+}
+
+TEST_F(Outputs, AndInputsHaveNames) {
+  expect({"convert", "", "out.glb"}, 2, "IN is empty");
+  expect({"convert", "scene.off", ""}, 2, "OUT is empty");
+  expect({"info", ""}, 2, "SCENE is empty");
+  expect({"render", "scene.off", "-o", ""}, 2, "--output is empty");
+  expect({"compare", "a.png", "a.png", "--diff", ""}, 2, "--diff is empty");
+  expect({"eval", "scene.off", ""}, 2, "DATASET is empty");
+  expect({"plot", ""}, 2, "LOG is empty");
+}
+
+}  // namespace
+}  // namespace tureen

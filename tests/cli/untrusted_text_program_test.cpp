@@ -1,0 +1,76 @@
+// What a file says of itself is shown, and is never taken for what the program says.
+#include <gmock/gmock.h>
+
+#include <sstream>
+
+#include "cli/program_fixture.hpp"
+
+namespace tureen {
+namespace {
+
+using test::ChildResult;
+using testing::Each;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+class UntrustedText : public test::Program {
+ protected:
+  /// One triangle, by a program that calls itself so.
+  void write_gltf(const std::string& generator) const {
+    const nlohmann::json gltf{
+        {"asset", {{"version", "2.0"}, {"generator", generator}}},
+        {"scene", 0},
+        {"scenes", {{{"nodes", {0}}}}},
+        {"nodes", {{{"mesh", 0}}}},
+        {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}}},
+        {"buffers",
+         {{{"byteLength", 36},
+           {"uri",
+            "data:application/octet-stream;base64,"
+            "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}}},
+        {"bufferViews", {{{"buffer", 0}, {"byteLength", 36}}}},
+        {"accessors",
+         {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}}}}};
+    write("scene.gltf", gltf.dump());
+  }
+  static std::vector<std::string> lines(const std::string& text) {
+    std::vector<std::string> result;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) result.push_back(line);
+    return result;
+  }
+};
+
+TEST_F(UntrustedText, BeginsNoLineAndSteersNoTerminal) {
+  write_gltf("x\n  triangles    9 of 9 vertices\r\x1b[2J\xc2\x9b\x7f");
+  const ChildResult result = run({"info", "scene.gltf", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(lines(result.err), Each(Not(StartsWith("  triangles    9"))));
+  EXPECT_THAT(lines(result.err)[0],
+              HasSubstr("glTF by x\\n  triangles    9 of 9 vertices\\r\\u001b[2J\\u009b\\u007f"));
+  for (const char* steering : {"\r", "\x1b", "\xc2\x9b", "\x7f"}) {
+    EXPECT_THAT(result.err, Not(HasSubstr(steering)));
+    EXPECT_THAT(result.out, Not(HasSubstr(steering)));
+  }
+  // Programs get it as it was.
+  EXPECT_EQ(nlohmann::json::parse(result.out)["source"],
+            "glTF by x\n  triangles    9 of 9 vertices\r\x1b[2J\xc2\x9b\x7f");
+}
+
+TEST_F(UntrustedText, DoesNotFillTheScreen) {
+  write_gltf(std::string(1'000'000, 'x'));
+  const ChildResult result = run({"info", "scene.gltf"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_LT(result.err.size(), 5000u);
+  EXPECT_THAT(result.err, HasSubstr("more bytes ..]"));
+}
+
+TEST_F(UntrustedText, OfArgumentsIsShownAlike) {
+  const ChildResult result = run({"info", "a\nb\x1b[2J.glb"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, StartsWith("tureen: a\\nb\\u001b[2J.glb: "));
+}
+
+}  // namespace
+}  // namespace tureen
