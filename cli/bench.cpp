@@ -1,10 +1,8 @@
 // `tureen bench`: frame times across resolutions.
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <functional>
 #include <memory>
 
@@ -15,6 +13,7 @@
 #include "cli/bench_table.hpp"
 #include "cli/bench_views.hpp"
 #include "cli/commands.hpp"
+#include "cli/import_option.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory_option.hpp"
 #include "cli/report.hpp"
@@ -39,10 +38,6 @@ struct Options {
   std::vector<std::string> imports;    // of bench.html; none: measure the scene
   std::vector<std::string> arguments;  // all of them, as typed
 };
-
-std::string now_utc() {
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
-}
 
 BenchDevice device_of(const gl::Context& context) {
   const gl::Capabilities& capabilities = context.capabilities();
@@ -86,7 +81,7 @@ void add_measurements(BenchResult& result, std::vector<BenchMeasurement> measure
 
 BenchResult run(const Options& options) {
   BenchResult result;
-  result.date = now_utc();
+  result.date = utc_now();
   result.program = {program_version(), program_commit(), options.arguments};
   result.machine = this_machine();
   result.protocol.rounds = options.rounds;
@@ -127,12 +122,8 @@ void check_arguments(const CLI::App& command, const Options& options) {
     if (options.scene.path.empty()) throw UsageError("SCENE is required, or --import");
     return;
   }
-  const std::vector<std::string> allowed{"--import",  "--output",      "--csv",  "--plots",
-                                         "--against", "--fail-slower", "--json", "--help"};
-  for (const CLI::Option* option : command.get_options())
-    if (option->count() > 0 &&
-        std::find(allowed.begin(), allowed.end(), option->get_name()) == allowed.end())
-      throw UsageError(option->get_name() + " means nothing with --import: nothing is measured");
+  require_no_measuring(command, {"--import", "--output", "--csv", "--plots", "--against",
+                                 "--fail-slower", "--json", "--help"});
 }
 
 ExitCode bench(const Options& options) {
@@ -202,13 +193,9 @@ written.)");
                     "busy machine; software OpenGL only");
   add_bench_report_options(*command, options->reports);
   command->add_flag("--json", options->json, "the result as JSON on standard output");
-  command
-      ->add_option("--import", options->imports,
-                   "tell what bench.html measured in a browser, a download of it each, instead of "
-                   "measuring; several are put side by side")
-      ->option_text("FILE.json")
-      ->type_size(1)
-      ->allow_extra_args(false);
+  add_import_option(*command, options->imports,
+                    "tell what bench.html measured in a browser, a download of it each, instead of "
+                    "measuring; several are put side by side");
   command->callback([command, options, &action] {
     check_arguments(*command, *options);
     action = [options] { return bench(*options); };

@@ -5,6 +5,8 @@
 #include <functional>
 #include <vector>
 
+#include "cli/csv.hpp"
+
 namespace tureen::cli {
 
 namespace {
@@ -18,16 +20,6 @@ struct Column {
 template <class Number>
 std::string number(Number value) {
   return fmt::format("{}", value);
-}
-
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"') result += '"';
-    result += c;
-  }
-  return result + "\"";
 }
 
 /// A column of the measurement, or of what all measurements have in common.
@@ -79,12 +71,9 @@ const std::vector<Column>& columns() {
 std::string bench_csv(std::span<const BenchResult> results) {
   std::string text;
   const auto line = [&](const auto& cell) {
-    bool first = true;
-    for (const Column& column : columns()) {
-      text += (first ? "" : ",") + quoted(cell(column));
-      first = false;
-    }
-    text += '\n';
+    std::vector<std::string> cells;
+    for (const Column& column : columns()) cells.push_back(cell(column));
+    text += csv_line(cells);
   };
   line([](const Column& column) { return std::string(column.name); });
   for (const BenchResult& result : results)

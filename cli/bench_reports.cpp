@@ -127,8 +127,7 @@ ExitCode report_bench(const BenchReportOptions& options, const BenchResult& now,
   if (!options.plots.empty() && write_plots(now, options.plots).empty()) say(gnuplot_missing);
   if (!options.folder.empty()) {
     const fs::path folder = options.folder;
-    write_and_say(folder / "bench.json",
-                  to_json(now).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    write_and_say(folder / "bench.json", json_text(to_json(now)));
     write_and_say(folder / "bench.csv", bench_csv(now));
     write_and_say(folder / "bench.md", bench_markdown(now));
     BenchPage page{.drawings = write_plots(now, folder),

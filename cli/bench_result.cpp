@@ -1,6 +1,7 @@
 #include "cli/bench_result.hpp"
 
 #include "cli/json_reading.hpp"
+#include "cli/provenance.hpp"
 
 namespace tureen::cli {
 
@@ -44,11 +45,6 @@ Json to_json(const BenchMeasurement& measurement) {
           {"views_ms", measurement.views_ms},
           {"pixels_hash", measurement.pixels_hash},
           {"picture", measurement.picture ? Json(*measurement.picture) : Json(nullptr)}};
-}
-
-template <class Read>
-auto unless_null(const JsonView& view, Read read) {
-  return view.value().is_null() ? std::nullopt : std::optional(read(view));
 }
 
 FrameStatistics frame_statistics(const JsonView& view, const JsonView& low_1_percent_fps) {
@@ -101,14 +97,6 @@ BenchMeasurement measurement(const JsonView& view) {
           .picture = unless_null(view["picture"], text)};
 }
 
-void require_our_format(const JsonView& root) {
-  const std::optional<JsonView> format = root.find("format");
-  if (!format || !format->value().is_string() || format->text() != format_name)
-    root.fail("this is no result of tureen bench");
-  if (const int version = integer(root["version"]); version > bench_result_version)
-    root["version"].fail("version " + std::to_string(version) + " is newer than this program");
-}
-
 }  // namespace
 
 Json to_json(const BenchResult& result) {
@@ -119,25 +107,10 @@ Json to_json(const BenchResult& result) {
   return {{"format", format_name},
           {"version", bench_result_version},
           {"date", result.date},
-          {"program",
-           {{"version", result.program.version},
-            {"commit", result.program.commit},
-            {"arguments", result.program.arguments}}},
-          {"scene",
-           {{"name", result.scene.name},
-            {"path", result.scene.path},
-            {"triangles", result.scene.triangles},
-            {"appearance", result.scene.appearance}}},
-          {"machine",
-           {{"cpu", result.machine.cpu},
-            {"cores", result.machine.cores},
-            {"memory_mib", result.machine.memory_mib}}},
-          {"device",
-           {{"context", result.device.context},
-            {"renderer", result.device.renderer},
-            {"vendor", result.device.vendor},
-            {"version", result.device.version},
-            {"software", result.device.software}}},
+          {"program", to_json(result.program)},
+          {"scene", to_json(result.scene)},
+          {"machine", to_json(result.machine)},
+          {"device", to_json(result.device)},
           {"protocol",
            {{"clock", result.protocol.clock},
             {"rounds", result.protocol.rounds},
@@ -156,25 +129,13 @@ Json to_json(const BenchResult& result) {
 BenchResult bench_result_from_json(const std::string& text, const std::string& file) {
   const nlohmann::json document = parse_json(text, file);
   const JsonView root(document, file);
-  require_our_format(root);
-  const JsonView program = root["program"], scene = root["scene"], machine = root["machine"],
-                 device = root["device"], protocol = root["protocol"], load = root["load"];
+  require_format(root, format_name, bench_result_version, "no result of tureen bench");
+  const JsonView protocol = root["protocol"], load = root["load"];
   return {.date = root["date"].text(),
-          .program = {.version = program["version"].text(),
-                      .commit = program["commit"].text(),
-                      .arguments = texts(program["arguments"])},
-          .scene = {.name = scene["name"].text(),
-                    .path = scene["path"].text(),
-                    .triangles = scene["triangles"].natural(),
-                    .appearance = scene["appearance"].text()},
-          .machine = {.cpu = machine["cpu"].text(),
-                      .cores = integer(machine["cores"]),
-                      .memory_mib = machine["memory_mib"].number()},
-          .device = {.context = device["context"].text(),
-                     .renderer = device["renderer"].text(),
-                     .vendor = device["vendor"].text(),
-                     .version = device["version"].text(),
-                     .software = boolean(device["software"])},
+          .program = program_of(root["program"]),
+          .scene = scene_of(root["scene"]),
+          .machine = machine_of(root["machine"]),
+          .device = device_of(root["device"]),
           .protocol = {.clock = protocol["clock"].text(),
                        .rounds = integer(protocol["rounds"]),
                        .aa_spread = protocol["aa_spread"].number()},

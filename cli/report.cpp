@@ -1,10 +1,12 @@
 #include "cli/report.hpp"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <ctime>
 #include <string_view>
 
 #include "formats/shown_text.hpp"
@@ -16,10 +18,10 @@ namespace {
 
 /// `indent` -1 writes no line's end but the last.
 void print(const Json& document, int indent) {
-  const std::string text = document.dump(indent, ' ', false, Json::error_handler_t::replace);
+  const std::string text = json_text(document, indent);
   // JSON itself escapes only some of what steers a terminal; what we write for it is JSON, too.
   std::string shown;
-  for (std::size_t at = 0; at <= text.size();) {
+  for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     shown += shown_text(std::string_view(text).substr(at, end - at)) + "\n";
     at = end + 1;
@@ -28,6 +30,14 @@ void print(const Json& document, int indent) {
 }
 
 }  // namespace
+
+std::string json_text(const Json& document, int indent) {
+  return document.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string utc_now() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+}
 
 void print_text(const std::string& text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)

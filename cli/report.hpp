@@ -21,11 +21,18 @@ void say_list(const std::string& heading, const std::vector<std::string>& lines)
 /// Standard output; throws OutputError where it cannot be written, as do the two below.
 void print_text(const std::string& text);
 
-/// The document and a line's end; U+FFFD where text is no UTF-8, and nothing steers a terminal.
+/// The document and a line's end, for files; in one line where `indent` is -1. U+FFFD where text is
+/// no UTF-8.
+std::string json_text(const Json& document, int indent = 2);
+
+/// The same on standard output, where nothing in it steers a terminal.
 void print_json(const Json& document);
 
 /// The same in one line, for programs that read output line by line.
 void print_json_line(const Json& document);
+
+/// The time of day, "2026-11-21T15:04:05Z".
+std::string utc_now();
 
 /// "33,417".
 std::string counted(std::uint64_t number);

@@ -1,25 +1,25 @@
 // `tureen tradeoff`: what drawing faster costs, and the cheapest way that nobody sees.
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <filesystem>
 #include <memory>
 
 #include "cli/choice.hpp"
 #include "cli/commands.hpp"
 #include "cli/dataset_argument.hpp"
+#include "cli/import_option.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory_option.hpp"
 #include "cli/output_argument.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
+#include "cli/tradeoff_files.hpp"
+#include "cli/tradeoff_import.hpp"
 #include "cli/tradeoff_model.hpp"
-#include "cli/tradeoff_page.hpp"
-#include "cli/tradeoff_plots.hpp"
 #include "cli/tradeoff_report.hpp"
+#include "cli/tradeoff_study.hpp"
 #include "cli/tradeoff_views.hpp"
 #include "cli/version.hpp"
 #include "formats/output.hpp"
@@ -32,10 +32,6 @@ namespace tureen::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string utc_now() {
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
-}
 
 constexpr const char* steady_clock =
     "steady clock of the processor, from an idle device until it has finished";
@@ -84,6 +80,7 @@ struct Options {
   bool write_preset = false;
   bool force = false;
   bool json = false;
+  std::vector<std::string> imports;    // of earlier runs; none: measure the scene
   std::vector<std::string> arguments;  // of the program, as typed
 };
 
@@ -117,22 +114,12 @@ void write_files(const Options& options, TradeoffReport& report) {
     report.output.push_back((folder / name).string());
     return folder / name;
   };
-  std::vector<std::pair<std::string, std::string>> drawings;
-  for (const TradeoffPlot& each : tradeoff_plots(report)) {
-    throw_if_interrupted();
-    const std::optional<std::string> svg = draw_plot(each.plot, PlotFormat::svg);
-    if (!svg) {
-      report.notes.push_back(gnuplot_missing);
-      break;
-    }
-    write_file(file(each.file + ".svg"), *svg);
-    write_plot(each.plot, file(each.file + ".png"));
-    drawings.emplace_back(*svg, each.caption);
-  }
+  const Drawings drawings =
+      write_plots(tradeoff_plots(report), folder, report.output, report.notes);
   write_file(file("tradeoff.html"), tradeoff_page(report, drawings));
   write_file(file("tradeoff.csv"), to_csv(report));
   const fs::path json = file("tradeoff.json");
-  write_file(json, to_json(report).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file(json, json_text(to_json(report)));
 }
 
 /// The scene as a GLB of ours that promises what was measured.
@@ -251,6 +238,11 @@ Study study_of(const Options& options, const Defaults& defaults, const Scene& sc
 }
 
 ExitCode tradeoff(const Options& options) {
+  if (!options.imports.empty())
+    return import_tradeoffs({.files = options.imports,
+                             .folder = options.folder,
+                             .json = options.json,
+                             .arguments = options.arguments});
   // Everything that can be wrong with the arguments is said before anything is read.
   const Defaults defaults = defaults_of(options.effort);
   check(view_options(options, defaults));
@@ -298,6 +290,7 @@ each the time of a frame and the error against the oracle's picture of the same 
 (E_render). Antialiasing knobs have an oracle of their own, with 8 x 8 samples a pixel. With
 photographs the error against them (E_model) stands beside, never on one axis. The choice is
 the cheapest with an E_render of at least 50 dB and hardly a pixel covered wrongly.
+Results of several scenes are joined by --import.
 
 Examples:
   tureen tradeoff soup.glb -o tradeoff                plots, table, page and JSON in a folder
@@ -306,17 +299,21 @@ Examples:
   tureen tradeoff soup.glb --write-preset fast.glb    the choice, kept with the scene;
                                                       tureen render fast.glb obeys it
   tureen tradeoff soup.glb --full --json > soup.json  1280x720, all settings: long
+  tureen tradeoff --import lego/tradeoff.json --import chair/tradeoff.json -o both
+                                                      means over the scenes of earlier runs
 
 Exit codes: 0 done, 1 nothing keeps to the limits and a preset was asked for, 2 wrong usage,
-3 the scene or the dataset cannot be read, 4 no OpenGL context, 5 it does not fit on the
-device or cannot be written.)");
-  add_scene_argument(*command, options->scene);
+3 the scene, the dataset or a result cannot be read, 4 no OpenGL context, 5 it does not fit
+on the device or cannot be written.)");
+  add_scene_argument(*command, options->scene)->required(false);
   add_dataset_argument(*command, options->dataset);
   command->get_option("DATASET")->required(false);
   add_memory_option(*command);
   command
-      ->add_option("-o,--output", options->folder,
-                   "a folder for the report: tradeoff.html, .csv and .json, and the plots")
+      ->add_option(
+          "-o,--output", options->folder,
+          "a folder for the report: tradeoff.html, .csv and .json, and the plots; of several "
+          "scenes scenes.html, .csv and .json")
       ->option_text("FOLDER");
   add_choice<tradeoff::Samples>(
       *command, "--reference", options->samples,
@@ -386,7 +383,16 @@ device or cannot be written.)");
                           "where OpenGL comes from: auto (EGL, else OSMesa), egl or osmesa")
       ->option_text("NAME");
   command->add_flag("--json", options->json, "everything as JSON on standard output");
-  command->callback([options, preset, &action] {
+  add_import_option(
+      *command, options->imports,
+      "the tradeoff.json of an earlier run, one for each of two scenes or more: joins "
+      "what all of them have, instead of measuring: geometric means of times relative "
+      "to the defaults, and of squared errors");
+  command->callback([command, options, preset, &action] {
+    if (!options->imports.empty())
+      require_no_measuring(*command, {"--import", "--output", "--json", "--max-memory", "--help"});
+    else if (options->scene.path.empty())
+      throw UsageError("SCENE is required, or --import");
     options->write_preset = preset->count() > 0;  // with or without a name
     action = [options] { return tradeoff(*options); };
   });

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "cli/evaluation.hpp"
 #include "cli/tradeoff_report.hpp"
 #include "formats/dataset.hpp"
 

@@ -38,8 +38,7 @@ void add_facts(HtmlPage& page, const TradeoffReport& report) {
 std::string mark(const TradeoffReport& report, const Panel& panel, std::size_t i) {
   std::vector<std::string> marks;
   if (&panel == &report.study.drawing && report.study.choice == i) marks.push_back("choice");
-  if (std::find(panel.front.begin(), panel.front.end(), i) != panel.front.end())
-    marks.push_back("front");
+  if (is_on_front(panel, i)) marks.push_back("front");
   for (const std::string& warning : panel.outcomes[i].warnings) marks.push_back(warning);
   std::string text;
   for (const std::string& each : marks) text += (text.empty() ? "" : ", ") + each;
@@ -124,8 +123,7 @@ void add_model(HtmlPage& page, const TradeoffReport& report) {
 
 }  // namespace
 
-std::string tradeoff_page(const TradeoffReport& report,
-                          const std::vector<std::pair<std::string, std::string>>& drawings) {
+std::string tradeoff_page(const TradeoffReport& report, const Drawings& drawings) {
   const Study& study = report.study;
   HtmlPage page("Error against run time: " + report.scene.name);
   page.paragraph(choice_sentence(report));

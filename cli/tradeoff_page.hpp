@@ -9,9 +9,10 @@
 
 namespace tureen::cli {
 
-/// What was measured, the choice, the plots (SVG and caption; none where gnuplot is missing) and
-/// the tables.
-std::string tradeoff_page(const TradeoffReport& report,
-                          const std::vector<std::pair<std::string, std::string>>& drawings);
+/// SVGs of draw_plot(), and a caption each.
+using Drawings = std::vector<std::pair<std::string, std::string>>;
+
+/// What was measured, the choice, the plots (none where gnuplot is missing) and the tables.
+std::string tradeoff_page(const TradeoffReport& report, const Drawings& drawings);
 
 }  // namespace tureen::cli

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace tureen::cli {
 
@@ -25,14 +27,21 @@ struct Extent {
   }
 };
 
+/// What times are told in, and what the axis says of it.
+struct Abscissa {
+  double unit_ms = 1;
+  std::string text = "ms a frame, logarithmic; bars to the 95th percentile";
+};
+
 /// One plot in the making: data blocks and the clauses that draw them.
 class Drawing {
  public:
-  Drawing(const Panel& panel, ErrorOf error) : panel_(panel), error_(std::move(error)) {
+  Drawing(const Panel& panel, ErrorOf error, Abscissa abscissa = {})
+      : panel_(panel), error_(std::move(error)), abscissa_(std::move(abscissa)) {
     for (std::size_t i = 0; i < panel.outcomes.size(); ++i) {
       if (!is_shown(i)) continue;
-      ms_.take(panel.outcomes[i].ms.min_of_medians);
-      ms_.take(panel.outcomes[i].ms.p95);
+      time_.take(time(i));
+      time_.take(p95(i));
       db_.take(error_(i));
     }
   }
@@ -47,10 +56,9 @@ class Drawing {
 
   void front(const std::vector<std::size_t>& front) {
     std::vector<std::vector<double>> rows;
-    for (const std::size_t i : front)
-      rows.push_back({panel_.outcomes[i].ms.min_of_medians, error_(i)});
+    for (const std::size_t i : front) rows.push_back({time(i), error_(i)});
     if (rows.empty()) return;
-    rows.push_back({ms_.high * margin, rows.back()[1]});
+    rows.push_back({time_.high * margin, rows.back()[1]});
     clauses_.push_back(add_data(rows) +
                        " using 1:2 with steps linewidth 1.5 linecolor rgb '#1f2328' title " +
                        plot_text("front"));
@@ -66,10 +74,8 @@ class Drawing {
               const std::vector<std::size_t>& outcomes) {
     std::vector<std::vector<double>> specialised, generic;
     for (const std::size_t i : outcomes) {
-      const FrameStatistics& ms = panel_.outcomes[i].ms;
       (panel_.outcomes[i].specialised ? specialised : generic)
-          .push_back({ms.min_of_medians, error_(i), ms.min_of_medians,
-                      std::max(ms.p95, ms.min_of_medians)});
+          .push_back({time(i), error_(i), time(i), std::max(p95(i), time(i))});
     }
     if (!specialised.empty())
       clauses_.push_back(
@@ -86,10 +92,10 @@ class Drawing {
     const double space = std::max(0.06 * (db_.high - db_.low), 0.5);
     std::string script = data_ + labels_;
     script += "set logscale x\n" + time_marks() + "set key outside right top reverse Left\n";
-    script += "set xlabel " + plot_text("ms a frame, logarithmic; bars to the 95th percentile") +
-              "\nset ylabel " + plot_text(ordinate) + "\n";
-    script += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", ms_.low / margin,
-                          ms_.high * margin, db_.low - space, db_.high + space);
+    script +=
+        "set xlabel " + plot_text(abscissa_.text) + "\nset ylabel " + plot_text(ordinate) + "\n";
+    script += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", time_.low / margin,
+                          time_.high * margin, db_.low - space, db_.high + space);
     script += "plot ";
     for (std::size_t i = 0; i < clauses_.size(); ++i)
       script += (i ? ", \\\n     " : "") + clauses_[i];
@@ -104,9 +110,15 @@ class Drawing {
   static constexpr double margin = 1.15;  // of the range of times, beside the points
   static constexpr int most_ticks = 9;    // numbers that stand beside each other without touching
 
+  double time(std::size_t i) const {
+    return panel_.outcomes[i].ms.min_of_medians / abscissa_.unit_ms;
+  }
+  double p95(std::size_t i) const { return panel_.outcomes[i].ms.p95 / abscissa_.unit_ms; }
+
   std::string time_marks() const {
-    if (!(ms_.high > 0)) return "";
-    return plot_ticks('x', PlotAxis::logarithmic(ms_.low / margin, ms_.high * margin, most_ticks));
+    if (!(time_.high > 0)) return "";
+    return plot_ticks('x',
+                      PlotAxis::logarithmic(time_.low / margin, time_.high * margin, most_ticks));
   }
 
   std::string add_data(const std::vector<std::vector<double>>& rows) {
@@ -119,12 +131,13 @@ class Drawing {
     labels_ += fmt::format(
         "set label {} at {},{} left offset 0.6,-0.6 font ',10' textcolor rgb "
         "'#636c76'\n",
-        plot_text(panel_.outcomes[i].name), panel_.outcomes[i].ms.min_of_medians, error_(i));
+        plot_text(panel_.outcomes[i].name), time(i), error_(i));
   }
 
   const Panel& panel_;
   ErrorOf error_;
-  Extent ms_, db_;
+  Abscissa abscissa_;
+  Extent time_, db_;
   std::string data_, labels_;
   std::vector<std::string> clauses_;
   int blocks_ = 0;
@@ -138,13 +151,14 @@ Drawing::Mark mark_of(std::size_t knob) {
 void add_points(Drawing& drawing, const Panel& panel) {
   std::vector<std::vector<std::size_t>> of_knob(panel.knobs.size());
   std::vector<std::size_t> defaults, published;
+  const std::vector<std::optional<std::size_t>> dominant = dominant_knobs(panel);
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i) {
     if (!drawing.is_shown(i)) continue;
     const Outcome& outcome = panel.outcomes[i];
     if (outcome.published)
       published.push_back(i);
-    else if (const auto knob = dominant_knob(panel, outcome))
-      of_knob[*knob].push_back(i);
+    else if (dominant[i])
+      of_knob[*dominant[i]].push_back(i);
     else
       defaults.push_back(i);
   }
@@ -209,20 +223,52 @@ TradeoffPlot model_plot(const TradeoffReport& report) {
            .script = drawing.script("PSNR against photographs, dB")}};
 }
 
+TradeoffPlot means_plot(const ScenesPanel& panel, const std::string& kind, std::size_t scenes) {
+  const Panel& means = panel.means;
+  Drawing drawing(
+      means, render_error_of(means),
+      {.unit_ms = means.outcomes.front().ms.min_of_medians,
+       .text = "time relative to the defaults, logarithmic; bars to the 95th percentile"});
+  drawing.rule(means.ideal.psnr_db, "R1: the reference in 8 bits", 2);
+  if (const Outcome* published = published_of(panel))
+    drawing.rule(published->error.psnr_db, "R0: the published pipeline", 3);
+  drawing.front(means.front);
+  add_points(drawing, means);
+  return {
+      "means-" + kind,
+      fmt::format("E_render of {} knobs over {} scenes: geometric means of time relative to "
+                  "each scene's defaults, and means of decibels, of what was measured of all.",
+                  kind, scenes),
+      {.title = fmt::format("E_render of {} knobs against time, means of {} scenes", kind, scenes),
+       .script = drawing.script("PSNR, mean of the scenes, dB"),
+       .width = 960,
+       .height = 520}};
+}
+
 }  // namespace
 
-std::optional<std::size_t> dominant_knob(const Panel& panel, const Outcome& outcome) {
-  std::optional<std::size_t> dominant;
-  double worst = 0;
-  for (std::size_t knob = 0; knob < outcome.configuration.size(); ++knob) {
-    if (outcome.configuration[knob] == 0) continue;
-    // Without its star, which a knob that cannot be turned alone lacks, it is the last to blame.
-    double psnr = 100;
-    for (const Outcome& single : panel.outcomes)
-      if (single.departures() == 1 && single.configuration[knob] == outcome.configuration[knob])
+std::vector<std::optional<std::size_t>> dominant_knobs(const Panel& panel) {
+  // Of each setting of each knob, alone, in the star; panels of others' files may be large.
+  std::map<std::pair<std::size_t, int>, double> alone;
+  for (const Outcome& single : panel.outcomes) {
+    if (single.departures() != 1) continue;
+    for (std::size_t knob = 0; knob < single.configuration.size(); ++knob)
+      if (const int setting = single.configuration[knob]; setting != 0) {
+        double& psnr = alone.try_emplace({knob, setting}, single.error.psnr_db).first->second;
         psnr = std::min(psnr, single.error.psnr_db);
-    if (!dominant || psnr < worst) {
-      dominant = knob;
+      }
+  }
+  std::vector<std::optional<std::size_t>> dominant(panel.outcomes.size());
+  for (std::size_t i = 0; i < panel.outcomes.size(); ++i) {
+    const tradeoff::Configuration& configuration = panel.outcomes[i].configuration;
+    double worst = 0;
+    for (std::size_t knob = 0; knob < configuration.size(); ++knob) {
+      if (configuration[knob] == 0) continue;
+      // Without its star, which a knob that cannot be turned alone lacks, it is the last to blame.
+      const auto star = alone.find({knob, configuration[knob]});
+      const double psnr = star == alone.end() ? 100 : star->second;
+      if (dominant[i] && psnr >= worst) continue;
+      dominant[i] = knob;
       worst = psnr;
     }
   }
@@ -232,6 +278,23 @@ std::optional<std::size_t> dominant_knob(const Panel& panel, const Outcome& outc
 std::vector<TradeoffPlot> tradeoff_plots(const TradeoffReport& report) {
   std::vector<TradeoffPlot> plots{drawing_plot(report), antialiasing_plot(report)};
   if (report.model) plots.push_back(model_plot(report));
+  return plots;
+}
+
+std::vector<TradeoffPlot> means_plots(const TradeoffScenes& scenes) {
+  return {means_plot(scenes.drawing, "drawing", scenes.runs.size()),
+          means_plot(scenes.antialiasing, "antialiasing", scenes.runs.size())};
+}
+
+std::vector<TradeoffPlot> scene_plots(const TradeoffScenes& scenes) {
+  std::vector<TradeoffPlot> plots;
+  for (std::size_t r = 0; r < scenes.runs.size(); ++r)
+    for (TradeoffPlot& each : tradeoff_plots(scenes.runs[r].report)) {
+      each.file = fmt::format("{}-{}", r + 1, each.file);
+      each.caption = scenes.labels[r] + ": " + each.caption;
+      each.plot.title += fmt::format(", {}: {}", r + 1, scenes.labels[r]);
+      plots.push_back(std::move(each));
+    }
   return plots;
 }
 

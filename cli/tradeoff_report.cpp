@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "cli/csv.hpp"
+#include "cli/provenance.hpp"
+
 namespace tureen::cli {
 
 namespace {
@@ -46,10 +49,6 @@ Json knobs_json(const Panel& panel, const Outcome& outcome) {
 std::optional<ModelError> model_of(const std::vector<std::optional<ModelError>>& list,
                                    std::size_t i) {
   return i < list.size() ? list[i] : std::nullopt;
-}
-
-bool is_on_front(const Panel& panel, std::size_t i) {
-  return std::find(panel.front.begin(), panel.front.end(), i) != panel.front.end();
 }
 
 Json configuration_json(const TradeoffReport& report, const Panel& panel, std::size_t i,
@@ -123,15 +122,8 @@ Json model_protocol_json(const TradeoffReport& report) {
           {"ssim_border", report.model->ssim_border}};
 }
 
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + "\"";
-}
-
-std::string csv_line(const TradeoffReport& report, const char* panel_name, const Panel& panel,
-                     std::size_t i, const std::optional<ModelError>& model) {
+std::string csv_row(const TradeoffReport& report, const char* panel_name, const Panel& panel,
+                    std::size_t i, const std::optional<ModelError>& model) {
   const Outcome& outcome = panel.outcomes[i];
   const RenderError& error = outcome.error;
   std::vector<std::string> fields{panel_name, outcome.name, method_of(outcome)};
@@ -151,27 +143,17 @@ std::string csv_line(const TradeoffReport& report, const char* panel_name, const
   number(model ? model->ssim : 0, model.has_value());
   number(model ? model->flip : 0, model && report.with_flip);
   fields.push_back(is_on_front(panel, i) ? "1" : "0");
-  std::string line;
-  for (const std::string& field : fields) line += (line.empty() ? "" : ",") + quoted(field);
-  return line + "\n";
+  return csv_line(fields);
 }
 
 // -- for people ----------------------------------------------------------------------------------
-
-/// The generic twin of a specialised outcome.
-const Outcome* generic_of(const Panel& panel, const Outcome& outcome) {
-  for (const Outcome& other : panel.outcomes)
-    if (!other.specialised && !other.published && other.configuration == outcome.configuration)
-      return &other;
-  return nullptr;
-}
 
 std::string table_line(const TradeoffReport& report, const Panel& panel, std::size_t i,
                        std::size_t width) {
   const Outcome& outcome = panel.outcomes[i];
   const RenderError& error = outcome.error;
   const bool chosen = &panel == &report.study.drawing && report.study.choice == i;
-  const Outcome* generic = outcome.published ? nullptr : generic_of(panel, outcome);
+  const Outcome* generic = generic_of(panel, outcome);
   return fmt::format(
       "{} {:<{}}  {:>8}  {:>8}  {:>7.2f}  {:>8}  {:>6.3f}  {:>6.4f}  {:>8.1e}  {:>6}",
       chosen                  ? '>'
@@ -224,40 +206,19 @@ void say_model(const TradeoffReport& report) {
 
 }  // namespace
 
-const char* method_of(const Outcome& outcome) {
-  if (outcome.published) return "published";
-  if (outcome.emulated) return "oracle";
-  return outcome.specialised ? "tureen" : "tureen --no-specialise";
-}
-
 const char* where_it_looks(const TradeoffReport& report) {
   return report.samples == "device" ? "at the device's own sample points" : "of exact triangles";
 }
 
 Json to_json(const TradeoffReport& report) {
   const Study& study = report.study;
-  return {{"format", "tureen tradeoff"},
+  return {{"format", tradeoff_format},
           {"version", tradeoff_version},
           {"date", report.date},
-          {"program",
-           {{"version", report.program.version},
-            {"commit", report.program.commit},
-            {"arguments", report.program.arguments}}},
-          {"scene",
-           {{"name", report.scene.name},
-            {"path", report.scene.path},
-            {"triangles", report.scene.triangles},
-            {"appearance", report.scene.appearance}}},
-          {"machine",
-           {{"cpu", report.machine.cpu},
-            {"cores", report.machine.cores},
-            {"memory_mib", report.machine.memory_mib}}},
-          {"device",
-           {{"context", report.device.context},
-            {"renderer", report.device.renderer},
-            {"vendor", report.device.vendor},
-            {"version", report.device.version},
-            {"software", report.device.software}}},
+          {"program", to_json(report.program)},
+          {"scene", to_json(report.scene)},
+          {"machine", to_json(report.machine)},
+          {"device", to_json(report.device)},
           {"protocol",
            {{"camera_set", report.camera_set},
             {"width", report.width},
@@ -287,10 +248,10 @@ std::string to_csv(const TradeoffReport& report) {
       "front\n";
   const Study& study = report.study;
   for (std::size_t i = 0; i < study.drawing.outcomes.size(); ++i)
-    text += csv_line(report, "drawing", study.drawing, i, model_of(report.drawing_model, i));
+    text += csv_row(report, "drawing", study.drawing, i, model_of(report.drawing_model, i));
   for (std::size_t i = 0; i < study.antialiasing.outcomes.size(); ++i)
-    text += csv_line(report, "antialiasing", study.antialiasing, i,
-                     model_of(report.antialiasing_model, i));
+    text += csv_row(report, "antialiasing", study.antialiasing, i,
+                    model_of(report.antialiasing_model, i));
   return text;
 }
 

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "cli/bench_result.hpp"
-#include "cli/evaluation.hpp"
 #include "cli/report.hpp"
-#include "cli/tradeoff_study.hpp"
+#include "cli/tradeoff_panel.hpp"
 
 namespace tureen::cli {
 
-/// Of the document's layout.
+/// What the document calls itself, and the version of its layout.
+inline constexpr const char* tradeoff_format = "tureen tradeoff";
 inline constexpr int tradeoff_version = 1;
 
 /// How near a way to draw comes to photographs.
@@ -55,9 +55,6 @@ struct TradeoffReport {
   std::vector<std::string> notes;             // on reading the scene, the cameras, the dataset
   std::vector<std::string> output;            // files that were written
 };
-
-/// "tureen", "tureen --no-specialise", "published", or "oracle" where it was emulated.
-const char* method_of(const Outcome& outcome);
 
 /// The reference of drawing knobs, in words: "at the device's own sample points".
 const char* where_it_looks(const TradeoffReport& report);

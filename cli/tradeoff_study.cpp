@@ -57,13 +57,6 @@ void find_ranges(Panel& panel) {
   panel.ranges = tradeoff::knob_ranges(configurations, measured, panel.knobs.size());
 }
 
-void find_front(Panel& panel) {
-  const Candidates all = candidates(panel);
-  for (const std::size_t i : tradeoff::pareto_front(all.points))
-    panel.front.push_back(all.index[i]);
-  panel.hypervolume = tradeoff::hypervolume(all.points);
-}
-
 RenderError ideal_error(const std::vector<ImageF>& reference, bool with_flip) {
   return error_between(reference, as_shown(reference), with_flip);
 }
@@ -142,32 +135,6 @@ void study_antialiasing(const StudyScene& scene, const StudyOptions& options, St
 }
 
 }  // namespace
-
-Candidates candidates(const Panel& panel) {
-  Candidates result;
-  for (std::size_t i = 0; i < panel.outcomes.size(); ++i) {
-    const Outcome& outcome = panel.outcomes[i];
-    if (!outcome.specialised || outcome.published || outcome.emulated) continue;
-    const double ms = outcome.ms.min_of_medians;
-    // What the protocol calls different differs by twice the spread (runtime/frame_statistics.hpp).
-    result.points.push_back({.ms = ms,
-                             .spread_ms = 2 * panel.aa_spread * ms,
-                             .psnr_db = outcome.error.psnr_db,
-                             .coverage_mismatch = outcome.error.coverage_mismatch,
-                             .departures = outcome.departures()});
-    result.index.push_back(i);
-  }
-  return result;
-}
-
-std::optional<std::string> spread_warning(double aa_spread) {
-  if (aa_spread <= BenchmarkOptions{}.stable_within) return std::nullopt;
-  return fmt::format(
-      "one configuration differs from itself by {:.0f} %: what lies within twice that is no "
-      "difference, and another run may choose otherwise; a quiet machine, more --rounds or "
-      "--processor-time tell more apart",
-      100 * aa_spread);
-}
 
 Study run_study(const StudyScene& scene, const StudyOptions& options) {
   assert(!scene.cameras.empty());

@@ -9,18 +9,14 @@
 
 #include <functional>
 #include <glm/vec3.hpp>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "runtime/frame_statistics.hpp"
+#include "cli/tradeoff_panel.hpp"
 #include "runtime/renderer.hpp"
 #include "runtime/tradeoff/experiment.hpp"
-#include "runtime/tradeoff/knobs.hpp"
-#include "runtime/tradeoff/pareto.hpp"
 #include "runtime/tradeoff/reference.hpp"
-#include "soup/render_error.hpp"
 
 namespace tureen::cli {
 
@@ -48,71 +44,6 @@ struct References {
   std::vector<ImageF> exact;
 };
 
-/// Against References::exact.
-struct ExactError {
-  double psnr_db = 0;
-  double coverage_mismatch = 0;
-};
-
-/// One way to draw, with the numbers it came to.
-struct Outcome {
-  tradeoff::Configuration configuration;  // of the panel's knobs
-  std::string name;                       // in words: "lattice level 2"
-  RenderPreset preset;
-  bool specialised = true;  // or --no-specialise
-  bool published = false;   // the published pipeline
-  bool emulated = false;    // drawn by the oracle: no time, no bytes
-  /// ms but for spread, of which FrameStatistics::spread says what it is.
-  FrameStatistics ms;
-  double device_mib = 0;
-  RenderError error;                // against References::judge
-  std::optional<ExactError> exact;  // drawing knobs alone
-  std::vector<std::string> warnings;
-
-  int departures() const { return tradeoff::departures(configuration); }
-};
-
-struct Skipped {
-  std::string name;
-  std::string reason;
-};
-
-/// What one reference is the judge of: drawing knobs, or antialiasing ones.
-struct Panel {
-  std::vector<tradeoff::Knob> knobs;
-  std::vector<Outcome> outcomes;  // the defaults first
-  std::vector<tradeoff::KnobRange> ranges;
-  std::vector<Skipped> skipped;
-  std::vector<std::string> notes;
-  double aa_spread = 0;            // the largest of the groups
-  std::vector<std::size_t> front;  // fastest first; of specialised, timed outcomes
-  double hypervolume = 0;          // decades times decibels
-
-  /// The reference's own pictures in 8 bits a channel: the best that a screen can show (R1).
-  RenderError ideal;
-};
-
-/// Time and error as the front sees them, of those outcomes that may be on it; `index` says which
-/// outcome each is.
-struct Candidates {
-  std::vector<tradeoff::Point> points;
-  std::vector<std::size_t> index;
-};
-Candidates candidates(const Panel& panel);
-
-struct Study {
-  Panel drawing;
-  Panel antialiasing;
-  /// The published pipeline as an outcome of the drawing panel (R0), where it can draw this soup.
-  std::optional<std::size_t> published;
-  /// What the device's subpixel grid costs by itself: the reference that samples as the device does
-  /// against the exact one. No knob changes it.
-  RenderError grid;
-  /// An outcome of the drawing panel. Left to the caller: what it has to keep to is no matter of
-  /// these views alone.
-  std::optional<std::size_t> choice;
-};
-
 /// The scene on the device, and the views.
 struct StudyScene {
   const gl::Context& context;
@@ -121,11 +52,6 @@ struct StudyScene {
   std::span<const Camera> cameras;   // at least one
   std::span<const Camera> counting;  // by which the triangle budget chooses
 };
-
-/// What to think of the times where one configuration differs from itself by more than warming up
-/// calls stable (BenchmarkOptions::stable_within): then who is cheapest is partly chance.
-/// `aa_spread` is a fraction.
-std::optional<std::string> spread_warning(double aa_spread);
 
 /// Throws what Renderer throws for the defaults; a configuration that alone cannot be drawn is
 /// skipped with the reason.

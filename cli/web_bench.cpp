@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string_view>
 
 #include "cli/json_reading.hpp"
 #include "formats/json_file.hpp"
@@ -47,28 +46,10 @@ FrameTimes frame_times(const JsonView& view, std::size_t views, std::size_t roun
   return times;
 }
 
-/// A size, or how many there are of something: at least 1.
-int count_of(const JsonView& view) {
-  const int count = integer(view);
-  if (count == 0) view.fail("0 is not enough");
-  return count;
-}
-
 std::string hash_of(const JsonView& view) {
   const std::string& text = view.text();
   if (text.size() != 16 || text.find_first_not_of("0123456789abcdef") != std::string::npos)
     view.fail("expected 16 hexadecimal digits");
-  return text;
-}
-
-/// "2026-11-21T15:04:05Z".
-std::string date_of(const JsonView& view) {
-  constexpr std::string_view form = "0000-00-00T00:00:00Z";
-  const std::string& text = view.text();
-  bool fits = text.size() == form.size();
-  for (std::size_t i = 0; fits && i < form.size(); ++i)
-    fits = form[i] == '0' ? text[i] >= '0' && text[i] <= '9' : text[i] == form[i];
-  if (!fits) view.fail("expected a time of the form 2026-01-02T03:04:05Z");
   return text;
 }
 
@@ -188,11 +169,7 @@ BenchResult result_of_scene(const JsonView& view, BenchResult result) {
 std::vector<BenchResult> read_web_bench(Input& input) {
   const nlohmann::json document = read_json(input);
   const JsonView root(document, input.name());
-  const std::optional<JsonView> format = root.find("format");
-  if (!format || !format->value().is_string() || format->text() != format_name)
-    root.fail("this is no download of bench.html");
-  if (const int version = integer(root["version"]); version > web_bench_version)
-    root["version"].fail(fmt::format("version {} is newer than this program", version));
+  require_format(root, format_name, web_bench_version, "no download of bench.html");
   const BenchResult shared = result_of_page(root, input.name());
   const JsonView scenes = root["scenes"];
   if (scenes.size() == 0) scenes.fail("is empty");

@@ -45,6 +45,12 @@ double mean(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
 
+double geometric_mean(std::span<const double> values) {
+  std::vector<double> logarithms;
+  for (const double value : values) logarithms.push_back(std::log(value));
+  return std::exp(mean(logarithms));
+}
+
 double percentile(std::span<const double> values, double percent) {
   assert(!values.empty() && percent > 0 && percent <= 100);
   return sorted(values)[rank(values.size(), percent)];

@@ -13,6 +13,10 @@ double median(std::span<const double> values);
 
 double mean(std::span<const double> values);
 
+/// The exponential of the mean of the logarithms: what ratios are averaged by, as it is the same
+/// whichever of two things is divided by the other. All values > 0; asserts that there is one.
+double geometric_mean(std::span<const double> values);
+
 /// The smallest of the values that `percent` of all are not above (nearest rank). 0 < percent <=
 /// 100.
 double percentile(std::span<const double> values, double percent);

@@ -18,7 +18,7 @@ Measures and writes tables, plots and pages into build/bench; all parts without 
   frames      tureen bench: frame times across sizes, on every scene there is
   leave_out   what each thing that a plan leaves out gains
   growth      the time of a frame against triangles, pixels and overdraw, and its model
-  tradeoff    tureen tradeoff: error against run time, on every scene there is
+  tradeoff    tureen tradeoff: error against run time, on every scene there is and over all of them
   agreement   how well GL agrees with the oracle
   step        what a training step costs
   browser     bench.html in Chromium on two rasterisers, memory, and how long the first picture takes
@@ -176,14 +176,21 @@ part_growth() {
 
 part_tradeoff() {
   "$bin/tureen" tradeoff --help >/dev/null 2>&1 || { skip "tradeoff: this program has no tureen tradeoff"; return; }
-  local i name options
+  local i name options imports=()
   for i in "${!scene_names[@]}"; do
     name=${scene_names[i]} options=()
     [[ $name != cloud-* ]] || continue # a random network: its errors say nothing about scenes
     [[ $name != fox || -z $photographs ]] || options=("$photographs" --scale 0.25)
     measure "tradeoff-$name" "$bin/tureen" tradeoff "${scene_paths[i]}" "${options[@]}" \
       ${quick:+--quick} -o "$out/tradeoff-$name"
+    # What an earlier run left behind is none of this one's.
+    [[ ${done_parts[*]: -1} != "tradeoff-$name" ]] || imports+=(--import "$out/tradeoff-$name/tradeoff.json")
   done
+  if ((${#imports[@]} < 4)); then
+    skip "tradeoff over several scenes: fewer than two were measured"
+    return
+  fi
+  measure tradeoff-scenes "$bin/tureen" tradeoff "${imports[@]}" -o "$out/tradeoff-scenes"
 }
 
 # Properties that tests recorded, from GoogleTest's XML: a table's row for each.

@@ -167,10 +167,13 @@ TEST(TradeoffCandidates, AreWhatCanBeChosen) {
 }
 
 TEST(DominantKnob, IsTheOneThatCostsMost) {
-  const Panel made = panel();
-  EXPECT_EQ(dominant_knob(made, made.outcomes[0]), std::nullopt);
-  EXPECT_EQ(dominant_knob(made, made.outcomes[3]), 1u);
-  EXPECT_EQ(dominant_knob(made, made.outcomes[4]), 0u);
+  Panel made = panel();
+  EXPECT_THAT(dominant_knobs(made), ElementsAre(std::nullopt, std::nullopt, 0u, 1u, 0u));
+  // A setting that was not measured alone is the last to blame, and of two such the first.
+  made.outcomes.erase(made.outcomes.begin() + 2);
+  EXPECT_THAT(dominant_knobs(made), ElementsAre(std::nullopt, std::nullopt, 1u, 1u));
+  made.outcomes.erase(made.outcomes.begin() + 2);
+  EXPECT_THAT(dominant_knobs(made), ElementsAre(std::nullopt, std::nullopt, 0u));
 }
 
 TEST(TradeoffPlots, KeepTheTwoErrorsApart) {

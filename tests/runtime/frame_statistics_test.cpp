@@ -15,6 +15,14 @@ TEST(FrameStatistics, MedianOfOddAndEvenCounts) {
   EXPECT_EQ(median(std::vector<double>{9, 1, 5, 7}), 6);
 }
 
+TEST(FrameStatistics, TheGeometricMeanIsThatOfTheInverseInverted) {
+  EXPECT_NEAR(geometric_mean(std::vector<double>{2, 8}), 4, 1e-12);
+  EXPECT_NEAR(geometric_mean(std::vector<double>{1 / 2.0, 1 / 8.0}), 1 / 4.0, 1e-12);
+  EXPECT_NEAR(geometric_mean(std::vector<double>{7}), 7, 1e-12);
+  // Their products would not be doubles any more.
+  EXPECT_NEAR(geometric_mean(std::vector<double>{1e300, 1e300, 1e-300}) / 1e100, 1, 1e-9);
+}
+
 TEST(FrameStatistics, PercentilesAreNearestRanks) {
   std::vector<double> values(20);
   std::iota(values.rbegin(), values.rend(), 1);  // 20 .. 1

@@ -1,0 +1,23 @@
+// What every result says of where it comes from: the program, the scene, the machine and the
+// device, as JSON. The keys are those of docs/bench.schema.json and docs/tradeoff.schema.json.
+// Include it in sources only.
+#pragma once
+
+#include "cli/bench_result.hpp"
+#include "formats/json_view.hpp"
+
+namespace tureen::cli {
+
+Json to_json(const BenchProgram& program);
+Json to_json(const BenchScene& scene);
+Json to_json(const Machine& machine);
+Json to_json(const BenchDevice& device);
+
+// Untrusted: each throws InputError with the path of what is missing or of another kind. Keys that
+// are not known are passed over.
+BenchProgram program_of(const JsonView& view);
+BenchScene scene_of(const JsonView& view);
+Machine machine_of(const JsonView& view);
+BenchDevice device_of(const JsonView& view);
+
+}  // namespace tureen::cli

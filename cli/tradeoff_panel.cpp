@@ -1,0 +1,61 @@
+#include "cli/tradeoff_panel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "runtime/benchmark.hpp"
+
+namespace tureen::cli {
+
+const char* method_of(const Outcome& outcome) {
+  if (outcome.published) return methods[2];
+  if (outcome.emulated) return methods[3];
+  return methods[outcome.specialised ? 0 : 1];
+}
+
+Candidates candidates(const Panel& panel) {
+  Candidates result;
+  for (std::size_t i = 0; i < panel.outcomes.size(); ++i) {
+    const Outcome& outcome = panel.outcomes[i];
+    if (!outcome.specialised || outcome.published || outcome.emulated) continue;
+    const double ms = outcome.ms.min_of_medians;
+    // What the protocol calls different differs by twice the spread (runtime/frame_statistics.hpp).
+    result.points.push_back({.ms = ms,
+                             .spread_ms = 2 * panel.aa_spread * ms,
+                             .psnr_db = outcome.error.psnr_db,
+                             .coverage_mismatch = outcome.error.coverage_mismatch,
+                             .departures = outcome.departures()});
+    result.index.push_back(i);
+  }
+  return result;
+}
+
+void find_front(Panel& panel) {
+  const Candidates all = candidates(panel);
+  for (const std::size_t i : tradeoff::pareto_front(all.points))
+    panel.front.push_back(all.index[i]);
+  panel.hypervolume = tradeoff::hypervolume(all.points);
+}
+
+bool is_on_front(const Panel& panel, std::size_t outcome) {
+  return std::find(panel.front.begin(), panel.front.end(), outcome) != panel.front.end();
+}
+
+const Outcome* generic_of(const Panel& panel, const Outcome& outcome) {
+  if (outcome.published) return nullptr;
+  for (const Outcome& other : panel.outcomes)
+    if (!other.specialised && other.configuration == outcome.configuration) return &other;
+  return nullptr;
+}
+
+std::optional<std::string> spread_warning(double aa_spread) {
+  if (aa_spread <= BenchmarkOptions{}.stable_within) return std::nullopt;
+  return fmt::format(
+      "one configuration differs from itself by {:.0f} %: what lies within twice that is no "
+      "difference, and another run may choose otherwise; a quiet machine, more --rounds or "
+      "--processor-time tell more apart",
+      100 * aa_spread);
+}
+
+}  // namespace tureen::cli

@@ -1,0 +1,101 @@
+// What a study of a scene finds: every configuration with its time and its error, panel by panel,
+// and which of them are worth having. Plain data and arithmetic: nothing here draws.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/frame_statistics.hpp"
+#include "runtime/tradeoff/knobs.hpp"
+#include "runtime/tradeoff/pareto.hpp"
+#include "soup/render_error.hpp"
+
+namespace tureen::cli {
+
+/// Against References::exact.
+struct ExactError {
+  double psnr_db = 0;
+  double coverage_mismatch = 0;
+};
+
+/// One way to draw, with the numbers it came to.
+struct Outcome {
+  tradeoff::Configuration configuration;  // of the panel's knobs
+  std::string name;                       // in words: "lattice level 2"
+  RenderPreset preset;
+  bool specialised = true;  // or --no-specialise
+  bool published = false;   // the published pipeline
+  bool emulated = false;    // drawn by the oracle: no time, no bytes
+  /// ms but for spread, of which FrameStatistics::spread says what it is.
+  FrameStatistics ms;
+  double device_mib = 0;
+  RenderError error;                // against References::judge
+  std::optional<ExactError> exact;  // drawing knobs alone
+  std::vector<std::string> warnings;
+
+  int departures() const { return tradeoff::departures(configuration); }
+};
+
+/// By whom an outcome was drawn: specialised, generic, published, emulated.
+inline constexpr std::array<const char*, 4> methods{"tureen", "tureen --no-specialise", "published",
+                                                    "oracle"};
+const char* method_of(const Outcome& outcome);
+
+struct Skipped {
+  std::string name;
+  std::string reason;
+};
+
+/// What one reference is the judge of: drawing knobs, or antialiasing ones.
+struct Panel {
+  std::vector<tradeoff::Knob> knobs;
+  std::vector<Outcome> outcomes;  // the defaults first
+  std::vector<tradeoff::KnobRange> ranges;
+  std::vector<Skipped> skipped;
+  std::vector<std::string> notes;
+  double aa_spread = 0;            // the largest of the groups
+  std::vector<std::size_t> front;  // fastest first; of specialised, timed outcomes
+  double hypervolume = 0;          // decades times decibels
+
+  /// The reference's own pictures in 8 bits a channel: the best that a screen can show (R1).
+  RenderError ideal;
+};
+
+/// Time and error as the front sees them, of those outcomes that may be on it; `index` says which
+/// outcome each is.
+struct Candidates {
+  std::vector<tradeoff::Point> points;
+  std::vector<std::size_t> index;
+};
+Candidates candidates(const Panel& panel);
+
+/// Sets front and hypervolume by the candidates.
+void find_front(Panel& panel);
+
+bool is_on_front(const Panel& panel, std::size_t outcome);
+
+/// The outcome of the same configuration with nothing left out of the plan; null where there is
+/// none, and of the published pipeline.
+const Outcome* generic_of(const Panel& panel, const Outcome& outcome);
+
+struct Study {
+  Panel drawing;
+  Panel antialiasing;
+  /// The published pipeline as an outcome of the drawing panel (R0), where it can draw this soup.
+  std::optional<std::size_t> published;
+  /// What the device's subpixel grid costs by itself: the reference that samples as the device does
+  /// against the exact one. No knob changes it.
+  RenderError grid;
+  /// An outcome of the drawing panel. Left to the caller: what it has to keep to is no matter of
+  /// these views alone.
+  std::optional<std::size_t> choice;
+};
+
+/// What to think of the times where one configuration differs from itself by more than warming up
+/// calls stable (BenchmarkOptions::stable_within): then who is cheapest is partly chance.
+/// `aa_spread` is a fraction.
+std::optional<std::string> spread_warning(double aa_spread);
+
+}  // namespace tureen::cli
