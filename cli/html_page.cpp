@@ -42,7 +42,7 @@ std::string html_escaped(const std::string& text) {
   std::string result;
   for (std::size_t i = 0; i < text.size();) {
     const char c = text[i];
-    const std::size_t length = utf8_character(text, i).length;
+    const auto [code, length] = utf8_character(text, i);
     if (c == '&')
       result += "&amp;";
     else if (c == '<')
@@ -53,8 +53,8 @@ std::string html_escaped(const std::string& text) {
       result += "&quot;";
     else if (c == '\'')
       result += "&#39;";
-    else if (length == 0 || (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n') ||
-             c == 0x7f)
+    else if (length == 0 || (code < 0x20 && c != '\t' && c != '\n') || code == 0x7f ||
+             code == 0xfffe || code == 0xffff)
       result += "\xef\xbf\xbd";
     else
       result.append(text, i, length);

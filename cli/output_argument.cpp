@@ -2,6 +2,7 @@
 
 #include "formats/diffsoup_export.hpp"
 #include "formats/output.hpp"
+#include "formats/output_path.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {
@@ -13,7 +14,8 @@ namespace fs = std::filesystem;
 /// Whether files can be made in `folder`, which is there or ""; told of `path`.
 void try_in(const fs::path& folder, const fs::path& path) {
   try {
-    const Output probe(folder / "tureen");  // removes its temporary file
+    // Removes its temporary file. No file has this name, so that only the folder can refuse it.
+    const Output probe(folder / ".tureen-probe");
   } catch (const OutputError& error) {
     throw OutputError({path.string(), {}, {}}, error.reason());
   }
@@ -27,6 +29,9 @@ void require_writable_beside(const fs::path& path) { try_in(path.parent_path(), 
 
 void require_writable_folder(const fs::path& folder) {
   std::error_code error;
+  if (fs::is_symlink(folder, error) && !fs::exists(folder, error))
+    throw OutputError({folder.string(), {}, {}},
+                      "cannot be made a folder: it is a link that leads nowhere");
   fs::path there = folder;
   while (!there.empty() && !fs::exists(there, error) && there != there.parent_path())
     there = there.parent_path();
@@ -42,7 +47,7 @@ void require_writable_export(const fs::path& folder) {
   if (fs::exists(path, error) && !is_diffsoup_export(path) &&
       !(fs::is_directory(path, error) && fs::is_empty(path, error)))
     throw UsageError(path.string() + " exists and is no DiffSoup export; choose another name");
-  require_writable_beside(path);
+  require_writable_beside(writable_folder(path));
 }
 
 }  // namespace tureen::cli

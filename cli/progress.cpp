@@ -51,7 +51,7 @@ void Progress::update(double fraction, const std::string& detail) {
     draw_bar(fraction, detail);
   else
     std::fprintf(output_.stream, "%s: %d %%%s%s\n", shown_text(task_).c_str(), percent(fraction),
-                 detail.empty() ? "" : ", ", detail.c_str());
+                 detail.empty() ? "" : ", ", shown_text(detail).c_str());
   std::fflush(output_.stream);
 }
 
@@ -62,7 +62,7 @@ void Progress::draw_bar(double fraction, const std::string& detail) {
   const std::string text = detail.empty() ? std::to_string(percent(fraction)) + " %" : detail;
   std::fprintf(output_.stream, "\r%s [%s%s] %s\033[K", shown_text(task_).c_str(),
                std::string(std::size_t(full), '#').c_str(),
-               std::string(std::size_t(width - full), '.').c_str(), text.c_str());
+               std::string(std::size_t(width - full), '.').c_str(), shown_text(text).c_str());
 }
 
 }  // namespace tureen::cli

@@ -1,6 +1,6 @@
 // The plots of `tureen tradeoff`: error against the logarithm of time, of a scene or of several.
-// E_render of drawing knobs,
-// E_render of antialiasing ones and E_model each have a plot, and an axis, of their own.
+// E_render of drawing knobs, E_render of antialiasing ones and E_model each have a plot, and an
+// axis, of their own.
 #pragma once
 
 #include <optional>

@@ -13,7 +13,8 @@ namespace tureen::cli {
 
 namespace {
 
-/// --combinations asks for 10,000 at most; the star, with its generic twins, has some hundreds.
+/// --combinations asks for 10,000 at most; the star, with its generic twins, has some hundreds. Of
+/// ours some 8,000 fill the bytes that a file of JSON may have.
 constexpr std::size_t most_configurations = 20'000;
 /// Several times what there are.
 constexpr std::size_t most_knobs = 64, most_settings = 64;
@@ -28,6 +29,15 @@ double decibels(const JsonView& view) { return number_in(view, 0, 100); }
 void require_at_most(const JsonView& view, std::size_t most) {
   if (view.size() > most)
     view.fail(fmt::format("has {} elements, at most {} are expected", view.size(), most));
+}
+
+/// What names a row of tables: every row is as wide as the widest.
+std::string name_of(const JsonView& view) {
+  constexpr std::size_t longest = 1000;  // several times what a combination of all knobs takes
+  std::string name = view.text();
+  if (name.size() > longest)
+    view.fail(fmt::format("has {} bytes, at most {} are expected", name.size(), longest));
+  return name;
 }
 
 std::size_t index_of(const JsonView& view, std::size_t size) {
@@ -68,7 +78,7 @@ tradeoff::Knob knob_of(const JsonView& view) {
   const JsonView settings = view["settings"];
   require_at_most(settings, most_settings);
   if (settings.size() == 0) settings.fail("is empty");
-  tradeoff::Knob knob{view["key"].text(), view["title"].text(), {}};
+  tradeoff::Knob knob{name_of(view["key"]), name_of(view["title"]), {}};
   for (const std::string& value : texts(settings)) {
     for (const tradeoff::Setting& other : knob.settings)
       if (other.value == value) settings.fail("holds \"" + value + "\" twice");
@@ -129,7 +139,7 @@ Outcome outcome_of(const JsonView& view, const TradeoffReport& report, const Pan
   // What they repeat is read where it stands once.
   for (const char* key : {"scene", "commit", "machine", "driver"}) view[key].text();
   Outcome outcome;
-  outcome.name = view["name"].text();
+  outcome.name = name_of(view["name"]);
   read_method(view["method"], outcome);
   outcome.configuration = configuration_of(view["knobs"], panel);
   read_times(view, outcome);

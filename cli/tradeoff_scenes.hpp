@@ -1,6 +1,6 @@
 // One panel over several scenes, of runs of `tureen tradeoff`: what a way to draw costs and gains
-// on the whole, whatever a single scene has to say (specs 06, section 5, step 4: mean log time,
-// mean log MSE). Plain arithmetic.
+// on the whole, whatever a single scene has to say: the means of the logarithms of time and of the
+// squared error (docs/tradeoff.md). Plain arithmetic.
 //
 // A way to draw is a method (Outcome) and the settings that are asked for. Scenes differ in their
 // defaults: one is shaded once a pixel, another once a fragment. So "once a fragment" is in the
@@ -38,8 +38,7 @@ struct ScenesPanel {
   ///    error.worst_psnr_db and error.coverage_mismatch: of the scene that is worst;
   ///  - ideal.psnr_db: as error.psnr_db;
   ///  - aa_spread: by how much geometric means differ by chance at most, as (1 + 2 aa_spread) is
-  ///  the
-  ///    geometric mean of the runs' own;
+  ///    the geometric mean of the runs' own;
   ///  - front and hypervolume, of these.
   Panel means;
   /// members[i][r] is the outcome of run r that is part of means.outcomes[i].
@@ -67,8 +66,8 @@ TradeoffScenes join(std::vector<TradeoffRun> runs);
 const Panel& own_panel(const TradeoffScenes& scenes, const ScenesPanel& panel, std::size_t run);
 
 /// The time of an outcome relative to that of the panel's defaults: what is left when one machine
-/// is twice as fast as another. Of means the geometric mean of the runs' own ratios. Not of
-/// emulated ones.
+/// is twice as fast as another. Of means the geometric mean of the runs' own ratios. Says nothing
+/// of emulated ones, which have no time.
 double time_ratio(const Panel& panel, std::size_t outcome);
 
 /// Drawing's published pipeline (R0), where all runs have it.

@@ -96,10 +96,11 @@ std::string tradeoff_scenes_page(const TradeoffScenes& scenes, const Drawings& m
   page.paragraph(
       "What a way to draw costs and gains on the whole: the geometric mean over the scenes of its "
       "time relative to each scene's defaults, and the mean of the decibels, which is the PSNR of "
-      "the "
-      "geometric mean of the squared errors. Only what was measured of all scenes has a mean.");
+      "the geometric mean of the squared errors. Only what was measured of all scenes has a mean.");
   add_scenes(page, scenes);
-  page.list(scenes.notes);
+  std::vector<std::string> notes = scenes.notes;
+  std::erase(notes, gnuplot_missing);  // said below, where the plots would be
+  page.list(notes);
   std::string line = "tureen";
   for (const std::string& argument : scenes.program.arguments) line += " " + argument;
   page.command(line);

@@ -126,7 +126,9 @@ std::string csv_rows(const TradeoffScenes& scenes, const char* name, const Scene
 void say_panel(const TradeoffScenes& scenes, const ScenesPanel& panel, const std::string& title) {
   const Panel& means = panel.means;
   std::size_t width = 13;
+  constexpr std::size_t widest = 60;  // than ours: names are those of files
   for (const Outcome& outcome : means.outcomes) width = std::max(width, outcome.name.size());
+  width = std::min(width, widest);
   say(title);
   say(fmt::format("  {:<{}}  {:>8}  {:>8}  {:>8}  {:>7}  {:>8}  {:>8}  {}", "configuration", width,
                   "time", "generic", "ms", "mean dB", "worst dB", "coverage", "worst in"));
@@ -196,18 +198,25 @@ std::vector<std::string> left_out_lines(const TradeoffScenes& scenes, const Scen
   std::set<std::pair<Lacking, std::string>> specialised;
   for (const LeftOut& each : panel.left_out)
     if (each.method == methods[0]) specialised.emplace(each.lacking, each.name);
-  std::map<Lacking, std::string> names;
+  std::map<Lacking, std::vector<std::string>> names;
   for (const LeftOut& each : panel.left_out) {
     // What is left out in any case need not be said again of its generic twin.
     const bool is_generic = each.method == methods[1];
     if (is_generic && specialised.count({each.lacking, each.name}) > 0) continue;
-    std::string& text = names[each.lacking];
-    text += (text.empty() ? "" : "; ") + each.name + (is_generic ? " (generic)" : "");
+    names[each.lacking].push_back(each.name + (is_generic ? " (generic)" : ""));
   }
   std::vector<std::string> lines;
-  for (const auto& [lacking, text] : names) {
+  // Lines that a terminal shows whole, see shown_line().
+  constexpr std::size_t longest = 300;
+  for (const auto& [lacking, ways] : names) {
     std::string who;
     for (const std::size_t r : lacking) who += (who.empty() ? "" : " and ") + scenes.labels[r];
+    std::string text;
+    for (const std::string& way : ways) {
+      if (text.size() + way.size() > longest && !text.empty())
+        lines.push_back("not in " + who + ": " + std::exchange(text, {}));
+      text += (text.empty() ? "" : "; ") + way;
+    }
     lines.push_back("not in " + who + ": " + text);
   }
   return lines;

@@ -191,7 +191,7 @@ class NewFolder {
       throw OutputError({path_.string(), {}, {}},
                         "is there and is no DiffSoup export: not replaced");
 #ifndef __EMSCRIPTEN__  // where there are no links
-    path_ = followed(path_);
+    path_ = writable_folder(path_);
 #endif
     static std::atomic<unsigned> counter{0};
     temporary_ = path_;

@@ -14,7 +14,7 @@ namespace tureen {
 
 class Output {
  public:
-  /// Opens a temporary file beside what writable_file (output_path.hpp) says. Throws OutputError.
+  /// Opens a temporary file beside writable_file (output_path.hpp) and throws as that does.
   explicit Output(std::filesystem::path path);
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;

@@ -56,4 +56,11 @@ fs::path writable_file(const fs::path& path) {
   return followed(path);
 }
 
+fs::path writable_folder(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error) && !may_write(path))
+    throw OutputError({path.string(), {}, {}}, "cannot be replaced: it is write-protected");
+  return followed(path);
+}
+
 }  // namespace tureen

@@ -99,7 +99,8 @@ Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
                data[at + 3];
       };
       if (size >= 24 && std::memcmp(data, "\x89PNG", 4) == 0 &&
-          std::uint64_t(side(16)) * side(20) > max_image_pixels)
+          (std::uint64_t(side(16)) * side(20) > max_image_pixels ||
+           std::max(side(16), side(20)) > std::uint32_t(max_image_side)))
         fail(beyond(side(16), side(20)));
       fail(std::string("not a PNG or JPEG image: ") + stbi_failure_reason());
     }

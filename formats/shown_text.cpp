@@ -8,12 +8,12 @@ namespace tureen {
 
 namespace {
 
-/// Whether a terminal does something else with it than to show it in its place.
+/// Whether a terminal does something else with it than to show it in its place, or it is none.
 bool is_steering(std::uint32_t code) {
   return code < 0x20 || (code >= 0x7f && code <= 0x9f) ||  // C0, DEL and C1
          code == 0x061c || code == 0x200e || code == 0x200f ||
          (code >= 0x2028 && code <= 0x202e) ||  // ends of lines and paragraphs, and directions
-         (code >= 0x2066 && code <= 0x2069);
+         (code >= 0x2066 && code <= 0x2069) || code == 0xfffe || code == 0xffff;
 }
 
 void append_hexadecimal(std::string& text, std::uint32_t value, int digits) {

@@ -115,11 +115,11 @@ VideoFile::VideoFile(fs::path path, const Format& format)
   if (!is_video_name(path_))
     throw UsageError("'" + path_.string() + "' is no name for a video: it ends in .mp4 or .webm");
   if (!have_ffmpeg()) throw UsageError(ffmpeg_missing);
-  const fs::path folder = path_.parent_path();
+  target_ = writable_file(path_);
+  const fs::path folder = target_.parent_path();
   std::error_code error;
   if (!folder.empty() && !fs::is_directory(folder, error))
     throw OutputError({path_.string(), {}, {}}, "there is no folder " + folder.string());
-  target_ = writable_file(path_);
   static std::atomic<unsigned> counter{0};
   temporary_ = target_;
   temporary_ += ".tmp" + std::to_string(getpid()) + "-" + std::to_string(counter++);

@@ -51,9 +51,12 @@ TEST_F(Inputs, ThatMayNotBeReadAreNotToldAsMissing) {
   fs::permissions(folder / "secret.off", fs::perms::none);
   test::make_streams_for_all(folder);
   fs::permissions(folder / "locked", fs::perms::none);
+  bool may_run = true;
   {
     const Nobody nobody;
-    if (::eaccess(TUREEN_PROGRAM, X_OK) == 0) {
+    if (::eaccess(TUREEN_PROGRAM, X_OK) != 0) {
+      may_run = false;
+    } else {
       for (const auto& arguments : readers("locked/scene.off"))
         expect(arguments, "locked/scene.off: cannot be looked up: Permission denied");
       for (const auto& arguments : readers("secret.off"))
@@ -64,6 +67,7 @@ TEST_F(Inputs, ThatMayNotBeReadAreNotToldAsMissing) {
     }
   }
   fs::permissions(folder / "locked", fs::perms::owner_all);
+  if (!may_run) GTEST_SKIP() << TUREEN_PROGRAM << " is not for everybody";
 }
 
 TEST_F(Inputs, ThatAreNoFilesAreRefusedAtOnce) {

@@ -6,6 +6,7 @@
 
 #include "cli/nobody.hpp"
 #include "cli/program_fixture.hpp"
+#include "formats/input.hpp"
 #include "formats/scene_file.hpp"
 
 namespace tureen {
@@ -64,14 +65,24 @@ TEST_F(Outputs, GoWhereLinksLeadAndTheLinksStay) {
 }
 
 TEST_F(Outputs, ThatAreFoldersGoWhereLinksLead) {
-  write("one.glb", "");
-  fs::remove(folder / "one.glb");
+  write("other.off", "OFF\n3 1 0\n0 0 0\n7 0 0\n0 7 0\n3 0 1 2\n");
   ASSERT_EQ(run({"convert", "scene.off", "real/"}).exit_code, 0);
-  const auto before = fs::last_write_time(folder / "real/mesh.ply");
+  ASSERT_EQ(run({"convert", "other.off", "expected/"}).exit_code, 0);
   fs::create_symlink("real", folder / "export");
-  EXPECT_EQ(run({"convert", "scene.off", "export", "--force"}).exit_code, 0);
+  EXPECT_EQ(run({"convert", "other.off", "export", "--force"}).exit_code, 0);
   EXPECT_TRUE(fs::is_symlink(folder / "export"));
-  EXPECT_NE(fs::last_write_time(folder / "real/mesh.ply"), before);
+  EXPECT_EQ(Input::open(folder / "real/mesh.ply").read_rest(),
+            Input::open(folder / "expected/mesh.ply").read_rest());
+}
+
+TEST_F(Outputs, InFoldersDoNotDependOnWhatElseIsThere) {
+  write_scene();
+  // As where somebody keeps a checkout of this project.
+  fs::create_directory(folder / "tureen");
+  EXPECT_EQ(run({"convert", "scene.off", "export/"}).exit_code, 0);
+  fs::create_symlink("nowhere", folder / "views");
+  expect({"eval", "bad.off", "photographs", "-o", "views"}, 5,
+         "views: cannot be made a folder: it is a link that leads nowhere");
 }
 
 TEST_F(Outputs, AreNoPipesNorDevices) {
@@ -89,6 +100,13 @@ TEST_F(Outputs, AreNoPipesNorDevices) {
 
 TEST_F(Outputs, DoNotReplaceWhatIsWriteProtected) {
   write("precious.ply", "precious");
+  write_scene();
+  ASSERT_EQ(run({"convert", "scene.off", "export/"}).exit_code, 0);
+  // Where a link leads counts, not where it lies.
+  fs::create_directory(folder / "locked");
+  fs::create_symlink("locked/export", folder / "link");
+  fs::permissions(folder / "locked", fs::perms(0555));
+  fs::permissions(folder / "export", fs::perms(0555));
   fs::permissions(folder, fs::perms::all);
   fs::permissions(folder / "precious.ply", fs::perms(0444));
   test::make_streams_for_all(folder);
@@ -96,6 +114,9 @@ TEST_F(Outputs, DoNotReplaceWhatIsWriteProtected) {
   if (::eaccess(TUREEN_PROGRAM, X_OK) != 0) GTEST_SKIP() << TUREEN_PROGRAM << " is not for all";
   expect({"convert", "bad.off", "precious.ply", "--force"}, 5,
          "precious.ply: cannot be replaced: it is write-protected");
+  expect({"convert", "bad.off", "export/", "--force"}, 5,
+         "export: cannot be replaced: it is write-protected");
+  expect({"convert", "bad.off", "link"}, 5, "cannot be created: Permission denied");
   EXPECT_EQ(fs::file_size(folder / "precious.ply"), 8u);
 }
 

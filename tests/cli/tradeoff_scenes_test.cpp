@@ -8,11 +8,13 @@
 #include <cmath>
 #include <span>
 
+#include "cli/gnuplot.hpp"
 #include "cli/tradeoff_fixture.hpp"
 #include "cli/tradeoff_plots.hpp"
 #include "cli/tradeoff_reading.hpp"
 #include "cli/tradeoff_scenes_page.hpp"
 #include "cli/tradeoff_scenes_report.hpp"
+#include "formats/shown_text.hpp"
 #include "soup/error.hpp"
 #include "soup/metrics.hpp"
 #include "support/schema.hpp"
@@ -169,6 +171,20 @@ TEST(TradeoffScenes, WhatOneSceneLacksIsLeftOutAndSaid) {
   EXPECT_THAT(left_out_lines(scenes, scenes.antialiasing), IsEmpty());
 }
 
+TEST(TradeoffScenes, OfManyThatAreLeftOutEachIsSaidInALineThatIsShownWhole) {
+  TradeoffScenes scenes = join_both(lego(), chair());
+  scenes.drawing.left_out.clear();
+  for (int i = 0; i < 100; ++i)
+    scenes.drawing.left_out.push_back({"way " + std::to_string(i) + " to draw", methods[0], {1}});
+  std::string all;
+  for (const std::string& line : left_out_lines(scenes, scenes.drawing)) {
+    EXPECT_EQ(shown_line(line), line);
+    all += line + "; ";
+  }
+  for (int i = 0; i < 100; ++i)
+    EXPECT_THAT(all, HasSubstr("way " + std::to_string(i) + " to draw; "));
+}
+
 TEST(TradeoffScenes, WhatIsADepartureInOneSceneMayBeTheDefaultOfAnother) {
   json other = chair();
   // The chair is shaded once a fragment unless it is asked for otherwise.
@@ -279,7 +295,7 @@ TEST(TradeoffScenesPage, EscapesNamesAndSaysWhatIsLeftOut) {
   json other = chair();
   other["scene"]["name"] = "a<b";
   other["drawing"]["configurations"].erase(4);
-  const TradeoffScenes scenes = join_both(lego(), other);
+  TradeoffScenes scenes = join_both(lego(), other);
   const std::string page =
       tradeoff_scenes_page(scenes, {{"<svg>one</svg>", "first"}}, {{"<svg>two</svg>", "second"}});
   EXPECT_THAT(page, HasSubstr("a&lt;b"));
@@ -287,7 +303,11 @@ TEST(TradeoffScenesPage, EscapesNamesAndSaysWhatIsLeftOut) {
   EXPECT_THAT(page, HasSubstr("<svg>one</svg>"));
   EXPECT_THAT(page, HasSubstr("<svg>two</svg>"));
   EXPECT_THAT(page, HasSubstr("not in a&lt;b: defaults (generic)"));
-  EXPECT_THAT(tradeoff_scenes_page(scenes, {}, {}), HasSubstr("gnuplot is not installed"));
+  scenes.notes.emplace_back(gnuplot_missing);
+  const std::string without = tradeoff_scenes_page(scenes, {}, {});
+  const std::size_t said = without.find("gnuplot is not installed");
+  EXPECT_NE(said, std::string::npos);
+  EXPECT_EQ(without.find("gnuplot is not installed", said + 1), std::string::npos) << "once";
 }
 
 }  // namespace

@@ -258,9 +258,7 @@ TEST_F(Train, GoesOnAfterAKillAsIfItHadNotHappened) {
   EXPECT_EQ(bytes("ball.glb"), bytes("whole/ball.glb"));
   const std::string log = bytes("ball.jsonl"), whole = bytes("whole/ball.jsonl");
   EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), std::count(whole.begin(), whole.end(), '\n'));
-  test::leave_measured("resume", {{"kills", sent},
-                                  {"steps", std::stoi(steps)},
-                                  {"equal", bytes("ball.glb") == bytes("whole/ball.glb")}});
+  test::leave_measured("resume", {{"kills", sent}, {"steps", std::stoi(steps)}});
 }
 
 TEST_F(Train, CheckpointsAsOftenAsItIsTold) {

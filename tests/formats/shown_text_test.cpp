@@ -29,6 +29,7 @@ TEST(ShownText, WritesOutWhatSteersATerminal) {
             "\\u009b2J")
       << "an escape sequence in one character";
   EXPECT_EQ(shown_text("\u2028\u202e\u2066"), "\\u2028\\u202e\\u2066");
+  EXPECT_EQ(shown_text("\ufffe\uffff"), "\\ufffe\\uffff") << "which are no characters";
 }
 
 TEST(ShownText, WritesOutBytesThatAreNoUtf8) {

@@ -47,12 +47,6 @@ std::string damage_table(const std::vector<Measured>& all) {
                           row.json.at("fixtures").get<int>(), counts(row.json.at("cut")),
                           counts(row.json.at("flipped")), row.json.at("bytes").get<double>() / 1e6,
                           1e3 * row.json.at("seconds").get<double>());
-  for (const Measured& row : all)
-    if (row.name == "files-of-others")
-      text += fmt::format(
-          "\nOf a collection of files that others made to test or to break readers, {} were read "
-          "and {} refused.\n",
-          row.json.at("read").get<int>(), row.json.at("refused").get<int>());
   return text;
 }
 
@@ -66,12 +60,36 @@ std::uint64_t number_behind(const std::string& log, const std::string& label,
   return std::stoull(log.substr(at, 19));
 }
 
-std::string fuzz_table(const fs::path& folder) {
+std::vector<fs::path> logs_in(const fs::path& folder) {
   std::vector<fs::path> logs;
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".log") logs.push_back(entry.path());
-  if (logs.empty()) throw InputError({folder.string(), {}, {}}, "no fuzzer has run");
   std::sort(logs.begin(), logs.end());
+  return logs;
+}
+
+/// A part that did not run is no row that is missing: every reader that was damaged was fuzzed, and
+/// the reverse, and writers were interrupted.
+void require_all(const std::vector<Measured>& all, const std::vector<fs::path>& logs,
+                 const fs::path& folder) {
+  std::vector<std::string> damaged, fuzzed;
+  int signals = 0, resumed = 0;
+  for (const Measured& row : all) {
+    if (begins(row, "damage-")) damaged.push_back(row.json.at("reader"));
+    signals += begins(row, "signal-");
+    resumed += row.name == "resume";
+  }
+  for (const fs::path& log : logs) fuzzed.push_back(log.stem().string());
+  std::sort(damaged.begin(), damaged.end());
+  if (damaged.empty() || damaged != fuzzed)
+    throw InputError({folder.string(), {}, {}},
+                     fmt::format("{} readers were damaged, {} fuzzed: they should be the same",
+                                 damaged.size(), fuzzed.size()));
+  if (signals == 0 || resumed == 0)
+    throw InputError({folder.string(), {}, {}}, "the tests of faults have left nothing there");
+}
+
+std::string fuzz_table(const std::vector<fs::path>& logs) {
   std::string text =
       "| reader | executions | a second | edges seen | inputs kept | most memory |\n"
       "|---|---|---|---|---|---|\n";
@@ -101,10 +119,10 @@ std::string fault_table(const std::vector<Measured>& all) {
   for (const Measured& row : all)
     if (row.name == "resume")
       text += fmt::format(
-          "\nA training of {} steps that was killed {} times and went on by `--resume` ended in {} "
-          "file as one that was left alone.\n",
-          row.json.at("steps").get<int>(), row.json.at("kills").get<int>(),
-          row.json.at("equal").get<bool>() ? "the very same" : "**another**");
+          "\nA training of {} steps that was killed {} times and went on by `--resume` ended in "
+          "the "
+          "very same file as one that was left alone.\n",
+          row.json.at("steps").get<int>(), row.json.at("kills").get<int>());
   return text;
 }
 
@@ -120,9 +138,11 @@ int main(int argc, char** argv) {
   }
   try {
     const std::vector<Measured> all = read_measured(argv[1]);
+    const std::vector<std::filesystem::path> logs = logs_in(argv[2]);
+    require_all(all, logs, argv[1]);
     write_between(argv[3], Marks("./dev harm"),
-                  "\n### Damage\n\n" + damage_table(all) + "\n### Fuzzing\n\n" +
-                      fuzz_table(argv[2]) + "\n### Signals\n\n" + fault_table(all) + "\n");
+                  "\n### Damage\n\n" + damage_table(all) + "\n### Fuzzing\n\n" + fuzz_table(logs) +
+                      "\n### Signals\n\n" + fault_table(all) + "\n");
     std::fprintf(stderr, "wrote %s\n", argv[3]);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "harm_report: %s\n", error.what());

@@ -95,8 +95,8 @@ TEST(Numerics, C2b_WhatLiesFarOffTheAxisIsNotClipped) {
       const double a = 1.25;
       const TriangleSoup soup = soup_of({corner(-a, -a), corner(a, -a), corner(a, a),
                                          corner(-a, -a), corner(a, a), corner(-a, a)});
-      const double device = shown(faces_of_device(soup, camera, reversed));
-      const double in_oracle = shown(faces_of_oracle(soup, camera));
+      const double device = shown_pixels(faces_of_device(soup, camera, reversed));
+      const double in_oracle = shown_pixels(faces_of_oracle(soup, camera));
       const Bounds box = bounds(soup);
       const double by_distance = 0.95 * (glm::length(box.centre()) - box.radius());
       // Corners are floats of `off` and the principal point is as far away: their roundings move

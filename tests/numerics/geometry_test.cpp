@@ -286,14 +286,14 @@ TEST(Numerics, G4_AFloorThroughTheCameraIsClippedNotDropped) {
     }
     const TriangleSoup soup = soup_of(corners);
     const Faces expected = faces_of_oracle(soup, camera);
-    ASSERT_GT(shown(expected), side * side / 4);
+    ASSERT_GT(shown_pixels(expected), side * side / 4);
     const double device =
         differing_away_from_edges(expected, faces_of_device(soup, camera), side, side);
     const double trained =
         differing_away_from_edges(faces_of_oracle(soup, camera, oracle::Coverage::exact),
                                   faces_of_trainer(soup, camera, 0.01, 1e5), side, side);
     recorder.add({.at = behind,
-                  .naive = shown(expected),
+                  .naive = shown_pixels(expected),
                   .ours = std::max(device, trained),
                   .tolerance = 0});
   }

@@ -62,7 +62,7 @@ std::vector<std::uint32_t> faces_of_trainer(const TriangleSoup& soup, const Came
   return result;
 }
 
-double shown(const std::vector<std::uint32_t>& faces) {
+double shown_pixels(const std::vector<std::uint32_t>& faces) {
   return double(faces.size()) - double(std::count(faces.begin(), faces.end(), no_face));
 }
 

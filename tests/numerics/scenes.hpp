@@ -35,7 +35,7 @@ std::vector<std::uint32_t> faces_of_trainer(const TriangleSoup& soup, const Came
                                             double near = 0.01, double far = 100);
 
 /// How many pixels show a face.
-double shown(const std::vector<std::uint32_t>& faces);
+double shown_pixels(const std::vector<std::uint32_t>& faces);
 
 /// How many pixels name different faces.
 double differing(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b);

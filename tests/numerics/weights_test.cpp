@@ -272,7 +272,7 @@ TEST(Numerics, M4_AlphasNextToTheThreshold) {
                      .naive = "bytes by truncation"});
   const Camera camera = straight_camera(side, side, side);
   const double all =
-      shown(faces_of_oracle(of_constant_alpha(Kind::face_colors, 1, 0, false), camera));
+      shown_pixels(faces_of_oracle(of_constant_alpha(Kind::face_colors, 1, 0, false), camera));
   ASSERT_GT(all, 500);
   std::vector<float> alphas;
   for (int i = -8; i <= 8; ++i) alphas.push_back(0.5f + float(i) / (8 * 255));
@@ -289,12 +289,13 @@ TEST(Numerics, M4_AlphasNextToTheThreshold) {
          {Form{Kind::face_colors, false}, Form{Kind::vertex_colors, false},
           Form{Kind::lattice, false}, Form{Kind::lattice, true}}) {
       const TriangleSoup soup = of_constant_alpha(kind, alpha, 3, bytes);
-      ours += std::abs(shown(faces_of_oracle(soup, camera)) - expected);
+      ours += std::abs(shown_pixels(faces_of_oracle(soup, camera)) - expected);
       for (const bool specialise : {true, false})
-        ours += std::abs(shown(draw(shared_context(), soup, glm::dvec3(0), camera,
-                                    {.specialise = specialise, .site = ShadingSite::deferred})
-                                   .faces) -
-                         expected);
+        ours +=
+            std::abs(shown_pixels(draw(shared_context(), soup, glm::dvec3(0), camera,
+                                       {.specialise = specialise, .site = ShadingSite::deferred})
+                                      .faces) -
+                     expected);
     }
     const double truncated = std::floor(255 * double(alpha)) / 255 >= 0.5 ? all : 0;
     recorder.add({.at = double(alpha),
@@ -313,10 +314,10 @@ TEST(Numerics, M5_AlphasOfExactlyOneHalfLeaveNoHoles) {
                      .naive = "the sum of weights times texels in floats"});
   const Camera camera = straight_camera(side, side, side);
   const double all =
-      shown(faces_of_oracle(of_constant_alpha(Kind::face_colors, 1, 0, false), camera));
+      shown_pixels(faces_of_oracle(of_constant_alpha(Kind::face_colors, 1, 0, false), camera));
   for (int level = 0; level <= 5; ++level) {
     const TriangleSoup soup = of_constant_alpha(Kind::lattice, 0.5f, level, false);
-    double holes = all - shown(faces_of_oracle(soup, camera));
+    double holes = all - shown_pixels(faces_of_oracle(soup, camera));
     for (const ShadingSite site : {ShadingSite::deferred, ShadingSite::forward})
       for (const bool specialise : {true, false}) {
         const Drawn drawn = draw(shared_context(), soup, glm::dvec3(0), camera,

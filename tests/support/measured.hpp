@@ -1,7 +1,5 @@
-// What tests measure, on its way into a page of docs/: a test leaves it as a file, a program of
-// reports
-// (`./dev numerics`, `./dev harm`) gathers those of a run and writes them between two marks of the
-// page.
+// What tests measure, on its way into a page of docs/: a test leaves it as a file, and a program of
+// reports (`./dev numerics`, `./dev harm`) writes those of a run between two marks of the page.
 #pragma once
 
 #include <filesystem>
