@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -114,7 +115,12 @@ Exit codes: 0 done, 1 past --tolerance, 2 wrong usage, 3 a picture cannot be rea
       ->add_option("--tolerance", options->tolerance,
                    "exit with 1 when --metric is worse than this")
       ->check([](const std::string& text) {
-        return text.starts_with('-') ? "a tolerance is at least 0, not " + text : std::string();
+        // Numbers that nothing is worse than would be passed by everything.
+        double value = 0;
+        const bool is_finite = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+        return text.starts_with('-') || !is_finite
+                   ? "a tolerance is a number of at least 0, not " + text
+                   : std::string();
       })
       ->option_text("VALUE");
   std::vector<std::pair<std::string, const NamedMetric*>> metrics;

@@ -54,6 +54,14 @@ auto unless_null(const JsonView& view, Read read) {
   return view.value().is_null() ? std::nullopt : std::optional(read(view));
 }
 
+/// Of at most `longest` bytes: for what reports repeat in rows and at points of plots.
+inline std::string text_within(const JsonView& view, std::size_t longest) {
+  std::string text = view.text();
+  if (text.size() > longest)
+    view.fail(fmt::format("has {} bytes, at most {} are expected", text.size(), longest));
+  return text;
+}
+
 inline std::vector<std::string> texts(const JsonView& view) {
   return list(view, [](const JsonView& each) { return each.text(); });
 }

@@ -47,6 +47,9 @@ void require_writable_export(const fs::path& folder) {
   if (fs::exists(path, error) && !is_diffsoup_export(path) &&
       !(fs::is_directory(path, error) && fs::is_empty(path, error)))
     throw UsageError(path.string() + " exists and is no DiffSoup export; choose another name");
+  if (const std::string foreign = foreign_to_diffsoup_export(path); !foreign.empty())
+    throw UsageError(path.string() + " is replaced as a whole, and holds " + foreign +
+                     ", which is no part of an export; choose another name");
   require_writable_beside(writable_folder(path));
 }
 

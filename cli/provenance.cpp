@@ -28,30 +28,33 @@ Json to_json(const BenchDevice& device) {
           {"software", device.software}};
 }
 
+/// A path as long as systems have them; names are shorter.
+constexpr std::size_t longest_text = 4096;
+
 BenchProgram program_of(const JsonView& view) {
-  return {.version = view["version"].text(),
-          .commit = view["commit"].text(),
+  return {.version = text_within(view["version"], longest_text),
+          .commit = text_within(view["commit"], longest_text),
           .arguments = texts(view["arguments"])};
 }
 
 BenchScene scene_of(const JsonView& view) {
-  return {.name = view["name"].text(),
-          .path = view["path"].text(),
+  return {.name = text_within(view["name"], longest_text),
+          .path = text_within(view["path"], longest_text),
           .triangles = view["triangles"].natural(),
-          .appearance = view["appearance"].text()};
+          .appearance = text_within(view["appearance"], longest_text)};
 }
 
 Machine machine_of(const JsonView& view) {
-  return {.cpu = view["cpu"].text(),
+  return {.cpu = text_within(view["cpu"], longest_text),
           .cores = integer(view["cores"]),
           .memory_mib = number_in(view["memory_mib"], 0, 1e12)};
 }
 
 BenchDevice device_of(const JsonView& view) {
-  return {.context = view["context"].text(),
-          .renderer = view["renderer"].text(),
-          .vendor = view["vendor"].text(),
-          .version = view["version"].text(),
+  return {.context = text_within(view["context"], longest_text),
+          .renderer = text_within(view["renderer"], longest_text),
+          .vendor = text_within(view["vendor"], longest_text),
+          .version = text_within(view["version"], longest_text),
           .software = boolean(view["software"])};
 }
 

@@ -239,6 +239,18 @@ std::vector<std::string> differences(const std::vector<TradeoffRun>& runs,
   return notes;
 }
 
+/// What a run itself says against its times, above all those of its defaults, by which all others
+/// of it are divided.
+void add_warnings(const TradeoffRun& run, const std::string& label,
+                  std::vector<std::string>& notes) {
+  for (const Panel* panel : {&run.report.study.drawing, &run.report.study.antialiasing}) {
+    if (const auto warning = spread_warning(panel->aa_spread))
+      notes.push_back(label + ": " + *warning);
+    for (const std::string& warning : panel->outcomes.front().warnings)
+      notes.push_back(label + ", its defaults: " + warning);
+  }
+}
+
 }  // namespace
 
 TradeoffScenes join(std::vector<TradeoffRun> runs) {
@@ -247,6 +259,8 @@ TradeoffScenes join(std::vector<TradeoffRun> runs) {
   TradeoffScenes scenes;
   scenes.labels = labels_of(runs);
   scenes.notes = differences(runs, scenes.labels);
+  for (std::size_t r = 0; r < runs.size(); ++r)
+    add_warnings(runs[r], scenes.labels[r], scenes.notes);
   std::vector<const Panel*> drawing, antialiasing;
   for (const TradeoffRun& run : runs) {
     drawing.push_back(&run.report.study.drawing);

@@ -18,6 +18,10 @@ namespace tureen {
 /// Whether `folder` is one that holds mesh.ply and lut0.png.
 bool is_diffsoup_export(const std::filesystem::path& folder);
 
+/// The name of something in `folder` that is no part of an export and would be lost with it; ""
+/// where there is none.
+std::string foreign_to_diffsoup_export(const std::filesystem::path& folder);
+
 /// Levels 0..7; any width of the two images as long as their height is ceil(texels / width).
 /// Without meta.json the web viewer's defaults hold: level 5, up -y, background black.
 ///
@@ -30,12 +34,12 @@ bool is_diffsoup_export(const std::filesystem::path& folder);
 /// Throws InputError.
 Scene read_diffsoup_export(const std::filesystem::path& folder, const ReadOptions& options = {});
 
-/// Writes the folder whole or not at all; one that is there is replaced if it is an export or
-/// empty. Bytes are written as they are, floats rounded, alpha on its side of 1/2 (soup/quantise).
-/// Face and vertex colours become level 0. Faces of lower levels are refined to the highest.
-/// Without a color MLP an inert one is written (f3 = 0). Returns what was lost or added, a sentence
-/// each. Throws UsageError for other appearances, other networks than 16-16-16-3 of seven features,
-/// no triangles at all, or more texels than an image may hold; and OutputError.
+/// Writes the folder whole or not at all; one that is there is replaced if it is an export, and
+/// nothing but that, or empty. Bytes are written as they are, floats rounded, alpha on its side of
+/// 1/2 (soup/quantise). Face and vertex colours become level 0. Faces of lower levels are refined
+/// to the highest. Without a color MLP an inert one is written (f3 = 0). Returns what was lost or
+/// added, a sentence each. Throws UsageError for other appearances, other networks than 16-16-16-3
+/// of seven features, no triangles at all, or more texels than an image may hold; and OutputError.
 std::vector<std::string> write_diffsoup_export(const Scene& scene,
                                                const std::filesystem::path& folder);
 

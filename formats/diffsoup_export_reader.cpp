@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -5,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "formats/diffsoup_export.hpp"
@@ -151,6 +153,17 @@ bool is_diffsoup_export(const fs::path& folder) {
   std::error_code ignored;
   return fs::is_regular_file(folder / "mesh.ply", ignored) &&
          fs::is_regular_file(folder / "lut0.png", ignored);
+}
+
+std::string foreign_to_diffsoup_export(const fs::path& folder) {
+  static constexpr std::array<std::string_view, 5> own{"mesh.ply", "lut0.png", "lut1.png",
+                                                       "mlp_weights.json", "meta.json"};
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    std::string name = entry.path().filename().string();
+    if (std::find(own.begin(), own.end(), name) == own.end()) return name;
+  }
+  return {};
 }
 
 Scene read_diffsoup_export(const fs::path& folder, const ReadOptions& options) {

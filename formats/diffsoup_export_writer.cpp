@@ -190,6 +190,9 @@ class NewFolder {
         !(fs::is_directory(path_, error) && fs::is_empty(path_, error)))
       throw OutputError({path_.string(), {}, {}},
                         "is there and is no DiffSoup export: not replaced");
+    if (const std::string foreign = foreign_to_diffsoup_export(path_); !foreign.empty())
+      throw OutputError({path_.string(), {}, {}},
+                        "not replaced: it holds " + foreign + ", which is no part of an export");
 #ifndef __EMSCRIPTEN__  // where there are no links
     path_ = writable_folder(path_);
 #endif

@@ -50,8 +50,12 @@ Output::Output(std::filesystem::path path) : path_(target_of(std::move(path))) {
   temporary_ = path_;
   temporary_ += ".tmp" + std::to_string(getpid()) + "-" + std::to_string(counter++);
   file_ = std::fopen(temporary_.c_str(), "wb");
-  if (file_) return;
   const int reason = errno;
+  std::error_code none;
+  // What only some may read stays so.
+  if (const auto old = std::filesystem::status(path_, none); file_ && std::filesystem::exists(old))
+    std::filesystem::permissions(temporary_, old.permissions(), none);
+  if (file_) return;
   const std::filesystem::path folder = path_.parent_path();
   std::error_code error;
   if (!folder.empty() && !std::filesystem::exists(folder, error))

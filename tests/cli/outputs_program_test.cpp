@@ -75,6 +75,22 @@ TEST_F(Outputs, ThatAreFoldersGoWhereLinksLead) {
             Input::open(folder / "expected/mesh.ply").read_rest());
 }
 
+TEST_F(Outputs, ThatAreFoldersDoNotTakeAnythingElseWithThem) {
+  ASSERT_EQ(run({"convert", "scene.off", "export/"}).exit_code, 0);
+  ASSERT_EQ(run({"convert", "scene.off", "export/", "--force"}).exit_code, 0);
+  write("export/notes.txt", "precious");
+  expect({"convert", "scene.off", "export/", "--force"}, 2,
+         "export is replaced as a whole, and holds notes.txt, which is no part of an export");
+  EXPECT_EQ(fs::file_size(folder / "export/notes.txt"), 8u);
+}
+
+TEST_F(Outputs, KeepThePermissionsOfWhatTheyReplace) {
+  write("private.ply", "old");
+  fs::permissions(folder / "private.ply", fs::perms(0600));
+  ASSERT_EQ(run({"convert", "scene.off", "private.ply", "--force"}).exit_code, 0);
+  EXPECT_EQ(fs::status(folder / "private.ply").permissions(), fs::perms(0600));
+}
+
 TEST_F(Outputs, InFoldersDoNotDependOnWhatElseIsThere) {
   write_scene();
   // As where somebody keeps a checkout of this project.

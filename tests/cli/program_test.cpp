@@ -99,6 +99,8 @@ TEST_F(Program, CompareReportsAndFailsPastItsTolerance) {
   EXPECT_EQ(json["ssim_border"], "zero_pad");
 
   EXPECT_EQ(run({"compare", "a.png", "b.png", "--tolerance", "0.01"}).exit_code, 0);
+  for (const char* passes_all : {"1e999", "inf", "nan", "-1", "x"})
+    EXPECT_EQ(run({"compare", "a.png", "b.png", "--tolerance", passes_all}).exit_code, 2);
   const ChildResult failed =
       run({"compare", "a.png", "b.png", "--tolerance", "0.1", "--metric", "max_abs", "--json"});
   EXPECT_EQ(failed.exit_code, 1);

@@ -127,6 +127,7 @@ TEST(TradeoffReading, RefusesWhatCannotBe) {
       {"/version", 0, "version: there is no version 0"},
       {"/version", 2, "version: version 2 is newer than this program"},
       {"/date", "yesterday", "date: expected a time of the form"},
+      {"/scene/name", std::string(4097, 'x'), "scene.name: has 4097 bytes, at most 4096"},
       {"/drawing/configurations/0/name", std::string(1001, 'x'), "name: has 1001 bytes, at most"},
       {"/scene/triangles", -1, "scene.triangles: expected a whole number"},
       {"/protocol/width", 0, "protocol.width: 0 is not enough"},

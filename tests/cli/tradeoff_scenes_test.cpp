@@ -248,6 +248,15 @@ TEST(TradeoffScenes, WhatRunsDoNotHaveInCommonIsSaid) {
                           HasSubstr("time is relative to each run's own defaults")));
 }
 
+TEST(TradeoffScenes, WhatARunSaysAgainstItsTimesIsSaidAgain) {
+  json other = chair();
+  other["drawing"]["aa_spread"] = 1.06;
+  other["drawing"]["configurations"][0]["warnings"] = {"did not come to rest"};
+  EXPECT_THAT(join_both(lego(), other).notes,
+              ElementsAre(HasSubstr("chair: one configuration differs from itself by 106 %"),
+                          "chair, its defaults: did not come to rest"));
+}
+
 TEST(TradeoffScenesReport, HasTheShapeThatTheSchemaSays) {
   TradeoffScenes scenes = join_both(lego(), chair());
   scenes.date = "2026-06-01T12:00:00Z";
