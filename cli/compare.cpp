@@ -67,6 +67,7 @@ Json to_json(const Options& options, const Metrics& metrics, std::optional<bool>
 ExitCode compare_pictures(const Options& options) {
   if (!options.diff.empty()) {
     require_png_name(options.diff);
+    for (const std::string& input : {options.a, options.b}) require_not_input(options.diff, input);
     require_writable_file(options.diff);
   }
   const glm::vec3 background(parse_background(options.background));

@@ -121,7 +121,7 @@ std::string written_formats() {
     text += "  " + extensions + format.name + ": " + format.description + "\n";
   }
   return text +
-         "  .html          one page that opens by double-click: our GLB, and the viewer of ./dev "
+         "  .html           one page that opens by double-click: our GLB, and the viewer of ./dev "
          "web\n";
 }
 

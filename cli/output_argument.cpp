@@ -23,6 +23,12 @@ void try_in(const fs::path& folder, const fs::path& path) {
 
 }  // namespace
 
+void require_not_input(const fs::path& output, const fs::path& input) {
+  std::error_code error;  // what is not there is no input, which reading it says
+  if (fs::equivalent(output, input, error))
+    throw UsageError(output.string() + " is an input itself; choose another name");
+}
+
 void require_writable_file(const fs::path& path) { const Output probe(path); }
 
 void require_writable_beside(const fs::path& path) { try_in(path.parent_path(), path); }

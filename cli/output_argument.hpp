@@ -6,6 +6,9 @@
 
 namespace tureen::cli {
 
+/// Throws UsageError where both are the same file, by whatever names: what was read would be lost.
+void require_not_input(const std::filesystem::path& output, const std::filesystem::path& input);
+
 /// Throws OutputError unless a file can be written there (formats/output_path.hpp). Tries it: a
 /// temporary file beside it, which goes again.
 void require_writable_file(const std::filesystem::path& path);

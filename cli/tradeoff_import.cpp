@@ -52,7 +52,11 @@ void write_files(const fs::path& folder, TradeoffScenes& scenes) {
 ExitCode import_tradeoffs(const TradeoffImport& import) {
   if (import.files.size() < 2)
     throw UsageError("--import wants two results or more: a scene by itself has no mean");
-  if (!import.folder.empty()) require_writable_folder(import.folder);
+  if (!import.folder.empty()) {
+    for (const std::string& file : import.files)
+      require_not_input(fs::path(import.folder) / "scenes.json", file);
+    require_writable_folder(import.folder);
+  }
   TradeoffScenes scenes = join(read_runs(import.files));
   scenes.date = utc_now();
   scenes.program = {program_version(), program_commit(), import.arguments};

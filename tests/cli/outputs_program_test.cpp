@@ -84,6 +84,18 @@ TEST_F(Outputs, ThatAreFoldersDoNotTakeAnythingElseWithThem) {
   EXPECT_EQ(fs::file_size(folder / "export/notes.txt"), 8u);
 }
 
+TEST_F(Outputs, AreNotTheInputs) {
+  write_png("b.png", Image8(8, 8));
+  const auto before = Input::open(folder / "a.png").read_rest();
+  fs::create_symlink("a.png", folder / "link.png");
+  for (const char* diff : {"a.png", "./a.png", "link.png"})
+    expect({"compare", "a.png", "b.png", "--diff", diff}, 2, "is an input itself");
+  EXPECT_EQ(Input::open(folder / "a.png").read_rest(), before);
+  write("scenes.json", "{}");
+  expect({"tradeoff", "--import", "scenes.json", "--import", "other.json", "-o", "."}, 2,
+         "scenes.json is an input itself");
+}
+
 TEST_F(Outputs, KeepThePermissionsOfWhatTheyReplace) {
   write("private.ply", "old");
   fs::permissions(folder / "private.ply", fs::perms(0600));

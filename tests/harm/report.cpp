@@ -2,10 +2,10 @@
 // into docs/hostile.md: tables between two marks, everything else in the page stays as people wrote
 // it.
 //
-//   harm_report MEASURED FUZZED PAGE
+//   harm_report MEASURED FUZZED SECONDS PAGE
 //
 // MEASURED is the folder that TUREEN_MEASURED named; FUZZED holds what tests/fuzz/run.sh printed,
-// as TARGET.log.
+// as TARGET.log, of so many SECONDS each.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -132,18 +132,19 @@ std::string fault_table(const std::vector<Measured>& all) {
 
 int main(int argc, char** argv) {
   using namespace tureen::test;
-  if (argc != 4) {
-    std::fprintf(stderr, "usage: harm_report MEASURED FUZZED PAGE\n");
+  if (argc != 5) {
+    std::fprintf(stderr, "usage: harm_report MEASURED FUZZED SECONDS PAGE\n");
     return 2;
   }
   try {
     const std::vector<Measured> all = read_measured(argv[1]);
     const std::vector<std::filesystem::path> logs = logs_in(argv[2]);
     require_all(all, logs, argv[1]);
-    write_between(argv[3], Marks("./dev harm"),
-                  "\n### Damage\n\n" + damage_table(all) + "\n### Fuzzing\n\n" + fuzz_table(logs) +
+    write_between(argv[4], Marks("./dev harm"),
+                  fmt::format("\nBy `./dev harm {}`.\n", argv[3]) + "\n### Damage\n\n" +
+                      damage_table(all) + "\n### Fuzzing\n\n" + fuzz_table(logs) +
                       "\n### Signals\n\n" + fault_table(all) + "\n");
-    std::fprintf(stderr, "wrote %s\n", argv[3]);
+    std::fprintf(stderr, "wrote %s\n", argv[4]);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "harm_report: %s\n", error.what());
     return 1;
