@@ -166,8 +166,7 @@ std::string bench_page(const BenchResult& result, const BenchPage& extra) {
   HtmlPage page(result.scene.name + ": frame times");
   page.paragraph(fmt::format("{} triangles on {}, {}.", counted(result.scene.triangles),
                              result.device.renderer, result.date));
-  for (const BenchPage::Drawing& drawing : extra.drawings)
-    page.drawing(drawing.svg, drawing.caption);
+  for (const auto& [svg, caption] : extra.figures) page.drawing(svg, caption);
   if (!extra.missing.empty()) page.paragraph(extra.missing);
   measurements(page, result);
   comparison(page, extra);

@@ -6,19 +6,16 @@
 
 #include "cli/bench_comparison.hpp"
 #include "cli/bench_result.hpp"
+#include "cli/figures.hpp"
 
 namespace tureen::cli {
 
 struct BenchPage {
-  struct Drawing {
-    std::string svg;  // of draw_plot()
-    std::string caption;
-  };
   struct Picture {
     std::vector<std::byte> png;
     std::string caption;
   };
-  std::vector<Drawing> drawings;
+  std::vector<DrawnFigure> figures;
   std::vector<Picture> pictures;  // of frames that were timed
   /// Against which file, and what came out; null where nothing was compared.
   std::string compared_with;

@@ -60,7 +60,7 @@ std::string device_of(const BenchResult& result) {
   return result.device.renderer + (result.device.software ? " (software)" : "");
 }
 
-BenchPlot time_against_pixels(const BenchResult& result, const std::string& cameras) {
+Figure time_against_pixels(const BenchResult& result, const std::string& cameras) {
   Lines lines;
   constexpr double infinity = std::numeric_limits<double>::infinity();
   glm::dvec2 low(infinity), high(0);  // megapixels, milliseconds
@@ -111,7 +111,7 @@ std::string view_marks(const std::string& cameras, std::size_t views) {
   return "set xtics (" + names + ")\n";
 }
 
-std::vector<BenchPlot> times_by_view(const BenchResult& result, const std::string& cameras) {
+std::vector<Figure> times_by_view(const BenchResult& result, const std::string& cameras) {
   const std::string size = largest_size(result, cameras);
   Lines lines;
   std::size_t views = 0;
@@ -136,7 +136,7 @@ std::vector<BenchPlot> times_by_view(const BenchResult& result, const std::strin
                             "set offsets 0.5, 0.5, graph 0.1, 0\n")}}};
 }
 
-std::vector<BenchPlot> ratio_bars(const BenchResult& result) {
+std::vector<Figure> ratio_bars(const BenchResult& result) {
   const std::string reference = reference_configuration(result);
   const std::vector<std::string> names = configurations(result);
   const auto place = [](const BenchMeasurement& m) { return m.camera_set + "\n" + m.size; };
@@ -196,13 +196,13 @@ double times_as_fast(const BenchResult& result, const BenchMeasurement& measurem
   return 0;
 }
 
-std::vector<BenchPlot> bench_plots(const BenchResult& result) {
-  std::vector<BenchPlot> plots;
+std::vector<Figure> bench_plots(const BenchResult& result) {
+  std::vector<Figure> plots;
   for (const std::string& cameras : camera_sets(result)) {
     plots.push_back(time_against_pixels(result, cameras));
-    for (BenchPlot& plot : times_by_view(result, cameras)) plots.push_back(std::move(plot));
+    for (Figure& plot : times_by_view(result, cameras)) plots.push_back(std::move(plot));
   }
-  for (BenchPlot& plot : ratio_bars(result)) plots.push_back(std::move(plot));
+  for (Figure& plot : ratio_bars(result)) plots.push_back(std::move(plot));
   // Two sets of cameras may differ in characters alone that files do not have.
   for (std::size_t i = 0; i < plots.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)

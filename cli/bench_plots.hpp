@@ -5,21 +5,15 @@
 #include <vector>
 
 #include "cli/bench_result.hpp"
-#include "cli/gnuplot.hpp"
+#include "cli/figures.hpp"
 
 namespace tureen::cli {
-
-struct BenchPlot {
-  std::string file;  // without an extension; different for every plot of a result
-  std::string caption;
-  Plot plot;
-};
 
 /// For each set of cameras: the median against the pixels of a frame, from the fastest round's
 /// median to the 95th percentile, a line a configuration; the median of each view at the largest
 /// size, where there are several views. Over all of them: how many times as fast as the reference.
 /// Texts from the result reach gnuplot as texts only.
-std::vector<BenchPlot> bench_plots(const BenchResult& result);
+std::vector<Figure> bench_plots(const BenchResult& result);
 
 /// The configuration that ratios are taken of: "published" where it was measured, else the first.
 std::string reference_configuration(const BenchResult& result);

@@ -51,21 +51,13 @@ std::vector<BenchPage::Picture> pictures_of(const BenchResult& result) {
   return pictures;
 }
 
-/// Draws all plots into `folder`, as SVG for pages and PNG for slides, and returns the SVGs; none
-/// where gnuplot is missing.
-std::vector<BenchPage::Drawing> write_plots(const BenchResult& result, const fs::path& folder) {
-  std::vector<BenchPage::Drawing> drawings;
-  for (const BenchPlot& each : bench_plots(result)) {
-    const std::optional<std::string> svg = draw_plot(each.plot, PlotFormat::svg);
-    if (!svg) return {};
-    Output output(folder / (each.file + ".svg"));
-    output.write(*svg);
-    output.commit();
-    write_plot(each.plot, folder / (each.file + ".png"));
-    drawings.push_back({*svg, each.caption});
-  }
-  if (!drawings.empty()) say(fmt::format("wrote {} plots to {}", drawings.size(), folder.string()));
-  return drawings;
+/// Draws all plots into `folder`, and says so; none where gnuplot is missing, which it says, too.
+std::vector<DrawnFigure> write_plots(const BenchResult& result, const fs::path& folder) {
+  std::vector<std::string> written;
+  std::vector<DrawnFigure> figures = write_figures(bench_plots(result), folder, written);
+  say(figures.empty() ? gnuplot_missing
+                      : fmt::format("wrote {} plots to {}", figures.size(), folder.string()));
+  return figures;
 }
 
 void say_comparison(const BenchComparison& comparison, const std::string& file) {
@@ -124,21 +116,18 @@ ExitCode report_bench(const BenchReportOptions& options, const BenchResult& now,
   if (comparison) say_comparison(*comparison, options.against);
 
   if (!options.csv.empty()) write_and_say(options.csv, bench_csv(now));
-  if (!options.plots.empty() && write_plots(now, options.plots).empty()) say(gnuplot_missing);
+  if (!options.plots.empty()) write_plots(now, options.plots);
   if (!options.folder.empty()) {
     const fs::path folder = options.folder;
     write_and_say(folder / "bench.json", json_text(to_json(now)));
     write_and_say(folder / "bench.csv", bench_csv(now));
     write_and_say(folder / "bench.md", bench_markdown(now));
-    BenchPage page{.drawings = write_plots(now, folder),
+    BenchPage page{.figures = write_plots(now, folder),
                    .pictures = pictures_of(now),
                    .compared_with = options.against,
                    .comparison = comparison ? &*comparison : nullptr,
                    .missing = {}};
-    if (page.drawings.empty()) {
-      page.missing = gnuplot_missing;
-      say(gnuplot_missing);
-    }
+    if (page.figures.empty()) page.missing = gnuplot_missing;
     write_and_say(folder / "bench.html", bench_page(now, page));
   }
 

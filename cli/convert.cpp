@@ -44,19 +44,15 @@ void check_output(const Options& options) {
   const fs::path output = options.output;
   check_slim(options.slim, output);
   require_known_extension(output);
-  std::error_code error;
-  if (fs::exists(output, error)) {
-    if (fs::equivalent(output, options.scene.path, error))
-      throw UsageError(options.output + " is the scene itself; choose another name");
-    // Of a pipe or a device --force would change nothing, which is said below.
-    const bool replaceable = fs::is_regular_file(output, error) || fs::is_directory(output, error);
-    if (replaceable && !options.force)
-      throw UsageError(options.output + " exists already; --force replaces it");
-  }
+  require_not_input(output, options.scene.path);
+  // First what --force would not change.
   if (is_export(output))
     require_writable_export(output);
   else
     require_writable_file(output);
+  std::error_code error;
+  if (fs::exists(output, error) && !options.force)
+    throw UsageError(options.output + " exists already; --force replaces it");
 }
 
 /// Writes `file`, in the format that its name says. Says what that lost, and returns it.
@@ -114,7 +110,7 @@ std::string written_formats() {
   for (const FormatInfo& format : known_formats()) {
     if (!format.can_write) continue;
     std::string extensions;
-    for (const std::string& extension : format.extensions)
+    for (const std::string& extension : format.written)
       extensions += (extensions.empty() ? "" : ", ") + extension;
     if (extensions.empty()) extensions = "(folder)";
     extensions.resize(std::max<std::size_t>(extensions.size() + 1, 16), ' ');

@@ -67,7 +67,7 @@ ExitCode evaluate_scene(Options options) {
   evaluation.folder = options.folder;
   if (!options.folder.empty()) require_writable_folder(options.folder);
   const std::filesystem::path data = options.dataset.path;
-  std::error_code unknown;  // which reading it says
+  std::error_code unknown;  // what is not there is said where it is read
   evaluation.spared = std::filesystem::is_directory(data, unknown) ? data : data.parent_path();
 
   Scene scene = read(options.scene);

@@ -6,7 +6,8 @@
 
 namespace tureen::cli {
 
-/// Throws UsageError where both are the same file, by whatever names: what was read would be lost.
+/// Throws UsageError where both are the same file, by whatever names, or where `input` is a folder
+/// and `output` a file that is there already, in it: what was read would be lost.
 void require_not_input(const std::filesystem::path& output, const std::filesystem::path& input);
 
 /// Throws OutputError unless a file can be written there (formats/output_path.hpp). Tries it: a

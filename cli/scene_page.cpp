@@ -61,10 +61,10 @@ ScenePageTemplate ScenePageTemplate::find() {
   const char* named = std::getenv(template_variable);
   if (named && *named) return read_template(named);
   if (const std::optional<fs::path> file = template_of_program()) return read_template(*file);
-  throw UsageError(std::string("a page needs the viewer that goes into it, "
-                               "share/tureen/scene_template.html, which is not there: ./dev web "
-                               "makes it; ") +
-                   template_variable + " names one that lies elsewhere");
+  throw OutputError({}, std::string("a page needs the viewer that goes into it, "
+                                    "share/tureen/scene_template.html, which is not there: ./dev "
+                                    "web makes it; ") +
+                            template_variable + " names one that lies elsewhere");
 }
 
 ScenePageTemplate::ScenePageTemplate(std::string text, const std::string& file)

@@ -26,7 +26,7 @@ class ScenePageTemplate {
  public:
   /// The file that the environment names in TUREEN_WEB_TEMPLATE, or else
   /// ../share/tureen/scene_template.html from where the program lies, or share/tureen/.. beside it.
-  /// Throws UsageError where there is none, InputError where it cannot be read or has not the one
+  /// Throws OutputError where there is none, InputError where it cannot be read or has not the one
   /// element.
   static ScenePageTemplate find();
 

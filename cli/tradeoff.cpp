@@ -15,9 +15,10 @@
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
-#include "cli/tradeoff_files.hpp"
 #include "cli/tradeoff_import.hpp"
 #include "cli/tradeoff_model.hpp"
+#include "cli/tradeoff_page.hpp"
+#include "cli/tradeoff_plots.hpp"
 #include "cli/tradeoff_report.hpp"
 #include "cli/tradeoff_study.hpp"
 #include "cli/tradeoff_views.hpp"
@@ -114,9 +115,10 @@ void write_files(const Options& options, TradeoffReport& report) {
     report.output.push_back((folder / name).string());
     return folder / name;
   };
-  const Drawings drawings =
-      write_plots(tradeoff_plots(report), folder, report.output, report.notes);
-  write_file(file("tradeoff.html"), tradeoff_page(report, drawings));
+  const std::vector<DrawnFigure> figures =
+      write_figures(tradeoff_plots(report), folder, report.output);
+  if (figures.empty()) report.notes.emplace_back(gnuplot_missing);
+  write_file(file("tradeoff.html"), tradeoff_page(report, figures));
   write_file(file("tradeoff.csv"), to_csv(report));
   const fs::path json = file("tradeoff.json");
   write_file(json, json_text(to_json(report)));

@@ -4,7 +4,7 @@
 
 #include "cli/interrupt.hpp"
 #include "cli/output_argument.hpp"
-#include "cli/tradeoff_files.hpp"
+#include "cli/tradeoff_plots.hpp"
 #include "cli/tradeoff_reading.hpp"
 #include "cli/tradeoff_scenes.hpp"
 #include "cli/tradeoff_scenes_page.hpp"
@@ -33,10 +33,9 @@ std::vector<TradeoffRun> read_runs(const std::vector<std::string>& files) {
 
 void write_files(const fs::path& folder, TradeoffScenes& scenes) {
   make_folder(folder);
-  const Drawings means = write_plots(means_plots(scenes), folder, scenes.output, scenes.notes);
-  Drawings of_scenes;
-  if (!means.empty())
-    of_scenes = write_plots(scene_plots(scenes), folder, scenes.output, scenes.notes);
+  const auto means = write_figures(means_plots(scenes), folder, scenes.output);
+  const auto of_scenes = write_figures(scene_plots(scenes), folder, scenes.output);
+  if (means.empty()) scenes.notes.emplace_back(gnuplot_missing);
   const auto file = [&](const char* name) {
     scenes.output.push_back((folder / name).string());
     return folder / name;

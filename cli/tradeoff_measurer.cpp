@@ -30,7 +30,7 @@ Job job_of(const std::vector<tradeoff::Knob>& knobs, const tradeoff::Configurati
   job.outcome.configuration = configuration;
   job.outcome.name = tradeoff::describe(knobs, configuration);
   job.outcome.preset = tradeoff::preset_of(knobs, configuration);
-  job.outcome.specialised = specialised;
+  job.outcome.method = specialised ? Method::specialised : Method::generic;
   job.plan.specialise = specialised;
   job.plan.preset = job.outcome.preset;
   return job;

@@ -17,7 +17,7 @@ std::vector<std::optional<ModelError>> model_errors(const Panel& panel, const Tr
   std::vector<std::optional<ModelError>> errors(panel.outcomes.size());
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i) {
     const Outcome& outcome = panel.outcomes[i];
-    if (!outcome.specialised || outcome.published || outcome.emulated) continue;
+    if (outcome.method != Method::specialised) continue;
     EvaluationOptions evaluation;
     evaluation.drawing.backend = options.backend;
     evaluation.drawing.plan.preset = outcome.preset;

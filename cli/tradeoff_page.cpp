@@ -65,9 +65,9 @@ void add_panel(HtmlPage& page, const TradeoffReport& report, const Panel& panel)
     const Outcome& outcome = panel.outcomes[i];
     const RenderError& error = outcome.error;
     const auto timed = [&](double value) {
-      return outcome.emulated ? std::string("–") : fmt::format("{:.2f}", value);
+      return outcome.has_time() ? fmt::format("{:.2f}", value) : std::string("–");
     };
-    rows.push_back({outcome.name, method_of(outcome), timed(outcome.ms.min_of_medians),
+    rows.push_back({outcome.name, name_of(outcome.method), timed(outcome.ms.min_of_medians),
                     timed(outcome.ms.p95), timed(outcome.device_mib),
                     fmt::format("{:.2f}", error.psnr_db),
                     outcome.exact ? fmt::format("{:.2f}", outcome.exact->psnr_db) : "–",
@@ -123,13 +123,13 @@ void add_model(HtmlPage& page, const TradeoffReport& report) {
 
 }  // namespace
 
-std::string tradeoff_page(const TradeoffReport& report, const Drawings& drawings) {
+std::string tradeoff_page(const TradeoffReport& report, const std::vector<DrawnFigure>& figures) {
   const Study& study = report.study;
   HtmlPage page("Error against run time: " + report.scene.name);
   page.paragraph(choice_sentence(report));
   add_facts(page, report);
-  if (drawings.empty()) page.paragraph(gnuplot_missing);
-  for (const auto& [svg, caption] : drawings) page.drawing(svg, caption);
+  if (figures.empty()) page.paragraph(gnuplot_missing);
+  for (const auto& [svg, caption] : figures) page.drawing(svg, caption);
   page.section("Drawing knobs");
   page.paragraph(fmt::format(
       "E_render: against the oracle's picture of the same model, {}. Exact dB: against exact "

@@ -2,17 +2,14 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "cli/figures.hpp"
 #include "cli/tradeoff_report.hpp"
 
 namespace tureen::cli {
 
-/// SVGs of draw_plot(), and a caption each.
-using Drawings = std::vector<std::pair<std::string, std::string>>;
-
-/// What was measured, the choice, the plots (none where gnuplot is missing) and the tables.
-std::string tradeoff_page(const TradeoffReport& report, const Drawings& drawings);
+/// What was measured, the choice, the figures (none where gnuplot is missing) and the tables.
+std::string tradeoff_page(const TradeoffReport& report, const std::vector<DrawnFigure>& figures);
 
 }  // namespace tureen::cli

@@ -8,17 +8,13 @@
 
 namespace tureen::cli {
 
-const char* method_of(const Outcome& outcome) {
-  if (outcome.published) return methods[2];
-  if (outcome.emulated) return methods[3];
-  return methods[outcome.specialised ? 0 : 1];
-}
+const char* name_of(Method method) { return method_names[std::size_t(method)]; }
 
 Candidates candidates(const Panel& panel) {
   Candidates result;
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i) {
     const Outcome& outcome = panel.outcomes[i];
-    if (!outcome.specialised || outcome.published || outcome.emulated) continue;
+    if (outcome.method != Method::specialised) continue;
     const double ms = outcome.ms.min_of_medians;
     // What the protocol calls different differs by twice the spread (runtime/frame_statistics.hpp).
     result.points.push_back({.ms = ms,
@@ -43,9 +39,10 @@ bool is_on_front(const Panel& panel, std::size_t outcome) {
 }
 
 const Outcome* generic_of(const Panel& panel, const Outcome& outcome) {
-  if (outcome.published) return nullptr;
+  if (outcome.method == Method::published) return nullptr;
   for (const Outcome& other : panel.outcomes)
-    if (!other.specialised && other.configuration == outcome.configuration) return &other;
+    if (other.method == Method::generic && other.configuration == outcome.configuration)
+      return &other;
   return nullptr;
 }
 

@@ -20,14 +20,22 @@ struct ExactError {
   double coverage_mismatch = 0;
 };
 
+/// By whom an outcome was drawn: by our plan, by it with nothing left out (--no-specialise), by the
+/// published pipeline, or by the oracle, which emulates a precision and takes neither time nor
+/// bytes.
+enum class Method { specialised, generic, published, emulated };
+
+/// Of methods in their order, as files have them.
+inline constexpr std::array<const char*, 4> method_names{"tureen", "tureen --no-specialise",
+                                                         "published", "oracle"};
+const char* name_of(Method method);
+
 /// One way to draw, with the numbers it came to.
 struct Outcome {
   tradeoff::Configuration configuration;  // of the panel's knobs
   std::string name;                       // in words: "lattice level 2"
   RenderPreset preset;
-  bool specialised = true;  // or --no-specialise
-  bool published = false;   // the published pipeline
-  bool emulated = false;    // drawn by the oracle: no time, no bytes
+  Method method = Method::specialised;
   /// ms but for spread, of which FrameStatistics::spread says what it is.
   FrameStatistics ms;
   double device_mib = 0;
@@ -36,12 +44,8 @@ struct Outcome {
   std::vector<std::string> warnings;
 
   int departures() const { return tradeoff::departures(configuration); }
+  bool has_time() const { return method != Method::emulated; }
 };
-
-/// By whom an outcome was drawn: specialised, generic, published, emulated.
-inline constexpr std::array<const char*, 4> methods{"tureen", "tureen --no-specialise", "published",
-                                                    "oracle"};
-const char* method_of(const Outcome& outcome);
 
 struct Skipped {
   std::string name;

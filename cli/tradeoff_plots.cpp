@@ -74,7 +74,7 @@ class Drawing {
               const std::vector<std::size_t>& outcomes) {
     std::vector<std::vector<double>> specialised, generic;
     for (const std::size_t i : outcomes) {
-      (panel_.outcomes[i].specialised ? specialised : generic)
+      (panel_.outcomes[i].method == Method::generic ? generic : specialised)
           .push_back({time(i), error_(i), time(i), std::max(p95(i), time(i))});
     }
     if (!specialised.empty())
@@ -103,7 +103,7 @@ class Drawing {
   }
 
   bool is_shown(std::size_t i) const {
-    return !panel_.outcomes[i].emulated && !std::isnan(error_(i));
+    return panel_.outcomes[i].has_time() && !std::isnan(error_(i));
   }
 
  private:
@@ -148,14 +148,21 @@ Drawing::Mark mark_of(std::size_t knob) {
   return {.color = fmt::format("linetype {}", knob % 6 + 1)};
 }
 
-void add_points(Drawing& drawing, const Panel& panel) {
+/// Where a knob stands in `palette`, whose order gives the colours: those of all panels that are
+/// shown beside each other. Every knob of a panel is in its palette.
+std::size_t color_of(const tradeoff::Knob& knob, const std::vector<tradeoff::Knob>& palette) {
+  const auto is_same = [&](const tradeoff::Knob& other) { return other.key == knob.key; };
+  return std::size_t(std::find_if(palette.begin(), palette.end(), is_same) - palette.begin());
+}
+
+void add_points(Drawing& drawing, const Panel& panel, const std::vector<tradeoff::Knob>& palette) {
   std::vector<std::vector<std::size_t>> of_knob(panel.knobs.size());
   std::vector<std::size_t> defaults, published;
   const std::vector<std::optional<std::size_t>> dominant = dominant_knobs(panel);
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i) {
     if (!drawing.is_shown(i)) continue;
     const Outcome& outcome = panel.outcomes[i];
-    if (outcome.published)
+    if (outcome.method == Method::published)
       published.push_back(i);
     else if (dominant[i])
       of_knob[*dominant[i]].push_back(i);
@@ -163,7 +170,8 @@ void add_points(Drawing& drawing, const Panel& panel) {
       defaults.push_back(i);
   }
   for (std::size_t knob = 0; knob < of_knob.size(); ++knob)
-    drawing.points(mark_of(knob), panel.knobs[knob].title, of_knob[knob]);
+    drawing.points(mark_of(color_of(panel.knobs[knob], palette)), panel.knobs[knob].title,
+                   of_knob[knob]);
   // By their shapes, diamonds and triangles: beside the knobs' grey no other could be told apart.
   const std::string black = "linecolor rgb '#1f2328'";
   drawing.points({.color = black, .filled = 13, .hollow = 12}, "defaults", defaults);
@@ -180,7 +188,7 @@ ErrorOf model_error_of(const std::vector<std::optional<ModelError>>& list) {
   };
 }
 
-TradeoffPlot drawing_plot(const TradeoffReport& report) {
+Figure drawing_plot(const TradeoffReport& report, const std::vector<tradeoff::Knob>& palette) {
   const Panel& panel = report.study.drawing;
   Drawing drawing(panel, render_error_of(panel));
   drawing.rule(panel.ideal.psnr_db, "R1: the reference in 8 bits", 2);
@@ -189,7 +197,7 @@ TradeoffPlot drawing_plot(const TradeoffReport& report) {
                  "R0: the published pipeline", 3);
   drawing.rule(report.limits.least_psnr_db, "the choice's limit", 4);
   drawing.front(panel.front);
-  add_points(drawing, panel);
+  add_points(drawing, panel, palette);
   return {"drawing",
           fmt::format("E_render of drawing knobs, against the oracle {}. Filled: what the plan "
                       "draws; hollow: with nothing left out (--no-specialise).",
@@ -200,22 +208,22 @@ TradeoffPlot drawing_plot(const TradeoffReport& report) {
            .height = 520}};
 }
 
-TradeoffPlot antialiasing_plot(const TradeoffReport& report) {
+Figure antialiasing_plot(const TradeoffReport& report, const std::vector<tradeoff::Knob>& palette) {
   const Panel& panel = report.study.antialiasing;
   Drawing drawing(panel, render_error_of(panel));
   drawing.rule(panel.ideal.psnr_db, "R1: the reference in 8 bits", 2);
   drawing.front(panel.front);
-  add_points(drawing, panel);
+  add_points(drawing, panel, palette);
   return {"antialiasing",
           "E_render of antialiasing knobs, against the oracle's 8 x 8 samples a pixel.",
           {.title = "E_render of antialiasing knobs against time",
            .script = drawing.script("PSNR against 8 x 8 samples, dB")}};
 }
 
-TradeoffPlot model_plot(const TradeoffReport& report) {
+Figure model_plot(const TradeoffReport& report, const std::vector<tradeoff::Knob>& palette) {
   const Panel& panel = report.study.drawing;
   Drawing drawing(panel, model_error_of(report.drawing_model));
-  add_points(drawing, panel);
+  add_points(drawing, panel, palette);
   return {"model",
           "E_model of drawing knobs, against photographs: how good the trained model is, and how "
           "little of it a knob takes. Never to be compared with E_render.",
@@ -223,7 +231,7 @@ TradeoffPlot model_plot(const TradeoffReport& report) {
            .script = drawing.script("PSNR against photographs, dB")}};
 }
 
-TradeoffPlot means_plot(const ScenesPanel& panel, const std::string& kind, std::size_t scenes) {
+Figure means_plot(const ScenesPanel& panel, const std::string& kind, std::size_t scenes) {
   const Panel& means = panel.means;
   Drawing drawing(
       means, render_error_of(means),
@@ -233,7 +241,7 @@ TradeoffPlot means_plot(const ScenesPanel& panel, const std::string& kind, std::
   if (const Outcome* published = published_of(panel))
     drawing.rule(published->error.psnr_db, "R0: the published pipeline", 3);
   drawing.front(means.front);
-  add_points(drawing, means);
+  add_points(drawing, means, means.knobs);
   return {
       "means-" + kind,
       fmt::format("E_render of {} knobs over {} scenes: geometric means of time relative to "
@@ -243,6 +251,14 @@ TradeoffPlot means_plot(const ScenesPanel& panel, const std::string& kind, std::
        .script = drawing.script("PSNR, mean of the scenes, dB"),
        .width = 960,
        .height = 520}};
+}
+
+std::vector<Figure> plots_of(const TradeoffReport& report,
+                             const std::vector<tradeoff::Knob>& drawing,
+                             const std::vector<tradeoff::Knob>& antialiasing) {
+  std::vector<Figure> plots{drawing_plot(report, drawing), antialiasing_plot(report, antialiasing)};
+  if (report.model) plots.push_back(model_plot(report, drawing));
+  return plots;
 }
 
 }  // namespace
@@ -275,21 +291,20 @@ std::vector<std::optional<std::size_t>> dominant_knobs(const Panel& panel) {
   return dominant;
 }
 
-std::vector<TradeoffPlot> tradeoff_plots(const TradeoffReport& report) {
-  std::vector<TradeoffPlot> plots{drawing_plot(report), antialiasing_plot(report)};
-  if (report.model) plots.push_back(model_plot(report));
-  return plots;
+std::vector<Figure> tradeoff_plots(const TradeoffReport& report) {
+  return plots_of(report, report.study.drawing.knobs, report.study.antialiasing.knobs);
 }
 
-std::vector<TradeoffPlot> means_plots(const TradeoffScenes& scenes) {
+std::vector<Figure> means_plots(const TradeoffScenes& scenes) {
   return {means_plot(scenes.drawing, "drawing", scenes.runs.size()),
           means_plot(scenes.antialiasing, "antialiasing", scenes.runs.size())};
 }
 
-std::vector<TradeoffPlot> scene_plots(const TradeoffScenes& scenes) {
-  std::vector<TradeoffPlot> plots;
+std::vector<Figure> scene_plots(const TradeoffScenes& scenes) {
+  std::vector<Figure> plots;
   for (std::size_t r = 0; r < scenes.runs.size(); ++r)
-    for (TradeoffPlot& each : tradeoff_plots(scenes.runs[r].report)) {
+    for (Figure& each : plots_of(scenes.runs[r].report, scenes.drawing.means.knobs,
+                                 scenes.antialiasing.means.knobs)) {
       each.file = fmt::format("{}-{}", r + 1, each.file);
       each.caption = scenes.labels[r] + ": " + each.caption;
       each.plot.title += fmt::format(", {}: {}", r + 1, scenes.labels[r]);

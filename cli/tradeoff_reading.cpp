@@ -110,15 +110,8 @@ tradeoff::Configuration configuration_of(const JsonView& view, const Panel& pane
   return configuration;
 }
 
-void read_method(const JsonView& view, Outcome& outcome) {
-  const std::size_t method = view.one_of(methods);
-  outcome.specialised = method != 1;
-  outcome.published = method == 2;
-  outcome.emulated = method == 3;
-}
-
 void read_times(const JsonView& view, Outcome& outcome) {
-  if (outcome.emulated) {
+  if (!outcome.has_time()) {
     for (const char* key : {"ms", "ms_median", "ms_p95", "ms_spread", "mib"})
       if (!view[key].value().is_null()) view[key].fail("expected null: the oracle takes no time");
     return;
@@ -135,7 +128,7 @@ Outcome outcome_of(const JsonView& view, const TradeoffReport& report, const Pan
   for (const char* key : {"scene", "commit", "machine", "driver"}) view[key].text();
   Outcome outcome;
   outcome.name = name_of(view["name"]);
-  read_method(view["method"], outcome);
+  outcome.method = Method(view["method"].one_of(method_names));
   outcome.configuration = configuration_of(view["knobs"], panel);
   read_times(view, outcome);
   outcome.error = render_error_of(view["e_render"], report);
@@ -147,15 +140,15 @@ Outcome outcome_of(const JsonView& view, const TradeoffReport& report, const Pan
 void read_outcomes(const JsonView& view, const TradeoffReport& report, Panel& panel) {
   require_at_most(view, most_configurations);
   if (view.size() == 0) view.fail("is empty");
-  std::set<std::tuple<std::string, tradeoff::Configuration>> known;
+  std::set<std::tuple<Method, tradeoff::Configuration>> known;
   for (std::size_t i = 0; i < view.size(); ++i) {
     Outcome outcome = outcome_of(view.at(i), report, panel);
-    if (!known.emplace(method_of(outcome), outcome.configuration).second)
+    if (!known.emplace(outcome.method, outcome.configuration).second)
       view.at(i).fail("the same method and knobs stand before it");
     panel.outcomes.push_back(std::move(outcome));
   }
   const Outcome& first = panel.outcomes.front();
-  if (first.departures() > 0 || method_of(first) != std::string("tureen"))
+  if (first.departures() > 0 || first.method != Method::specialised)
     view.at(0).fail("is not the defaults, with which a panel begins");
 }
 
@@ -164,7 +157,7 @@ void read_front(const JsonView& view, const JsonView& configurations, Panel& pan
   for (std::size_t i = 0; i < view.size(); ++i) {
     const std::size_t index = index_of(view.at(i), panel.outcomes.size());
     if (on_front[index]) view.at(i).fail("stands there twice");
-    if (panel.outcomes[index].emulated) view.at(i).fail("has no time");
+    if (!panel.outcomes[index].has_time()) view.at(i).fail("has no time");
     on_front[index] = true;
     panel.front.push_back(index);
   }
@@ -228,7 +221,7 @@ void read_choice(const JsonView& view, TradeoffReport& report) {
   if (view.value().is_null()) return;
   const std::vector<Outcome>& outcomes = report.study.drawing.outcomes;
   report.study.choice = index_of(view["configuration"], outcomes.size());
-  if (outcomes[*report.study.choice].emulated) view["configuration"].fail("has no time");
+  if (!outcomes[*report.study.choice].has_time()) view["configuration"].fail("has no time");
   view["name"].text();
   decibels(view["psnr_db"]);
   report.promised_psnr_db = unless_null(view["promised_psnr_db"], decibels);
@@ -239,7 +232,7 @@ void read_choice(const JsonView& view, TradeoffReport& report) {
 void read_r0(const JsonView& view, Study& study) {
   if (view.value().is_null()) return;
   study.published = index_of(view, study.drawing.outcomes.size());
-  if (!study.drawing.outcomes[*study.published].published)
+  if (study.drawing.outcomes[*study.published].method != Method::published)
     view.fail("is not drawn by the published pipeline");
 }
 

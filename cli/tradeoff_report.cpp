@@ -54,10 +54,10 @@ std::optional<ModelError> model_of(const std::vector<std::optional<ModelError>>&
 Json configuration_json(const TradeoffReport& report, const Panel& panel, std::size_t i,
                         const std::optional<ModelError>& model) {
   const Outcome& outcome = panel.outcomes[i];
-  const auto timed = [&](double value) { return outcome.emulated ? Json(nullptr) : Json(value); };
+  const auto timed = [&](double value) { return outcome.has_time() ? Json(value) : Json(nullptr); };
   return {{"name", outcome.name},
           {"scene", report.scene.name},
-          {"method", method_of(outcome)},
+          {"method", name_of(outcome.method)},
           {"knobs", knobs_json(panel, outcome)},
           {"commit", report.program.commit},
           {"machine", report.machine.cpu},
@@ -126,13 +126,13 @@ std::string csv_row(const TradeoffReport& report, const char* panel_name, const 
                     std::size_t i, const std::optional<ModelError>& model) {
   const Outcome& outcome = panel.outcomes[i];
   const RenderError& error = outcome.error;
-  std::vector<std::string> fields{panel_name, outcome.name, method_of(outcome)};
+  std::vector<std::string> fields{panel_name, outcome.name, name_of(outcome.method)};
   const auto number = [&](double value, bool known = true) {
     fields.push_back(known ? fmt::format("{}", value) : std::string());
   };
   for (const double value : {outcome.ms.min_of_medians, outcome.ms.median, outcome.ms.p95,
                              outcome.ms.spread * outcome.ms.min_of_medians, outcome.device_mib})
-    number(value, !outcome.emulated);
+    number(value, outcome.has_time());
   for (const double value : {error.psnr_db, error.mae, error.max_abs, error.p999_abs, error.ssim})
     number(value);
   number(error.flip, report.with_flip);
@@ -160,11 +160,11 @@ std::string table_line(const TradeoffReport& report, const Panel& panel, std::si
       : is_on_front(panel, i) ? '*'
                               : ' ',
       outcome.name, width,
-      outcome.emulated ? "-" : fmt::format("{:.2f}", outcome.ms.min_of_medians),
+      outcome.has_time() ? fmt::format("{:.2f}", outcome.ms.min_of_medians) : "-",
       generic ? fmt::format("{:.2f}", generic->ms.min_of_medians) : "-", error.psnr_db,
       outcome.exact ? fmt::format("{:.2f}", outcome.exact->psnr_db) : "-", error.max_abs,
       error.p999_abs, error.coverage_mismatch,
-      outcome.emulated ? "-" : fmt::format("{:.1f}", outcome.device_mib));
+      outcome.has_time() ? fmt::format("{:.1f}", outcome.device_mib) : "-");
 }
 
 void say_panel(const TradeoffReport& report, const Panel& panel, const std::string& title) {
@@ -175,8 +175,7 @@ void say_panel(const TradeoffReport& report, const Panel& panel, const std::stri
                   "configuration", width, "ms", "generic", "PSNR dB", "exact dB", "max", "99.9 %",
                   "coverage", "MiB"));
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i)
-    if (panel.outcomes[i].specialised || panel.outcomes[i].published)
-      say(table_line(report, panel, i, width));
+    if (panel.outcomes[i].method != Method::generic) say(table_line(report, panel, i, width));
   say(
       fmt::format("  R1, the reference itself in 8 bits: {:.2f} dB; times differ by chance by "
                   "{:.1f} % (A/A); hypervolume {:.1f} decade dB",
@@ -186,7 +185,8 @@ void say_panel(const TradeoffReport& report, const Panel& panel, const std::stri
     lines.push_back(skipped.name + ": " + skipped.reason);
   for (const Outcome& outcome : panel.outcomes)
     for (const std::string& warning : outcome.warnings)
-      lines.push_back(outcome.name + (outcome.specialised ? "" : " (generic)") + ": " + warning);
+      lines.push_back(outcome.name + (outcome.method == Method::generic ? " (generic)" : "") +
+                      ": " + warning);
   say_list("Not measured, and warnings:", lines);
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 /// A way to draw: the method, and the values that are asked for by their knobs' keys.
 struct Way {
-  std::string method;
+  Method method = Method::specialised;
   std::map<std::string, std::string> settings;
 
   bool operator<(const Way& other) const {
@@ -28,7 +28,7 @@ struct Way {
 };
 
 Way way_of(const Panel& panel, const Outcome& outcome) {
-  Way way{method_of(outcome), {}};
+  Way way{outcome.method, {}};
   for (std::size_t i = 0; i < panel.knobs.size(); ++i)
     if (const int setting = outcome.configuration[i]; setting != 0)
       way.settings[panel.knobs[i].key] = panel.knobs[i].settings[std::size_t(setting)].value;
@@ -104,11 +104,8 @@ double geometric_mean_of(const std::vector<const Outcome*>& members,
 /// Of outcomes of one method: one a run.
 Outcome mean_of(const std::vector<const Outcome*>& members) {
   Outcome result;
-  const Outcome& first = *members.front();
-  result.specialised = first.specialised;
-  result.published = first.published;
-  result.emulated = first.emulated;
-  if (!result.emulated) {
+  result.method = members.front()->method;
+  if (result.has_time()) {
     result.ms.min_of_medians =
         geometric_mean_of(members, [](const FrameStatistics& ms) { return ms.min_of_medians; });
     result.ms.median =
@@ -135,7 +132,7 @@ ScenesPanel join_panels(const std::vector<const Panel*>& panels) {
     for (const Outcome& outcome : panel->outcomes) {
       const Way way = way_of(*panel, outcome);
       if (!known.insert(way).second) continue;
-      LeftOut left_out{outcome.name, method_of(outcome), {}};
+      LeftOut left_out{outcome.name, outcome.method, {}};
       std::vector<std::size_t> indices;
       std::vector<const Outcome*> members;
       for (std::size_t r = 0; r < runs.size(); ++r) {
@@ -283,7 +280,7 @@ double time_ratio(const Panel& panel, std::size_t outcome) {
 
 const Outcome* published_of(const ScenesPanel& panel) {
   for (const Outcome& outcome : panel.means.outcomes)
-    if (outcome.published) return &outcome;
+    if (outcome.method == Method::published) return &outcome;
   return nullptr;
 }
 

@@ -23,8 +23,8 @@ struct TradeoffRun {
 };
 
 struct LeftOut {
-  std::string name;                  // of the way to draw, in words
-  std::string method;                // one of methods
+  std::string name;  // of the way to draw, in words
+  Method method = Method::specialised;
   std::vector<std::size_t> lacking;  // the runs that have it not; at least one
 };
 

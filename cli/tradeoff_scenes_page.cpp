@@ -49,9 +49,9 @@ void add_means(HtmlPage& page, const TradeoffScenes& scenes, const ScenesPanel& 
   for (std::size_t i = 0; i < panel.means.outcomes.size(); ++i) {
     const Outcome& mean = panel.means.outcomes[i];
     const auto timed = [&](double value, int digits) {
-      return mean.emulated ? std::string("–") : fmt::format("{:.{}f}", value, digits);
+      return mean.has_time() ? fmt::format("{:.{}f}", value, digits) : std::string("–");
     };
-    rows.push_back({mean.name, method_of(mean), timed(time_ratio(panel.means, i), 3),
+    rows.push_back({mean.name, name_of(mean.method), timed(time_ratio(panel.means, i), 3),
                     timed(mean.ms.min_of_medians, 2), timed(mean.ms.p95, 2),
                     fmt::format("{:.2f}", mean.error.psnr_db),
                     fmt::format("{:.2f}", mean.error.worst_psnr_db), worst_scene(scenes, mean),
@@ -74,11 +74,11 @@ void add_members(HtmlPage& page, const TradeoffScenes& scenes, const ScenesPanel
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < panel.means.outcomes.size(); ++i) {
     const Outcome& mean = panel.means.outcomes[i];
-    std::vector<std::string> row{mean.name, method_of(mean)};
+    std::vector<std::string> row{mean.name, name_of(mean.method)};
     for (std::size_t r = 0; r < scenes.runs.size(); ++r) {
       const Panel& own = own_panel(scenes, panel, r);
       const std::size_t member = panel.members[i][r];
-      row.push_back(mean.emulated ? "–" : fmt::format("{:.3f}", time_ratio(own, member)));
+      row.push_back(mean.has_time() ? fmt::format("{:.3f}", time_ratio(own, member)) : "–");
       row.push_back(fmt::format("{:.2f}", own.outcomes[member].error.psnr_db));
     }
     rows.push_back(std::move(row));
@@ -90,8 +90,9 @@ void add_members(HtmlPage& page, const TradeoffScenes& scenes, const ScenesPanel
 
 }  // namespace
 
-std::string tradeoff_scenes_page(const TradeoffScenes& scenes, const Drawings& means,
-                                 const Drawings& of_scenes) {
+std::string tradeoff_scenes_page(const TradeoffScenes& scenes,
+                                 const std::vector<DrawnFigure>& means,
+                                 const std::vector<DrawnFigure>& of_scenes) {
   HtmlPage page(fmt::format("Error against run time over {} scenes", scenes.runs.size()));
   page.paragraph(
       "What a way to draw costs and gains on the whole: the geometric mean over the scenes of its "

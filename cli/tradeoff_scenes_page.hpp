@@ -3,15 +3,17 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "cli/tradeoff_page.hpp"
+#include "cli/figures.hpp"
 #include "cli/tradeoff_scenes.hpp"
 
 namespace tureen::cli {
 
 /// The scenes, what their runs do not have in common, the means with their plots, every scene's own
 /// figures, what was left out, and the plots of each scene. No plots where gnuplot is missing.
-std::string tradeoff_scenes_page(const TradeoffScenes& scenes, const Drawings& means,
-                                 const Drawings& of_scenes);
+std::string tradeoff_scenes_page(const TradeoffScenes& scenes,
+                                 const std::vector<DrawnFigure>& means,
+                                 const std::vector<DrawnFigure>& of_scenes);
 
 }  // namespace tureen::cli

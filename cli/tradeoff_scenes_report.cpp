@@ -46,7 +46,7 @@ Json settings_json(const Panel& means, const Outcome& outcome) {
 
 Json times_json(const Panel& panel, std::size_t i) {
   const Outcome& outcome = panel.outcomes[i];
-  if (outcome.emulated) return {{"time_ratio", nullptr}, {"ms", nullptr}, {"ms_p95", nullptr}};
+  if (!outcome.has_time()) return {{"time_ratio", nullptr}, {"ms", nullptr}, {"ms_p95", nullptr}};
   return {{"time_ratio", time_ratio(panel, i)},
           {"ms", outcome.ms.min_of_medians},
           {"ms_p95", outcome.ms.p95}};
@@ -65,7 +65,7 @@ Json mean_json(const TradeoffScenes& scenes, const ScenesPanel& panel, std::size
     of_scenes.push_back(std::move(json));
   }
   Json json{{"name", mean.name},
-            {"method", method_of(mean)},
+            {"method", name_of(mean.method)},
             {"settings", settings_json(panel.means, mean)}};
   json.update(times_json(panel.means, i));
   json["psnr_db"] = mean.error.psnr_db;
@@ -82,7 +82,8 @@ Json panel_json(const TradeoffScenes& scenes, const ScenesPanel& panel) {
   for (std::size_t i = 0; i < panel.means.outcomes.size(); ++i)
     configurations.push_back(mean_json(scenes, panel, i));
   for (const LeftOut& each : panel.left_out)
-    left_out.push_back({{"name", each.name}, {"method", each.method}, {"lacking", each.lacking}});
+    left_out.push_back(
+        {{"name", each.name}, {"method", name_of(each.method)}, {"lacking", each.lacking}});
   return {{"configurations", configurations},
           {"front", panel.means.front},
           {"hypervolume_decade_db", panel.means.hypervolume},
@@ -95,10 +96,10 @@ std::string csv_rows(const TradeoffScenes& scenes, const char* name, const Scene
   std::string text;
   for (std::size_t i = 0; i < panel.means.outcomes.size(); ++i) {
     const Outcome& mean = panel.means.outcomes[i];
-    std::vector<std::string> cells{name, mean.name, method_of(mean)};
+    std::vector<std::string> cells{name, mean.name, name_of(mean.method)};
     const auto number = [&](double value) { cells.push_back(fmt::format("{}", value)); };
     const auto time = [&](double value) {
-      cells.push_back(mean.emulated ? std::string() : fmt::format("{}", value));
+      cells.push_back(mean.has_time() ? fmt::format("{}", value) : std::string());
     };
     time(time_ratio(panel.means, i));
     time(mean.ms.min_of_medians);
@@ -134,14 +135,14 @@ void say_panel(const TradeoffScenes& scenes, const ScenesPanel& panel, const std
                   "time", "generic", "ms", "mean dB", "worst dB", "coverage", "worst in"));
   for (std::size_t i = 0; i < means.outcomes.size(); ++i) {
     const Outcome& mean = means.outcomes[i];
-    if (!mean.specialised) continue;
+    if (mean.method == Method::generic) continue;
     const Outcome* generic = generic_of(means, mean);
     const double defaults_ms = means.outcomes.front().ms.min_of_medians;
     say(fmt::format("{} {:<{}}  {:>8}  {:>8}  {:>8}  {:>7.2f}  {:>8.2f}  {:>8.1e}  {}",
                     is_on_front(means, i) ? '*' : ' ', mean.name, width,
-                    mean.emulated ? "-" : fmt::format("{:.3f}", time_ratio(means, i)),
+                    mean.has_time() ? fmt::format("{:.3f}", time_ratio(means, i)) : "-",
                     generic ? fmt::format("{:.3f}", generic->ms.min_of_medians / defaults_ms) : "-",
-                    mean.emulated ? "-" : fmt::format("{:.2f}", mean.ms.min_of_medians),
+                    mean.has_time() ? fmt::format("{:.2f}", mean.ms.min_of_medians) : "-",
                     mean.error.psnr_db, mean.error.worst_psnr_db, mean.error.coverage_mismatch,
                     worst_scene(scenes, mean)));
   }
@@ -197,11 +198,11 @@ std::vector<std::string> left_out_lines(const TradeoffScenes& scenes, const Scen
   using Lacking = std::vector<std::size_t>;
   std::set<std::pair<Lacking, std::string>> specialised;
   for (const LeftOut& each : panel.left_out)
-    if (each.method == methods[0]) specialised.emplace(each.lacking, each.name);
+    if (each.method == Method::specialised) specialised.emplace(each.lacking, each.name);
   std::map<Lacking, std::vector<std::string>> names;
   for (const LeftOut& each : panel.left_out) {
     // What is left out in any case need not be said again of its generic twin.
-    const bool is_generic = each.method == methods[1];
+    const bool is_generic = each.method == Method::generic;
     if (is_generic && specialised.count({each.lacking, each.name}) > 0) continue;
     names[each.lacking].push_back(each.name + (is_generic ? " (generic)" : ""));
   }

@@ -49,10 +49,10 @@ void find_ranges(Panel& panel) {
   std::vector<Configuration> configurations;
   std::vector<tradeoff::Measured> measured;
   for (const Outcome& outcome : panel.outcomes) {
-    if (!outcome.specialised || outcome.published) continue;
+    if (outcome.method == Method::generic || outcome.method == Method::published) continue;
     configurations.push_back(outcome.configuration);
     measured.push_back(
-        {outcome.emulated ? std::nan("") : outcome.ms.min_of_medians, outcome.error.psnr_db});
+        {outcome.has_time() ? outcome.ms.min_of_medians : std::nan(""), outcome.error.psnr_db});
   }
   panel.ranges = tradeoff::knob_ranges(configurations, measured, panel.knobs.size());
 }
@@ -68,7 +68,7 @@ void emulate(const StudyScene& scene, const StudyOptions& options,
     const MlpPrecision precision = tradeoff::emulated_precision(panel.knobs, configuration);
     if (precision == MlpPrecision::exact) continue;
     Outcome outcome = job_of(panel.knobs, configuration, true).outcome;
-    outcome.emulated = true;
+    outcome.method = Method::emulated;
     std::tie(outcome.error, outcome.exact) =
         errors_of(references, as_shown(oracle_pictures(scene, options, options.samples, precision)),
                   options.with_flip);
@@ -99,7 +99,7 @@ void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& 
   // The baseline comes right after the defaults, so that it shares their group.
   Job published = job_of(panel.knobs, star.configurations.front(), true);
   published.outcome.name = "published pipeline";
-  published.outcome.published = true;
+  published.outcome.method = Method::published;
   published.plan = {.pipeline = PipelineKind::published};
   jobs.insert(jobs.begin() + 1, std::move(published));
   std::vector<Job> generic = jobs_of(panel.knobs, star.configurations, false);
@@ -107,7 +107,7 @@ void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& 
   measurer.measure(std::move(jobs), "one knob at a time");
   emulate(scene, options, star.configurations, references, panel);
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i)
-    if (panel.outcomes[i].published) study.published = i;
+    if (panel.outcomes[i].method == Method::published) study.published = i;
 
   find_ranges(panel);
   const tradeoff::Design rest =

@@ -57,8 +57,8 @@ nlohmann::json read_json(Input& input, RepeatedKeys repeated) {
     // Its byte counts from 1, and is one past the end where the text is cut short.
     const std::size_t byte = error.byte > 0 ? error.byte - 1 : 0;
     input.fail_at(byte, what_is_wrong({text, bytes.size()}, byte));
-  } catch (const nlohmann::json::exception& error) {
-    input.fail_at(0, std::string("JSON that cannot be read: ") + error.what());
+  } catch (const nlohmann::json::out_of_range& error) {
+    throw json_number_too_large(error.what(), {text, bytes.size()}, input.name());
   }
 }
 

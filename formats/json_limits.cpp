@@ -1,7 +1,5 @@
 #include "formats/json_limits.hpp"
 
-#include "soup/error.hpp"
-
 namespace tureen {
 
 std::uint64_t count_json_values(std::string_view text, const std::string& file,
@@ -49,6 +47,16 @@ void take_json_memory(std::string_view text, const std::string& file, std::uint6
   const std::uint64_t values = count_json_values(text, file, first_byte);
   if (!budget.take(values, json_value_bytes) || !budget.take(text.size()))
     throw InputError({file, first_byte, {}}, budget.refusal("the JSON"));
+}
+
+InputError json_number_too_large(std::string_view message, std::string_view text,
+                                 const std::string& file, std::uint64_t first_byte) {
+  const std::size_t begin = message.find('\''), end = message.rfind('\'');
+  const std::string_view number =
+      begin < end ? message.substr(begin + 1, end - begin - 1) : std::string_view();
+  const std::size_t byte = text.find(number);
+  return {{file, first_byte + (byte == std::string_view::npos ? 0 : byte), {}},
+          "the number " + std::string(number) + " is too large"};
 }
 
 }  // namespace tureen

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "formats/memory_budget.hpp"
+#include "soup/error.hpp"
 
 namespace tureen {
 
@@ -29,5 +30,10 @@ std::uint64_t count_json_values(std::string_view text, const std::string& file,
 /// deeply.
 void take_json_memory(std::string_view text, const std::string& file, std::uint64_t first_byte,
                       MemoryBudget budget);
+
+/// The one thing that is JSON and cannot be parsed: a number beyond the largest double. `message`
+/// is the parser's, which quotes it; `text` and the rest are as above.
+InputError json_number_too_large(std::string_view message, std::string_view text,
+                                 const std::string& file, std::uint64_t first_byte = 0);
 
 }  // namespace tureen

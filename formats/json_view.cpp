@@ -20,8 +20,8 @@ json parse_json(std::string_view text, const std::string& file, std::uint64_t fi
     if (start != std::string::npos) detail = detail.substr(start + 13);
     throw InputError({file, first_byte + (error.byte > 0 ? error.byte - 1 : 0), {}},
                      "not valid JSON: " + detail);
-  } catch (const json::exception& error) {
-    throw InputError({file, {}, {}}, std::string("not valid JSON: ") + error.what());
+  } catch (const json::out_of_range& error) {
+    throw json_number_too_large(error.what(), text, file, first_byte);
   }
 }
 

@@ -33,6 +33,7 @@ struct Format {
   const char* name = "";
   const char* description = "";
   std::vector<const char*> extensions{};  // lower case
+  std::vector<const char*> only_read{};   // more of them, which are not written
   bool is_folder = false;
   bool (*recognises)(const Candidate&) = nullptr;
   Scene (*read)(const std::filesystem::path&, const ReadOptions&) = nullptr;  // null: only written
@@ -45,7 +46,8 @@ const std::vector<Format>& formats() {
   static const std::vector<Format> table{
       {.name = "GLB",
        .description = "our own file, exact and streamable; any glTF viewer shows its mean colours",
-       .extensions = {".glb", ".gltf"},
+       .extensions = {".glb"},
+       .only_read = {".gltf"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_gltf(c.head); },
        .read = read_gltf_or_glb,
        .write = write_tureen_glb},
@@ -91,21 +93,43 @@ std::string extension_of(const std::filesystem::path& path) {
   return extension;
 }
 
-bool has_extension(const Format& format, const std::string& extension) {
-  return std::any_of(format.extensions.begin(), format.extensions.end(),
-                     [&](const char* known) { return extension == known; });
+FormatInfo info_of(const Format& format) {
+  FormatInfo info{.name = format.name,
+                  .description = format.description,
+                  .read = {},
+                  .written = {},
+                  .is_folder = format.is_folder,
+                  .can_read = format.read != nullptr,
+                  .can_write = format.write != nullptr};
+  const auto add = [](std::vector<std::string>& all, const std::vector<const char*>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  if (info.can_read) {
+    add(info.read, format.extensions);
+    add(info.read, format.only_read);
+  }
+  if (info.can_write) add(info.written, format.extensions);
+  return info;
 }
 
-/// "OFF (.off), PLY (.ply) and DiffSoup export (folder)", of the formats that `can` do something.
-template <class Can>
-std::string listed(Can&& can) {
+bool contains(const std::vector<std::string>& extensions, const std::string& extension) {
+  return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+}
+
+/// Whether the name of a file promises this format to who reads it.
+bool promises(const Format& format, const std::string& extension) {
+  return contains(info_of(format).read, extension);
+}
+
+/// "OFF (.off), PLY (.ply) and DiffSoup export (folder)", of what can be read or written.
+std::string listed(bool FormatInfo::*can, std::vector<std::string> FormatInfo::*extensions) {
   std::vector<std::string> names;
-  for (const Format& format : formats()) {
-    if (!can(format)) continue;
-    std::string kinds = format.is_folder ? "folder" : "";
-    for (const char* extension : format.extensions)
-      kinds += (kinds.empty() ? "" : ", ") + std::string(extension);
-    names.push_back(std::string(format.name) + " (" + kinds + ")");
+  for (const FormatInfo& info : known_formats()) {
+    if (!(info.*can)) continue;
+    std::string kinds = info.is_folder ? "folder" : "";
+    for (const std::string& extension : info.*extensions)
+      kinds += (kinds.empty() ? "" : ", ") + extension;
+    names.push_back(info.name + " (" + kinds + ")");
   }
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -133,25 +157,28 @@ const Format& format_to_read(const Candidate& candidate) {
     throw InputError({candidate.path.string(), {}, {}}, *stray);
   const std::string extension = extension_of(candidate.path);
   for (const Format& format : formats())
-    if (format.read && !candidate.is_folder && has_extension(format, extension)) return format;
-  throw InputError({candidate.path.string(), {}, {}},
-                   std::string("not a ") + (candidate.is_folder ? "folder" : "file") +
-                       " of a kind that we read: " +
-                       listed([](const Format& format) { return format.read != nullptr; }));
+    if (format.read && !candidate.is_folder && promises(format, extension)) return format;
+  throw InputError(
+      {candidate.path.string(), {}, {}},
+      std::string("not a ") + (candidate.is_folder ? "folder" : "file") +
+          " of a kind that we read: " + listed(&FormatInfo::can_read, &FormatInfo::read));
 }
 
 /// By name.
 const Format& format_to_write(const std::filesystem::path& path) {
-  const std::string extension = extension_of(path);
+  const std::string extension = extension_of(path), name = path.filename().string();
   // Its bytes would lie in a second file, which is what a GLB is there to avoid.
   if (extension == ".gltf") throw UsageError("glTF is written as .glb only");
+  if (extension.empty() && name.size() > 1 && name[0] == '.' && name != "..")
+    throw UsageError("'" + name + "' is an extension without a name before it");
   for (const Format& format : formats())
-    if (format.write && (extension.empty() ? format.is_folder : has_extension(format, extension)))
+    if (format.write &&
+        (extension.empty() ? format.is_folder : contains(info_of(format).written, extension)))
       return format;
   throw UsageError((extension.empty() ? "no extension tells which format to write"
                                       : "no format that we write ends in " + extension) +
                    std::string("; written are ") +
-                   listed([](const Format& format) { return format.write != nullptr; }));
+                   listed(&FormatInfo::can_write, &FormatInfo::written));
 }
 
 }  // namespace
@@ -171,9 +198,9 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options) 
   Scene scene = format.read(path, options);
 
   const std::string extension = extension_of(path);
-  const auto promises = [&](const Format& other) { return has_extension(other, extension); };
-  if (!candidate.is_folder && !promises(format) &&
-      std::any_of(formats().begin(), formats().end(), promises))
+  const auto promised = [&](const Format& other) { return promises(other, extension); };
+  if (!candidate.is_folder && !promised(format) &&
+      std::any_of(formats().begin(), formats().end(), promised))
     scene.info.notes.push_back("The name ends in " + extension + ", but the content is " +
                                format.name + ".");
   if (const auto* soup = std::get_if<TriangleSoup>(&scene.primitives)) {
@@ -192,13 +219,7 @@ std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::
 
 std::vector<FormatInfo> known_formats() {
   std::vector<FormatInfo> infos;
-  for (const Format& format : formats())
-    infos.push_back({format.name,
-                     format.description,
-                     {format.extensions.begin(), format.extensions.end()},
-                     format.is_folder,
-                     format.read != nullptr,
-                     format.write != nullptr});
+  for (const Format& format : formats()) infos.push_back(info_of(format));
   return infos;
 }
 

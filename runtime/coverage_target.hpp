@@ -1,6 +1,6 @@
 // A multisampled target for alpha to coverage: a fragment covers as many of a pixel's samples as
-// its alpha says, and the picture is their mean. n samples round alpha to 1/n (specs 06, section
-// 4).
+// its alpha says, and the picture is their mean. n samples round alpha to 1/n
+// (docs/tradeoff.md).
 #pragma once
 
 #include <glm/vec4.hpp>

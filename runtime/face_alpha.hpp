@@ -15,11 +15,12 @@ enum class FaceAlpha : std::uint8_t {
 };
 
 /// One a face, decided from the data. Interpolated alpha stays between the values that it is
-/// interpolated from, so the smallest and the largest decide, exactly (specs 06, O1 and O2).
+/// interpolated from, so the smallest and the largest decide, exactly (docs/leaving-out.md, O1 and
+/// O2).
 std::vector<FaceAlpha> classify_alpha(const TriangleSoup& soup);
 
 /// False for a face that no rasteriser can draw: a corner that is not finite, or an area of nothing
-/// (specs 05, G1).
+/// (docs/numerics.md, G1).
 bool drawable(const TriangleSoup& soup, std::uint32_t face);
 
 }  // namespace tureen

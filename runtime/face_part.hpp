@@ -1,5 +1,6 @@
 // What need be drawn of a cut-out face: a smaller triangle of the same shape that contains all that
-// exists of it. What lies around it would be rasterised only to fail the alpha test (specs 06, O4).
+// exists of it. What lies around it would be rasterised only to fail the alpha test
+// (docs/leaving-out.md, O4).
 #pragma once
 
 #include <cstdint>

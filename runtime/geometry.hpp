@@ -40,7 +40,7 @@ class Geometry {
 };
 
 /// Sets eye_high and eye_low: a double split into two floats, so that position - eye loses nothing
-/// near the eye however far both are from the origin (specs 05, G3).
+/// near the eye however far both are from the origin (docs/numerics.md, G3).
 void set_eye(const gl::Program& program, glm::dvec3 eye);
 
 /// Sets the uniforms of view_direction.glsl: window y runs up, image y down.

@@ -1,5 +1,5 @@
 // What is drawn for this scene on this device, and what was left out. Made once, without GL; the
-// pipelines below obey it. specs: every row that the sentences name is proven by a test against the
+// pipelines below obey it. Every row that the sentences name is proven by a test against the
 // plan made with `specialise = false`.
 #pragma once
 

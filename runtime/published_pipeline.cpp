@@ -1,4 +1,4 @@
-// A likeness of the published DiffSoup viewer (specs 01, section 2), kept as the baseline: two
+// A likeness of the published DiffSoup viewer (arXiv 2603.27151), kept as the baseline: two
 // RGBA8 feature targets, all channels of every fragment sampled before the alpha test, faces in
 // file order, then the network on every pixel of the window with its weights in mat4 uniforms. It
 // has the viewer's shortcomings too: features quantised twice, one lattice level, lookup textures

@@ -1,6 +1,6 @@
 // Unshared triangles: gl_VertexID / 3 is the face. With PARTS they are parts of the faces from
 // first_part on, and the corners' barycentrics are an attribute. Works in camera-relative coordinates, so that a
-// scene far from the origin loses nothing (specs 05, G3).
+// scene far from the origin loses nothing (docs/numerics.md, G3).
 layout(location = 0) in vec3 position;  // relative to the soup's origin
 #if PARTS
 layout(location = 1) in vec2 corner_barycentrics;

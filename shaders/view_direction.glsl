@@ -1,5 +1,5 @@
 // The direction from a pixel's surface to the eye, from the camera's axes: no inverse matrix, no
-// dependence on the depth range or on where the camera stands (specs 05, section 3, V1).
+// dependence on the depth range or on where the camera stands (docs/numerics.md, V1).
 uniform vec3 ray_at_corner;   // world direction, eye to surface, through window position (0, 0)
 uniform vec3 ray_per_column;  // how it changes a pixel to the right
 uniform vec3 ray_per_row;     // and a pixel up

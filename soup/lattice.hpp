@@ -40,7 +40,7 @@ struct Coordinates {
   int x, y;
 };
 
-/// The inverse of texel_index. Exact for every level up to 12 (specs: i <= 10,619,134).
+/// The inverse of texel_index. Exact for every level up to 12 (i <= 10,619,134).
 inline Coordinates texel_coordinates(std::uint32_t index) {
   const double root = std::sqrt(8.0 * index + 1.0);
   const int diagonal = static_cast<int>((root - 1.0) / 2.0);

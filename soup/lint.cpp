@@ -215,7 +215,7 @@ Lint lint(const TriangleSoup& soup) {
   for (int c = 0; c < 3; ++c)
     offset = std::max({offset, std::abs(double(box.low[c])), std::abs(double(box.high[c]))});
   // At 2e-4 a float's step at that offset is 1 / 3000 of the extent: about a pixel when the soup
-  // fills a screen (specs of the catalogue of numerical hazards, G3b).
+  // fills a screen (docs/numerics.md, G3b).
   constexpr double smallest_ratio = 2e-4;
   result.extent_over_offset = offset > 0 ? 2 * box.radius() / offset : 0;
   result.far_from_origin = offset > 0 && result.extent_over_offset < smallest_ratio;

@@ -1,4 +1,4 @@
-// How a scene may be drawn faster at a known error: one field a knob (specs 06, section 4). Plain
+// How a scene may be drawn faster at a known error: one field a knob (docs/tradeoff.md). Plain
 // data, kept with the scene and in its file; the runtime obeys it (runtime/plan.hpp) after it has
 // looked at four views (runtime/preset_check.hpp).
 //

@@ -12,8 +12,8 @@ namespace fs = std::filesystem;
 
 bool has_scene_name(const fs::path& path) {
   for (const FormatInfo& format : known_formats())
-    for (const std::string& extension : format.extensions)
-      if (format.can_read && path.extension() == extension) return true;
+    for (const std::string& extension : format.read)
+      if (path.extension() == extension) return true;
   return path.filename() == "transforms.json";
 }
 

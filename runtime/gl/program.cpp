@@ -96,10 +96,12 @@ void Program::set(const char* name, const glm::mat4& value) const {
   glUniformMatrix4fv(location(name), 1, GL_FALSE, glm::value_ptr(value));
 }
 void Program::set(const char* name, std::span<const glm::mat4> values) const {
+  if (values.empty()) return;
   glUniformMatrix4fv(location(name), static_cast<GLsizei>(values.size()), GL_FALSE,
                      glm::value_ptr(values.front()));
 }
 void Program::set(const char* name, std::span<const glm::vec4> values) const {
+  if (values.empty()) return;
   glUniform4fv(location(name), static_cast<GLsizei>(values.size()), glm::value_ptr(values.front()));
 }
 

@@ -5,7 +5,7 @@
 // the homogeneous image points v_k = (x_k, y_k, w_k) in pixels and p = (column + 1/2, row + 1/2,
 // 1), E_k = p . (v_i x v_j) is the edge opposite vertex k, b_k = E_k / sum E the
 // perspective-correct barycentric and w = det(v_0 v_1 v_2) / sum E the depth: no division by a w
-// that may be zero, and no clipping beyond w >= near (specs 01, section 2; 05, G4 and G5).
+// that may be zero, and no clipping beyond w >= near (docs/numerics.md, G4 and G5).
 #pragma once
 
 #include <cstdint>
@@ -76,7 +76,7 @@ class Rays {
   void visit_pixels(const PixelVisitor& visit) const;
 
   /// The unit direction from a pixel's surface to the eye, from the camera's basis alone, so that
-  /// it does not lose digits far from the world's origin (specs 05, V1).
+  /// it does not lose digits far from the world's origin (docs/numerics.md, V1).
   glm::dvec3 to_eye(int column, int row) const;
 
   const ClipRange& range() const { return range_; }

@@ -23,7 +23,7 @@ bool is_visible(const TriangleSoup& soup, const SurfacePoint& point);
 /// The display-referred colour, clamped to [0, 1] as any image holds it; NaN becomes 0. `to_eye`
 /// is the unit direction from the point to the eye, which color MLPs see; `eye` is the eye relative
 /// to the soup's origin, from which harmonics take the directions of centroids and vertices. A
-/// centroid or vertex at the eye itself is seen along (0, 0, 1) (specs 05, V5).
+/// centroid or vertex at the eye itself is seen along (0, 0, 1) (docs/numerics.md, V5).
 /// With `emulated`, made of the appearance's own network, that one is evaluated instead.
 glm::dvec3 color(const TriangleSoup& soup, const SurfacePoint& point, glm::dvec3 to_eye,
                  glm::dvec3 eye, const EmulatedMlp* emulated = nullptr);

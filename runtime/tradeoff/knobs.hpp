@@ -30,7 +30,7 @@ struct Knob {
   std::vector<Setting> settings;  // the default first, whose apply changes nothing
 };
 
-/// The knobs that do not antialias, in the order of specs 06, section 4: those that mean anything
+/// The knobs that do not antialias, in the order of docs/tradeoff.md: those that mean anything
 /// for this soup, with the settings that change something. `site` is where a plan shades it when
 /// nobody asks for another; `visible_pixels` are count_visible_pixels() of the views, by which the
 /// triangle budget chooses.

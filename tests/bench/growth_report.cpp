@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/gnuplot.hpp"
+#include "cli/figures.hpp"
 #include "cli/html_page.hpp"
 #include "cli/report.hpp"
 #include "formats/output.hpp"
@@ -128,12 +128,6 @@ Json to_json(const Growth& growth) {
           {"fits", fits}};
 }
 
-void write(const fs::path& path, const std::string& text) {
-  Output output(path);
-  output.write(text);
-  output.commit();
-}
-
 void add_table(HtmlPage& page, const Growth& growth) {
   std::vector<std::vector<std::string>> rows;
   for (const char* kind : kinds) {
@@ -220,8 +214,8 @@ std::vector<std::string> explanation(const Growth& growth) {
 }
 
 void write_growth(const Growth& growth, const fs::path& folder) {
-  write(folder / "growth.json",
-        to_json(growth).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file(folder / "growth.json",
+             to_json(growth).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   HtmlPage page("How the time of a frame grows");
   page.paragraph(
       "Layers behind each other fill 64 % of the picture. One thing grows at a time: triangles, "
@@ -229,25 +223,24 @@ void write_growth(const Growth& growth, const fs::path& folder) {
       "all points of a kind by least squares of the relative error; fragments are those that "
       "rasterising every triangle makes, before the depth test and before any is discarded.");
   page.list(explanation(growth));
-  bool drawn = true;
-  const auto draw = [&](const cli::Plot& plot, const std::string& name,
-                        const std::string& caption) {
-    const auto svg = cli::draw_plot(plot, cli::PlotFormat::svg);
-    drawn = drawn && svg;
-    if (!svg) return;
-    write(folder / (name + ".svg"), *svg);
-    page.drawing(*svg, caption + " " + device_of(growth) + ".");
-  };
+  std::vector<cli::Figure> figures;
+  const std::string device = " " + device_of(growth) + ".";
   for (const Axis& axis : axes) {
     if (std::none_of(growth.points.begin(), growth.points.end(),
                      [&](const GrowthPoint& point) { return point.series == axis.series; }))
       continue;
-    draw(series_plot(growth, axis), fmt::format("growth-{}", axis.series),
-         fmt::format("Time against {}, bars up to the 95th percentile.", axis.series));
+    figures.push_back(
+        {fmt::format("growth-{}", axis.series),
+         fmt::format("Time against {}, bars up to the 95th percentile.", axis.series) + device,
+         series_plot(growth, axis)});
   }
   if (!growth.fits.empty())
-    draw(fit_plot(growth), "growth-fit", "The model against what was measured.");
-  if (!drawn) {
+    figures.push_back(
+        {"growth-fit", "The model against what was measured." + device, fit_plot(growth)});
+  std::vector<std::string> written;
+  const std::vector<cli::DrawnFigure> drawn = cli::write_figures(figures, folder, written);
+  for (const auto& [svg, caption] : drawn) page.drawing(svg, caption);
+  if (drawn.empty()) {
     page.paragraph(cli::gnuplot_missing);
     cli::say(cli::gnuplot_missing);
   }
@@ -256,7 +249,7 @@ void write_growth(const Growth& growth, const fs::path& folder) {
               {"context", growth.context},
               {"processor", growth.cpu},
               {"commit", growth.commit}});
-  write(folder / "growth.html", page.text());
+  write_file(folder / "growth.html", page.text());
   cli::say("wrote " + (folder / "growth.html").string());
 }
 

@@ -28,8 +28,8 @@ struct Growth {
   std::map<std::string, CostFit> fits = {};  // by kind; without those that could not be fitted
 };
 
-/// A model that misses a measurement by more than this misses something that matters (specs of the
-/// cost model: investigate).
+/// A model that misses a measurement by more than this misses something that matters and is to be
+/// looked into.
 inline constexpr double suspicious_residual = 0.2;
 
 void fit(Growth& growth);

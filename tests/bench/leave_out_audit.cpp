@@ -1,4 +1,4 @@
-// How much of real scenes the entries of specs 06, section 6 would touch that plans do not leave
+// How much of real scenes the entries of docs/leaving-out.md would touch that plans do not leave
 // out: docs/leaving-out.md gives these counts as the reason.
 #include <algorithm>
 #include <cmath>

@@ -1,19 +1,20 @@
 #!/usr/bin/env bash
-# Measures what docs/benchmarks.md holds, but for the training runs, which have commands of their
-# own there. `./dev bench` builds what this needs and calls it, from the repository's root.
+# Measures what docs/benchmarks.md holds. `./dev bench` builds what this needs and calls it, from the
+# repository's root.
 set -uo pipefail
 
 bin=build/release/bin out=build/bench data=../shared/data
-all_parts=(load frames leave_out growth tradeoff agreement step browser)
-quick='' processor='' check='' ficus='' fox='' photographs=''
+usual_parts=(load frames leave_out growth tradeoff agreement step browser)
+all_parts=("${usual_parts[@]}" training)
+quick='' processor='' check='' ficus='' fox='' photographs='' lego='' bottle=''
 parts=() done_parts=() skipped=() failed=()
 
 usage() {
   cat <<'END'
 usage: ./dev bench [--quick] [--processor-time] [--ficus SOUP] [--fox SOUP]
-                   [--photographs DATASET] [PART..]
+                   [--photographs DATASET] [--lego DATASET] [--bottle DATASET] [PART..]
 
-Measures and writes tables, plots and pages into build/bench; all parts without a PART:
+Measures and writes tables, plots and pages into build/bench; without a PART all but training:
   load        how long a soup of 2,000,000 triangles takes to load from each format, and its memory
   frames      tureen bench: frame times across sizes, on every scene there is
   leave_out   what each thing that a plan leaves out gains
@@ -22,6 +23,7 @@ Measures and writes tables, plots and pages into build/bench; all parts without 
   agreement   how well GL agrees with the oracle
   step        what a training step costs
   browser     bench.html in Chromium on two rasterisers, memory, and how long the first picture takes
+  training    the training runs: hours; the others then draw the fox soup that it trained
 
   --quick        everything small: whether it works, not a measurement
   --processor-time
@@ -30,6 +32,9 @@ Measures and writes tables, plots and pages into build/bench; all parts without 
   --ficus SOUP   a soup of 2D Triangle Splatting; ../shared/data/soups/ficus_2dts.off where it is there
   --fox SOUP     a soup trained from photographs (docs/benchmarks.md, Photographs)
   --photographs  what it was trained from; ../shared/data/photos/fox where it is there
+  --lego, --bottle DATASET
+                 what else training learns from; ../shared/data/rendered/lego and ../shared/data/photos/bottle
+                 where they are there
 
 Ctrl-C ends it; parts that were done stay. Exit code 1 where a part failed.
 END
@@ -50,7 +55,7 @@ while (($#)); do
     --quick) quick=1 ;;
     --processor-time) processor=1 ;;
     --check) check=1 ;; # of the arguments alone
-    --ficus | --fox | --photographs)
+    --ficus | --fox | --photographs | --lego | --bottle)
       (($# > 1)) || die "$1 wants a path"
       declare "${1#--}=$2"
       shift
@@ -64,12 +69,14 @@ while (($#)); do
   esac
   shift
 done
-((${#parts[@]})) || parts=("${all_parts[@]}")
-for given in "$ficus" "$fox" "$photographs"; do
+((${#parts[@]})) || parts=("${usual_parts[@]}")
+for given in "$ficus" "$fox" "$photographs" "$lego" "$bottle"; do
   [[ -z $given || -e $given ]] || die "there is no $given"
 done
 [[ -n $ficus || ! -e $data/soups/ficus_2dts.off ]] || ficus=$data/soups/ficus_2dts.off
 [[ -n $photographs || ! -e $data/photos/fox ]] || photographs=$data/photos/fox
+[[ -n $lego || ! -e $data/rendered/lego ]] || lego=$data/rendered/lego
+[[ -n $bottle || ! -e $data/photos/bottle ]] || bottle=$data/photos/bottle
 
 [[ -z $check ]] || exit 0
 
@@ -229,11 +236,60 @@ part_browser() {
   measure browser-tables "$bin/tureen" bench "${imports[@]}" -o "$out/browser/tables"
 }
 
+# steps N: so many, or few.
+steps() { if [[ $quick ]]; then echo 20; else echo "$1"; fi; }
+
+# train NAME DATASET OPTION..: a soup, the plot of its log, and what photographs say of it.
+train() {
+  local name=$1 dataset=$2 soup=$out/training/$1.glb scale=()
+  shift 2
+  [[ -n $dataset ]] || { skip "training on the $name: its photographs are not here"; return; }
+  [[ $1 != --scale ]] || scale=("$1" "$2")
+  measure "train-$name" "$bin/tureen" train "$dataset" "$@" -o "$soup" --json
+  [[ ${done_parts[*]: -1} == "train-$name" ]] || return
+  measure "train-$name-plot" "$bin/tureen" plot "$out/training/$name.jsonl" -o "$out/training/$name.svg"
+  measure "train-$name-eval" "$bin/tureen" eval "$soup" "$dataset" "${scale[@]}"
+}
+
+# One constant changed at a time: a name, and what changes it.
+train_ablations() {
+  [[ -n $lego ]] || { skip "the ablations, which train on lego"; return; }
+  local small=(--scale 0.125 --triangles 2000 --steps "$(steps 2500)") name constants
+  train ablation-ours "$lego" "${small[@]}"
+  train ablation-another-seed "$lego" "${small[@]}" --seed 1
+  train ablation-compat-level-3 "$lego" "${small[@]}" --compat --level 3
+  train ablation-compat "$lego" "${small[@]}" --compat
+  while read -r name constants; do
+    echo "$constants" >"$out/training/$name.json"
+    train "ablation-$name" "$lego" "${small[@]}" --config "$out/training/$name.json"
+  done <<'END'
+no-baseline {"baseline": false}
+copied-texels {"resample_textures": false}
+half-gradients {"gradient_precision": "float16"}
+longest-edges {"split_by_error": false, "turnover": 0}
+slow-vertices {"vertex_rate": 1e-3}
+END
+}
+
+part_training() {
+  local views=(--views 90 --test-views 10 --strata 4)
+  [[ -z $quick ]] || views=(--views 9 --test-views 1 --strata 1)
+  mkdir -p "$out/training"
+  train fox "$photographs" --scale 0.25 --steps "$(steps 10000)"
+  [[ -n $fox || ! -e $out/training/fox.glb ]] || fox=$out/training/fox.glb
+  train bottle "$bottle" --scale 0.5 --steps "$(steps 1500)"
+  train lego "$lego" --scale 0.5 --steps "$(steps 10000)"
+  measure train-example-photographs "$bin/make_photographs" "$out/training/photographs" "${views[@]}"
+  train example "$out/training/photographs" --config examples/training.json --steps "$(steps 3000)"
+  train_ablations
+}
+
 mkdir -p "$out/scenes"
+[[ " ${parts[*]} " != *" training "* ]] || part_training
 case " ${parts[*]} " in
   *" frames "* | *" leave_out "* | *" tradeoff "*) find_scenes ;;
 esac
-for part in "${parts[@]}"; do "part_$part"; done
+for part in "${parts[@]}"; do [[ $part == training ]] || "part_$part"; done
 
 {
   echo "# Measured $(date -u +%Y-%m-%dT%H:%MZ)${quick:+, --quick: whether it works, not a measurement}${processor:+, by processor time}"

@@ -152,13 +152,13 @@ TEST(BenchMarkdown, IsATableWhateverTheNamesAre) {
 
 TEST(BenchPlots, AreAllThereUnderNamesOfTheirOwn) {
   std::vector<std::string> files;
-  for (const BenchPlot& plot : bench_plots(result())) files.push_back(plot.file);
+  for (const Figure& plot : bench_plots(result())) files.push_back(plot.file);
   EXPECT_THAT(files, ElementsAre("pixels-hemisphere-3", "views-hemisphere-3", "pixels-a-b-i-c-d",
                                  "views-a-b-i-c-d", "ratios"));
   BenchResult twins = result();
   for (std::size_t i = 4; i < 8; ++i) twins.measurements[i].camera_set = "hemisphere/3";
   std::set<std::string> distinct;
-  for (const BenchPlot& plot : bench_plots(twins)) distinct.insert(plot.file);
+  for (const Figure& plot : bench_plots(twins)) distinct.insert(plot.file);
   EXPECT_EQ(distinct.size(), 5u);
 }
 
@@ -196,7 +196,7 @@ TEST(BenchPlots, RatiosReferToThePublishedPipeline) {
 }
 
 TEST(BenchPlots, GnuplotDrawsThemAll) {
-  for (const BenchPlot& each : bench_plots(result())) {
+  for (const Figure& each : bench_plots(result())) {
     const std::optional<std::string> svg = draw_plot(each.plot, PlotFormat::svg);
     if (!svg) GTEST_SKIP() << gnuplot_missing;
     const Markup markup = check_markup(*svg);
@@ -265,7 +265,7 @@ TEST(BenchPage, HoldsAllThatTheFiguresDependOn) {
   BenchResult then = all;
   then.program.commit = "older";
   const BenchComparison comparison = compare_benches(all, then);
-  const std::string html = bench_page(all, {.drawings = {{"<svg></svg>", awkward}},
+  const std::string html = bench_page(all, {.figures = {{"<svg></svg>", awkward}},
                                             .pictures = {{{std::byte{1}}, awkward}},
                                             .compared_with = awkward,
                                             .comparison = &comparison,

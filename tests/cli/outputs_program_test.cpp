@@ -96,6 +96,17 @@ TEST_F(Outputs, AreNotTheInputs) {
          "scenes.json is an input itself");
 }
 
+TEST_F(Outputs, AreNoPartsOfTheInputs) {
+  ASSERT_EQ(run({"convert", "scene.off", "export/"}).exit_code, 0);
+  const auto before = Input::open(folder / "export/mesh.ply").read_rest();
+  fs::create_symlink("export/mesh.ply", folder / "link.ply");
+  for (const char* output : {"export/mesh.ply", "export/../export/mesh.ply", "link.ply"})
+    expect({"convert", "export", output, "--force"}, 2, "is a part of export, which is an input");
+  EXPECT_EQ(Input::open(folder / "export/mesh.ply").read_rest(), before);
+  // What is not there yet is no part of it.
+  EXPECT_EQ(run({"convert", "export", "export/scene.glb"}).exit_code, 0);
+}
+
 TEST_F(Outputs, KeepThePermissionsOfWhatTheyReplace) {
   write("private.ply", "old");
   fs::permissions(folder / "private.ply", fs::perms(0600));
@@ -156,10 +167,17 @@ TEST_F(Outputs, ThatCannotBeWrittenAreToldBeforeAnythingIsRead) {
   expect({"convert", "bad.off", "nowhere/export/"}, 5, "there is no folder nowhere");
   expect({"convert", "bad.off", "folder.ply", "--force"}, 5,
          "folder.ply: cannot be written: it is a folder");
+  // --force would change nothing, and is not promised to.
+  expect({"convert", "bad.off", "folder.ply"}, 5, "folder.ply: cannot be written: it is a folder");
+  expect({"convert", "bad.off", "file"}, 2, "file exists and is no DiffSoup export");
   expect({"convert", "bad.off", "file", "--force"}, 2, "file exists and is no DiffSoup export");
   expect({"convert", "bad.off", "out.xyz"}, 2, "no format that we write ends in .xyz");
   expect({"convert", "bad.off", "out.xyz"}, 2, "; a page is .html");
   expect({"convert", "bad.off", "out.gltf"}, 2, "glTF is written as .glb only");
+  expect({"convert", "bad.off", "."}, 2, ". exists and is no DiffSoup export");
+  for (const char* name : {".ply", ".html"})
+    expect({"convert", "bad.off", name}, 2,
+           "'" + std::string(name) + "' is an extension without a name before it");
   expect({"render", "bad.off", "-o", "nowhere/out.png"}, 5, "there is no folder nowhere");
   expect({"render", "bad.off", "--orbit", "3", "-o", "nowhere/o.png"}, 5,
          "there is no folder nowhere");

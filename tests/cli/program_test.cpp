@@ -191,7 +191,7 @@ TEST_F(Program, ConvertNeverOverwritesSilently) {
   EXPECT_GT(fs::file_size(folder / "scene.ply"), 8u);
   const ChildResult itself = run({"convert", "scene.off", "scene.off", "--force"});
   EXPECT_EQ(itself.exit_code, 2);
-  EXPECT_THAT(itself.err, HasSubstr("is the scene itself"));
+  EXPECT_THAT(itself.err, HasSubstr("is an input itself"));
   const ChildResult unknown = run({"convert", "scene.off", "scene.xyz"});
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_THAT(unknown.err, HasSubstr("no format that we write ends in .xyz"));

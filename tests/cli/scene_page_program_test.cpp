@@ -176,7 +176,7 @@ TEST_F(ScenePage, FindsTheTemplateNearTheProgram) {
     return Child({"convert", "scene.off", "page.html", "--force"}, folder, program.string()).wait();
   };
   const ChildResult none = convert();
-  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_EQ(none.exit_code, 5);
   EXPECT_THAT(
       none.err,
       HasSubstr("share/tureen/scene_template.html, which is not there: ./dev web makes it"));

@@ -49,7 +49,7 @@ Panel panel() {
   result.outcomes = {outcome({0, 0}, "defaults", 10, 60), outcome({0, 0}, "defaults", 20, 60),
                      outcome({1, 0}, "level 2", 8, 40), outcome({0, 1}, "4 bits", 9, 50),
                      outcome({1, 1}, "level 2, \"4 bits\"", 7, 39)};
-  result.outcomes[1].specialised = false;
+  result.outcomes[1].method = Method::generic;
   result.ranges = {{0, 1.25, 20}, {1, 1.1, 10}};
   result.front = {4, 2, 3, 0};
   result.ideal.psnr_db = 61;
@@ -75,7 +75,7 @@ TradeoffReport report() {
   result.samples = "device";
   result.study.drawing = panel();
   Outcome published = outcome({0, 0}, "published pipeline", 90, 55);
-  published.published = true;
+  published.method = Method::published;
   result.study.drawing.outcomes.push_back(published);
   for (Outcome& each : result.study.drawing.outcomes)
     each.exact = ExactError{each.error.psnr_db - 10, 0.25};
@@ -96,7 +96,7 @@ TEST(TradeoffReport, HasTheShapeThatTheSchemaSays) {
   made.model = {"lego", "test", 4, "valid"};
   made.drawing_model.resize(6);
   made.drawing_model[0] = ModelError{27, 0.9, 0.1};
-  made.study.drawing.outcomes[4].emulated = true;
+  made.study.drawing.outcomes[4].method = Method::emulated;
   EXPECT_EQ(test::schema_violations(to_json(made), "tradeoff.schema.json"), "");
   // The schema is no rubber stamp.
   auto broken = to_json(made);
@@ -125,7 +125,7 @@ TEST(TradeoffReport, SaysWhatWasMeasured) {
 
 TEST(TradeoffReport, AnEmulationHasAnErrorAndNoTime) {
   TradeoffReport made = report();
-  made.study.drawing.outcomes[4].emulated = true;
+  made.study.drawing.outcomes[4].method = Method::emulated;
   const Json json = to_json(made)["drawing"]["configurations"][4];
   for (const char* key : {"ms", "ms_median", "ms_p95", "ms_spread", "mib"})
     EXPECT_EQ(json[key], nullptr) << key;
@@ -158,7 +158,7 @@ TEST(TradeoffReport, TheChoiceIsASentence) {
 
 TEST(TradeoffCandidates, AreWhatCanBeChosen) {
   TradeoffReport made = report();
-  made.study.drawing.outcomes[4].emulated = true;
+  made.study.drawing.outcomes[4].method = Method::emulated;
   made.study.drawing.aa_spread = 0.01;
   const Candidates all = candidates(made.study.drawing);
   EXPECT_THAT(all.index, ElementsAre(0, 2, 3));
@@ -182,12 +182,12 @@ TEST(TradeoffPlots, KeepTheTwoErrorsApart) {
   made.model = {"lego", "test", 4, "valid"};
   made.drawing_model.resize(6);
   made.drawing_model[0] = ModelError{27.125, 0.9, 0.1};
-  const std::vector<TradeoffPlot> plots = tradeoff_plots(made);
+  const std::vector<Figure> plots = tradeoff_plots(made);
   ASSERT_THAT(plots, SizeIs(3));
   EXPECT_THAT(plots[2].plot.script, HasSubstr("27.125"));
   EXPECT_THAT(plots[0].plot.script, Not(HasSubstr("27.125")));
   EXPECT_THAT(plots[2].plot.script, Not(HasSubstr("R1")));
-  for (const TradeoffPlot& each : plots) {
+  for (const Figure& each : plots) {
     EXPECT_THAT(each.plot.script, HasSubstr("set logscale x"));
     EXPECT_THAT(each.plot.script, HasSubstr("\"10\" 10"));
     // More than decades, however narrow the axis.

@@ -120,7 +120,8 @@ TEST(CameraFile, RefusesWithTheFileTheCameraAndTheReason) {
   };
   const std::string good = "[[1,0,0,0],[0,1,0,0],[0,0,1,0]]";
   EXPECT_THAT(failure("{\"frames\": [}"), HasSubstr("cameras.json: byte 12: not valid JSON"));
-  EXPECT_THAT(failure("{\"frames\": [1e999]}"), HasSubstr("JSON that cannot be read"));
+  EXPECT_THAT(failure("{\"frames\": [1e999]}"),
+              HasSubstr("byte 12: the number 1e999 is too large"));
   EXPECT_THAT(failure("7"), HasSubstr("no JSON object or list"));
   EXPECT_THAT(failure("{}"), HasSubstr("no camera file that we know"));
   EXPECT_THAT(failure("{\"frames\": 3}"), HasSubstr("frames is no list"));

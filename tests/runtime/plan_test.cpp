@@ -238,7 +238,7 @@ struct Specialisation {
 
 class SpecialisedKinds : public testing::TestWithParam<Specialisation> {};
 
-// specs 06, section 6: what the plan calls exact leaves every pixel as it is. Compiling the
+// docs/leaving-out.md: what the plan calls exact leaves every pixel as it is. Compiling the
 // network's weights in sums the same terms in another order, and a cut-out face without its rims
 // interpolates from other corners: that may round one channel in 100,000 otherwise.
 TEST_P(SpecialisedKinds, DrawsWhatTheGenericPlanDraws) {

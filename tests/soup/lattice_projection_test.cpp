@@ -139,7 +139,7 @@ TEST(LatticeProjection, ItsErrorIsThatOfTheFunctions) {
   EXPECT_NEAR(error.largest, largest, 1e-9);
 }
 
-// specs 06, section 4: better than every second texel by 1 to 2 dB; these textures gain 3 to 4.
+// Elsewhere better than every second texel by 1 to 2 dB; these textures gain 3 to 4.
 TEST(LatticeProjection, BeatsEverySecondTexel) {
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);

@@ -56,7 +56,7 @@ TEST(Quantise, EveryByteIsItsOwnValueAndHalvesRoundUp) {
   EXPECT_EQ(quantised_unit(NAN), 0);
 }
 
-// specs T3: no texel changes the side of 1/2 on which it is drawn or not.
+// docs/numerics.md, T3: no texel changes the side of 1/2 on which it is drawn or not.
 TEST(Quantise, AlphaKeepsItsSideOfOneHalf) {
   const auto drawn = [](std::uint8_t byte) { return float(byte) / 255.0f >= 0.5f; };
   EXPECT_EQ(quantised_alpha(0.5f), 128);

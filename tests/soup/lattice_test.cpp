@@ -64,7 +64,7 @@ TEST(Lattice, AffineFunctionsAreReproduced) {
   }
 }
 
-// specs T1: points on and just outside the edges never leave the lattice.
+// docs/numerics.md, T1: points on and just outside the edges never leave the lattice.
 TEST(Lattice, PointsOutsideStayWithinTheTexels) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float values[] = {-1e30f,       -0.3f, -1e-7f, 0.0f,

@@ -1,4 +1,5 @@
-// The emulated network against the measurements in the specs (05, T4), on networks of the same law.
+// The emulated network against what was measured elsewhere (docs/numerics.md, T4), on networks of
+// the same law.
 #include "soup/mlp_precision.hpp"
 
 #include <gtest/gtest.h>

@@ -46,10 +46,10 @@ Agreement agreement(const OracleImage& oracle, const Drawn& drawn);
 
 struct AgreementLimits {
   /// Vertices that rounding in float sends to another 1/256 of a pixel, and alphas and depths that
-  /// float cannot tell from the threshold or from each other: the specs' budget.
+  /// float cannot tell from the threshold or from each other: a budget for both.
   double most_coverage_mismatch = 1e-4;
   double most_face_mismatch = 1e-4;
-  /// Half a step of 8 bits leaves 58.9 dB; the specs ask for 55.
+  /// Half a step of 8 bits leaves 58.9 dB; 55 leave room for edges.
   double least_psnr = 55.0;
   /// Of the picture where both name the same face: below it there is hardly anything to compare.
   double least_compared = 0.05;

@@ -11,7 +11,7 @@ namespace {
 using test::random_model;
 
 TEST(Levels, TheirNumberOfTexels) {
-  EXPECT_EQ(levels::texel_count(2, 5), 15u + 45u + 153u + 561u);  // specs 1.2: 774
+  EXPECT_EQ(levels::texel_count(2, 5), 15u + 45u + 153u + 561u);  // DiffSoup: 774
   EXPECT_EQ(levels::texel_count(0, 0), 3u);
   EXPECT_EQ(levels::texel_count(3, 2), 0u);
 }

@@ -82,8 +82,8 @@ TEST(FineTexture, IsTheSigmoidOfTheSum) {
   }
 }
 
-// specs T3: what is never touched stays at logit 0 and is drawn; what is below is not, as far as
-// floats tell. What the trainer draws is what the soup shows.
+// docs/numerics.md, T3: what is never touched stays at logit 0 and is drawn; what is below is not,
+// as far as floats tell. What the trainer draws is what the soup shows.
 TEST(FineTexture, AlphaKeepsItsSideOfOneHalf) {
   Model model = random_model(25, {.faces = 1, .min_level = 0, .max_level = 0});
   const auto alpha_of = [&](float logit) {

@@ -46,7 +46,7 @@ struct Stack {
     return p;
   }
   /// dE[loss]/dlogit of a texel: alpha's chain times T (l_k - E[l | k rejected]), T being the
-  /// chance that k is reached. E is linear in each alpha (specs 01, 3.1).
+  /// chance that k is reached. E is linear in each alpha (DiffSoup, arXiv 2603.27151).
   double derivative(std::size_t k, std::size_t texel) const {
     double reached = 1;
     for (std::size_t i = 0; i < k; ++i) reached *= 1 - layers[i].alpha();
