@@ -166,7 +166,7 @@ std::string bench_page(const BenchResult& result, const BenchPage& extra) {
   HtmlPage page(result.scene.name + ": frame times");
   page.paragraph(fmt::format("{} triangles on {}, {}.", counted(result.scene.triangles),
                              result.device.renderer, result.date));
-  for (const auto& [svg, caption] : extra.figures) page.drawing(svg, caption);
+  for (const DrawnFigure& figure : extra.figures) page.drawing(figure.svg, figure.caption);
   if (!extra.missing.empty()) page.paragraph(extra.missing);
   measurements(page, result);
   comparison(page, extra);

@@ -53,11 +53,10 @@ std::vector<BenchPage::Picture> pictures_of(const BenchResult& result) {
 
 /// Draws all plots into `folder`, and says so; none where gnuplot is missing, which it says, too.
 std::vector<DrawnFigure> write_plots(const BenchResult& result, const fs::path& folder) {
-  std::vector<std::string> written;
-  std::vector<DrawnFigure> figures = write_figures(bench_plots(result), folder, written);
-  say(figures.empty() ? gnuplot_missing
-                      : fmt::format("wrote {} plots to {}", figures.size(), folder.string()));
-  return figures;
+  const auto drawn = write_figures(bench_plots(result), folder);
+  say(drawn ? fmt::format("wrote {} plots to {}", drawn->size(), folder.string())
+            : gnuplot_missing);
+  return drawn.value_or(std::vector<DrawnFigure>());
 }
 
 void say_comparison(const BenchComparison& comparison, const std::string& file) {

@@ -32,6 +32,8 @@ bool is_export(const fs::path& output) { return output.extension().empty(); }
 
 void require_known_extension(const fs::path& output) {
   if (is_scene_page(output)) return;
+  if (output.filename() == ".html")
+    throw UsageError("'.html' is an extension without a name before it");
   try {
     require_written_format(output);
   } catch (const UsageError& error) {
@@ -110,7 +112,7 @@ std::string written_formats() {
   for (const FormatInfo& format : known_formats()) {
     if (!format.can_write) continue;
     std::string extensions;
-    for (const std::string& extension : format.written)
+    for (const std::string& extension : format.written_extensions)
       extensions += (extensions.empty() ? "" : ", ") + extension;
     if (extensions.empty()) extensions = "(folder)";
     extensions.resize(std::max<std::size_t>(extensions.size() + 1, 16), ' ');

@@ -12,6 +12,7 @@
 
 #include "cli/contact_sheet.hpp"
 #include "cli/picture_file.hpp"
+#include "formats/existing_path.hpp"
 #include "formats/output.hpp"
 #include "runtime/renderer.hpp"
 #include "soup/error.hpp"
@@ -51,11 +52,8 @@ Measured measure(const Photograph& photograph, const Image8& rendering,
 void check_spared(const fs::path& spared, const fs::path& folder,
                   const std::vector<std::string>& files) {
   if (spared.empty() || folder.empty()) return;
+  if (!lies_in(folder, spared)) return;
   std::error_code error;
-  const fs::path inner = fs::weakly_canonical(folder, error);
-  const fs::path outer = fs::weakly_canonical(spared, error);
-  if (std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first != outer.end())
-    return;
   for (const std::string& file : files)
     if (fs::exists(folder / file, error))
       throw UsageError((folder / file).string() +

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,13 +20,15 @@ struct Figure {
 struct DrawnFigure {
   std::string svg;  // of draw_plot()
   std::string caption;
+  std::vector<std::string> files{};  // that it was written to
 };
 
-/// Draws each figure into `folder`, which is there, as SVG for pages and as PNG for slides, and
-/// appends the files to `written`. Returns none where gnuplot is missing. Throws OutputError, and
-/// what throw_if_interrupted() throws.
-std::vector<DrawnFigure> write_figures(std::span<const Figure> figures,
-                                       const std::filesystem::path& folder,
-                                       std::vector<std::string>& written);
+/// Draws each figure into `folder`, which is there, as SVG for pages and as PNG for slides. Nothing
+/// where gnuplot is missing. Throws OutputError, and what throw_if_interrupted() throws.
+std::optional<std::vector<DrawnFigure>> write_figures(std::span<const Figure> figures,
+                                                      const std::filesystem::path& folder);
+
+/// The files of all of them, in order.
+std::vector<std::string> files_of(std::span<const DrawnFigure> figures);
 
 }  // namespace tureen::cli

@@ -1,8 +1,7 @@
 #include "cli/output_argument.hpp"
 
-#include <algorithm>
-
 #include "formats/diffsoup_export.hpp"
+#include "formats/existing_path.hpp"
 #include "formats/output.hpp"
 #include "formats/output_path.hpp"
 #include "soup/error.hpp"
@@ -23,25 +22,19 @@ void try_in(const fs::path& folder, const fs::path& path) {
   }
 }
 
-/// Both are there, by whatever names.
-bool lies_in(const fs::path& file, const fs::path& folder) {
-  std::error_code error;
-  if (!fs::is_directory(folder, error)) return false;
-  fs::path outer = fs::canonical(folder, error), inner;
-  if (!error) inner = fs::canonical(file, error);
-  return !error &&
-         std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
-}
-
 }  // namespace
 
 void require_not_input(const fs::path& output, const fs::path& input) {
   std::error_code error;  // what is not there is said where it is read
   if (fs::equivalent(output, input, error))
     throw UsageError(output.string() + " is an input itself; choose another name");
-  if (fs::exists(output, error) && lies_in(output, input))
-    throw UsageError(output.string() + " is a part of " + input.string() +
-                     ", which is an input; choose another name");
+  if (!fs::exists(output, error)) return;
+  if (fs::is_directory(input, error) && lies_in(output, input))
+    throw UsageError(output.string() + " is there already, and in the folder of an input, " +
+                     input.string() + ", nothing is replaced; choose another place");
+  if (fs::is_directory(output, error) && lies_in(input, output))
+    throw UsageError(output.string() + " holds an input, " + input.string() +
+                     "; choose another name");
 }
 
 void require_writable_file(const fs::path& path) { const Output probe(path); }

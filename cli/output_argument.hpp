@@ -6,8 +6,9 @@
 
 namespace tureen::cli {
 
-/// Throws UsageError where both are the same file, by whatever names, or where `input` is a folder
-/// and `output` a file that is there already, in it: what was read would be lost.
+/// Throws UsageError where writing `output`, a file or a folder as a whole, could take the place of
+/// what is read: where both are the same, by whatever names; where `output` is there already in the
+/// folder `input`, whether it is read or not; and where it is a folder that holds `input`.
 void require_not_input(const std::filesystem::path& output, const std::filesystem::path& input);
 
 /// Throws OutputError unless a file can be written there (formats/output_path.hpp). Tries it: a

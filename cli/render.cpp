@@ -90,8 +90,10 @@ void require_shown(const ShowOption& show, const TriangleSoup& soup) {
 void check_output(const Options& options, const glm::vec4& background) {
   if (!is_video_name(options.output)) {
     require_png_name(options.output);
-    const std::filesystem::path first =
-        picture_name(options.output, 0, std::max(options.views.orbit, 1));
+    const int count = std::max(options.views.orbit, 1);
+    for (int i = 0; i < count; ++i)
+      require_not_input(picture_name(options.output, i, count), options.scene.path);
+    const std::filesystem::path first = picture_name(options.output, 0, count);
     // How many views a file of cameras or a film has, and so how they are called, it tells later.
     if (options.views.is_film() || !options.views.camera.empty())
       require_writable_beside(first);
@@ -108,6 +110,7 @@ void check_output(const Options& options, const glm::vec4& background) {
         "a video shows no transparency: leave --background transparent away, or write "
         "pictures, -o frame_%04d.png");
   if (!have_ffmpeg()) throw UsageError(ffmpeg_missing);
+  require_not_input(options.output, options.scene.path);
   require_writable_file(options.output);
 }
 

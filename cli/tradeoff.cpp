@@ -115,9 +115,10 @@ void write_files(const Options& options, TradeoffReport& report) {
     report.output.push_back((folder / name).string());
     return folder / name;
   };
-  const std::vector<DrawnFigure> figures =
-      write_figures(tradeoff_plots(report), folder, report.output);
-  if (figures.empty()) report.notes.emplace_back(gnuplot_missing);
+  const auto drawn = write_figures(tradeoff_plots(report), folder);
+  if (!drawn) report.notes.emplace_back(gnuplot_missing);
+  const std::vector<DrawnFigure> figures = drawn.value_or(std::vector<DrawnFigure>());
+  report.output = files_of(figures);
   write_file(file("tradeoff.html"), tradeoff_page(report, figures));
   write_file(file("tradeoff.csv"), to_csv(report));
   const fs::path json = file("tradeoff.json");

@@ -1,6 +1,8 @@
 #include "cli/tradeoff_import.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include "cli/interrupt.hpp"
 #include "cli/output_argument.hpp"
@@ -33,9 +35,17 @@ std::vector<TradeoffRun> read_runs(const std::vector<std::string>& files) {
 
 void write_files(const fs::path& folder, TradeoffScenes& scenes) {
   make_folder(folder);
-  const auto means = write_figures(means_plots(scenes), folder, scenes.output);
-  const auto of_scenes = write_figures(scene_plots(scenes), folder, scenes.output);
-  if (means.empty()) scenes.notes.emplace_back(gnuplot_missing);
+  std::vector<Figure> figures = means_plots(scenes);
+  const auto count = std::ptrdiff_t(figures.size());
+  std::ranges::move(scene_plots(scenes), std::back_inserter(figures));
+  std::vector<DrawnFigure> means, of_scenes;
+  if (const auto drawn = write_figures(figures, folder)) {
+    means.assign(drawn->begin(), drawn->begin() + count);
+    of_scenes.assign(drawn->begin() + count, drawn->end());
+    scenes.output = files_of(*drawn);
+  } else {
+    scenes.notes.emplace_back(gnuplot_missing);
+  }
   const auto file = [&](const char* name) {
     scenes.output.push_back((folder / name).string());
     return folder / name;

@@ -129,7 +129,7 @@ std::string tradeoff_page(const TradeoffReport& report, const std::vector<DrawnF
   page.paragraph(choice_sentence(report));
   add_facts(page, report);
   if (figures.empty()) page.paragraph(gnuplot_missing);
-  for (const auto& [svg, caption] : figures) page.drawing(svg, caption);
+  for (const DrawnFigure& figure : figures) page.drawing(figure.svg, figure.caption);
   page.section("Drawing knobs");
   page.paragraph(fmt::format(
       "E_render: against the oracle's picture of the same model, {}. Exact dB: against exact "

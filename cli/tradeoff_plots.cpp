@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -152,7 +153,9 @@ Drawing::Mark mark_of(std::size_t knob) {
 /// shown beside each other. Every knob of a panel is in its palette.
 std::size_t color_of(const tradeoff::Knob& knob, const std::vector<tradeoff::Knob>& palette) {
   const auto is_same = [&](const tradeoff::Knob& other) { return other.key == knob.key; };
-  return std::size_t(std::find_if(palette.begin(), palette.end(), is_same) - palette.begin());
+  const auto found = std::find_if(palette.begin(), palette.end(), is_same);
+  assert(found != palette.end());
+  return std::size_t(found - palette.begin());
 }
 
 void add_points(Drawing& drawing, const Panel& panel, const std::vector<tradeoff::Knob>& palette) {

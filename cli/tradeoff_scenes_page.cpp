@@ -106,7 +106,7 @@ std::string tradeoff_scenes_page(const TradeoffScenes& scenes,
   for (const std::string& argument : scenes.program.arguments) line += " " + argument;
   page.command(line);
   if (means.empty()) page.paragraph(gnuplot_missing);
-  for (const auto& [svg, caption] : means) page.drawing(svg, caption);
+  for (const DrawnFigure& figure : means) page.drawing(figure.svg, figure.caption);
   page.section("Drawing knobs");
   page.paragraph(fmt::format("E_render: against the oracle's pictures of the same models, {}.",
                              where_it_looks(scenes.runs.front().report)));
@@ -118,7 +118,7 @@ std::string tradeoff_scenes_page(const TradeoffScenes& scenes,
   add_members(page, scenes, scenes.antialiasing);
   if (!of_scenes.empty()) {
     page.section("The scenes");
-    for (const auto& [svg, caption] : of_scenes) page.drawing(svg, caption);
+    for (const DrawnFigure& figure : of_scenes) page.drawing(figure.svg, figure.caption);
   }
   return page.text();
 }

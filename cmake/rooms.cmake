@@ -33,6 +33,7 @@ function(tureen_test name)
     TUREEN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" TUREEN_BINARY_DIR="${PROJECT_BINARY_DIR}")
   set(properties TIMEOUT 300)
   if(TUREEN_SANITIZE)
+    set(properties TIMEOUT 1200)  # damage of glTF takes 295 s under the thread sanitizer
     # The sanitizers of GCC up to 13 expect in front of a thread's storage what glibc has not put
     # there since 2.25, and now and then die of what they find as they look for leaks
     # ("Tracer caught signal 11").

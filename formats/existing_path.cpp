@@ -1,5 +1,6 @@
 #include "formats/existing_path.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "formats/suggestion.hpp"
@@ -30,6 +31,15 @@ void require_there(const fs::path& path) {
   // What lies in a folder that may not be entered looks as if it were not there.
   if (fs::is_directory(status) && !fs::status_known(fs::status(path / ".", error)))
     fail("cannot be opened: " + error.message());
+}
+
+bool lies_in(const fs::path& path, const fs::path& folder) {
+  std::error_code error;
+  const fs::path outer = fs::weakly_canonical(fs::absolute(folder, error), error);
+  if (error) return false;
+  const fs::path inner = fs::weakly_canonical(fs::absolute(path, error), error);
+  if (error) return false;
+  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
 }
 
 }  // namespace tureen

@@ -13,4 +13,8 @@ bool is_missing(const std::filesystem::path& path);
 /// folder, entered. Throws UsageError where the path is empty.
 void require_there(const std::filesystem::path& path);
 
+/// Whether `path` is `folder` or lies below it, wherever links lead. Neither need be there; what
+/// cannot be looked up lies nowhere.
+bool lies_in(const std::filesystem::path& path, const std::filesystem::path& folder);
+
 }  // namespace tureen

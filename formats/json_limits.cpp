@@ -1,5 +1,7 @@
 #include "formats/json_limits.hpp"
 
+#include <optional>
+
 namespace tureen {
 
 std::uint64_t count_json_values(std::string_view text, const std::string& file,
@@ -54,9 +56,11 @@ InputError json_number_too_large(std::string_view message, std::string_view text
   const std::size_t begin = message.find('\''), end = message.rfind('\'');
   const std::string_view number =
       begin < end ? message.substr(begin + 1, end - begin - 1) : std::string_view();
-  const std::size_t byte = text.find(number);
-  return {{file, first_byte + (byte == std::string_view::npos ? 0 : byte), {}},
-          "the number " + std::string(number) + " is too large"};
+  // Where it stands in a text, too, only one of its places is the number's.
+  std::optional<std::uint64_t> byte;
+  if (const std::size_t at = text.find(number); at != text.npos && at == text.rfind(number))
+    byte = first_byte + at;
+  return {{file, byte, {}}, "the number " + std::string(number) + " is too large"};
 }
 
 }  // namespace tureen

@@ -32,8 +32,7 @@ constexpr std::size_t head_size = 4096;
 struct Format {
   const char* name = "";
   const char* description = "";
-  std::vector<const char*> extensions{};  // lower case
-  std::vector<const char*> only_read{};   // more of them, which are not written
+  std::vector<const char*> read_extensions{}, written_extensions{};  // lower case
   bool is_folder = false;
   bool (*recognises)(const Candidate&) = nullptr;
   Scene (*read)(const std::filesystem::path&, const ReadOptions&) = nullptr;  // null: only written
@@ -46,20 +45,22 @@ const std::vector<Format>& formats() {
   static const std::vector<Format> table{
       {.name = "GLB",
        .description = "our own file, exact and streamable; any glTF viewer shows its mean colours",
-       .extensions = {".glb"},
-       .only_read = {".gltf"},
+       .read_extensions = {".glb", ".gltf"},
+       .written_extensions = {".glb"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_gltf(c.head); },
        .read = read_gltf_or_glb,
        .write = write_tureen_glb},
       {.name = "OFF",
        .description = "triangles with a colour a face or a vertex, as text (OFF, COFF)",
-       .extensions = {".off", ".coff"},
+       .read_extensions = {".off", ".coff"},
+       .written_extensions = {".off", ".coff"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_off(c.head); },
        .read = [](const Path& path, const ReadOptions& o) { return read_off(path, o); },
        .write = write_off},
       {.name = "PLY",
        .description = "triangles with a colour a face or a vertex, ascii or binary",
-       .extensions = {".ply"},
+       .read_extensions = {".ply"},
+       .written_extensions = {".ply"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_ply(c.head); },
        .read = [](const Path& path, const ReadOptions& o) { return read_ply(path, o); },
        .write = write_ply},
@@ -72,13 +73,13 @@ const std::vector<Format>& formats() {
 #ifndef __EMSCRIPTEN__  // its sources are left out there, see CMakeLists.txt
       {.name = "checkpoint",
        .description = "of torch: DiffSoup, Triangle Splatting, Triangle Splatting+, MeshSplatting",
-       .extensions = {".pt"},
+       .read_extensions = {".pt"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_checkpoint(c.head); },
        .read = [](const Path& path, const ReadOptions& o) { return read_checkpoint(path, o); }},
 #endif
       {.name = "MobileNeRF",
        .description = "a folder of shapes with feature textures and a color MLP, or a file of it",
-       .extensions = {".obj"},
+       .read_extensions = {".obj"},
        .is_folder = true,
        .recognises = [](const Candidate& c) { return is_mobilenerf(c.path); },
        .read = read_mobilenerf},
@@ -93,43 +94,22 @@ std::string extension_of(const std::filesystem::path& path) {
   return extension;
 }
 
-FormatInfo info_of(const Format& format) {
-  FormatInfo info{.name = format.name,
-                  .description = format.description,
-                  .read = {},
-                  .written = {},
-                  .is_folder = format.is_folder,
-                  .can_read = format.read != nullptr,
-                  .can_write = format.write != nullptr};
-  const auto add = [](std::vector<std::string>& all, const std::vector<const char*>& more) {
-    all.insert(all.end(), more.begin(), more.end());
-  };
-  if (info.can_read) {
-    add(info.read, format.extensions);
-    add(info.read, format.only_read);
-  }
-  if (info.can_write) add(info.written, format.extensions);
-  return info;
-}
-
-bool contains(const std::vector<std::string>& extensions, const std::string& extension) {
+bool contains(const std::vector<const char*>& extensions, const std::string& extension) {
   return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
 }
 
-/// Whether the name of a file promises this format to who reads it.
-bool promises(const Format& format, const std::string& extension) {
-  return contains(info_of(format).read, extension);
-}
+enum class Direction { read, written };
 
 /// "OFF (.off), PLY (.ply) and DiffSoup export (folder)", of what can be read or written.
-std::string listed(bool FormatInfo::*can, std::vector<std::string> FormatInfo::*extensions) {
+std::string listed(Direction direction) {
   std::vector<std::string> names;
-  for (const FormatInfo& info : known_formats()) {
-    if (!(info.*can)) continue;
-    std::string kinds = info.is_folder ? "folder" : "";
-    for (const std::string& extension : info.*extensions)
-      kinds += (kinds.empty() ? "" : ", ") + extension;
-    names.push_back(info.name + " (" + kinds + ")");
+  for (const Format& format : formats()) {
+    const bool is_read = direction == Direction::read;
+    if (is_read ? !format.read : !format.write) continue;
+    std::string kinds = format.is_folder ? "folder" : "";
+    for (const char* extension : is_read ? format.read_extensions : format.written_extensions)
+      kinds += (kinds.empty() ? "" : ", ") + std::string(extension);
+    names.push_back(std::string(format.name) + " (" + kinds + ")");
   }
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -157,28 +137,29 @@ const Format& format_to_read(const Candidate& candidate) {
     throw InputError({candidate.path.string(), {}, {}}, *stray);
   const std::string extension = extension_of(candidate.path);
   for (const Format& format : formats())
-    if (format.read && !candidate.is_folder && promises(format, extension)) return format;
-  throw InputError(
-      {candidate.path.string(), {}, {}},
-      std::string("not a ") + (candidate.is_folder ? "folder" : "file") +
-          " of a kind that we read: " + listed(&FormatInfo::can_read, &FormatInfo::read));
+    if (format.read && !candidate.is_folder && contains(format.read_extensions, extension))
+      return format;
+  throw InputError({candidate.path.string(), {}, {}},
+                   std::string("not a ") + (candidate.is_folder ? "folder" : "file") +
+                       " of a kind that we read: " + listed(Direction::read));
 }
 
 /// By name.
 const Format& format_to_write(const std::filesystem::path& path) {
-  const std::string extension = extension_of(path), name = path.filename().string();
+  const std::string extension = extension_of(path);
   // Its bytes would lie in a second file, which is what a GLB is there to avoid.
   if (extension == ".gltf") throw UsageError("glTF is written as .glb only");
-  if (extension.empty() && name.size() > 1 && name[0] == '.' && name != "..")
-    throw UsageError("'" + name + "' is an extension without a name before it");
+  // A hidden folder, to the letter, which is not what anybody means.
+  for (const Format& format : formats())
+    if (const std::string name = path.filename().string(); contains(format.read_extensions, name))
+      throw UsageError("'" + name + "' is an extension without a name before it");
   for (const Format& format : formats())
     if (format.write &&
-        (extension.empty() ? format.is_folder : contains(info_of(format).written, extension)))
+        (extension.empty() ? format.is_folder : contains(format.written_extensions, extension)))
       return format;
   throw UsageError((extension.empty() ? "no extension tells which format to write"
                                       : "no format that we write ends in " + extension) +
-                   std::string("; written are ") +
-                   listed(&FormatInfo::can_write, &FormatInfo::written));
+                   std::string("; written are ") + listed(Direction::written));
 }
 
 }  // namespace
@@ -198,9 +179,11 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options) 
   Scene scene = format.read(path, options);
 
   const std::string extension = extension_of(path);
-  const auto promised = [&](const Format& other) { return promises(other, extension); };
-  if (!candidate.is_folder && !promised(format) &&
-      std::any_of(formats().begin(), formats().end(), promised))
+  const auto promises = [&](const Format& other) {
+    return contains(other.read_extensions, extension);
+  };
+  if (!candidate.is_folder && !promises(format) &&
+      std::any_of(formats().begin(), formats().end(), promises))
     scene.info.notes.push_back("The name ends in " + extension + ", but the content is " +
                                format.name + ".");
   if (const auto* soup = std::get_if<TriangleSoup>(&scene.primitives)) {
@@ -219,7 +202,14 @@ std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::
 
 std::vector<FormatInfo> known_formats() {
   std::vector<FormatInfo> infos;
-  for (const Format& format : formats()) infos.push_back(info_of(format));
+  for (const Format& format : formats())
+    infos.push_back({format.name,
+                     format.description,
+                     {format.read_extensions.begin(), format.read_extensions.end()},
+                     {format.written_extensions.begin(), format.written_extensions.end()},
+                     format.is_folder,
+                     format.read != nullptr,
+                     format.write != nullptr});
   return infos;
 }
 

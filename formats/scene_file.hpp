@@ -40,11 +40,11 @@ std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::
 
 /// One line of the table of formats, for help texts.
 struct FormatInfo {
-  std::string name;                  // "OFF"
-  std::string description;           // what it holds, in a few words
-  std::vector<std::string> read;     // extensions, with the point; the first is the usual one
-  std::vector<std::string> written;  // likewise
-  bool is_folder = false;            // a folder, beside any extensions
+  std::string name;         // "OFF"
+  std::string description;  // what it holds, in a few words
+  /// With the point; the first is the usual one. None where it cannot be read, or not be written.
+  std::vector<std::string> read_extensions, written_extensions;
+  bool is_folder = false;  // a folder, beside any extensions
   bool can_read = false;
   bool can_write = false;
 };

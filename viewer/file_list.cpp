@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 bool has_scene_name(const fs::path& path) {
   for (const FormatInfo& format : known_formats())
-    for (const std::string& extension : format.read)
+    for (const std::string& extension : format.read_extensions)
       if (path.extension() == extension) return true;
   return path.filename() == "transforms.json";
 }

@@ -5,7 +5,7 @@
 // the homogeneous image points v_k = (x_k, y_k, w_k) in pixels and p = (column + 1/2, row + 1/2,
 // 1), E_k = p . (v_i x v_j) is the edge opposite vertex k, b_k = E_k / sum E the
 // perspective-correct barycentric and w = det(v_0 v_1 v_2) / sum E the depth: no division by a w
-// that may be zero, and no clipping beyond w >= near (docs/numerics.md, G4 and G5).
+// that may be zero, and no clipping beyond w >= near (docs/numerics.md, G4).
 #pragma once
 
 #include <cstdint>

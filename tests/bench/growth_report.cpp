@@ -237,10 +237,9 @@ void write_growth(const Growth& growth, const fs::path& folder) {
   if (!growth.fits.empty())
     figures.push_back(
         {"growth-fit", "The model against what was measured." + device, fit_plot(growth)});
-  std::vector<std::string> written;
-  const std::vector<cli::DrawnFigure> drawn = cli::write_figures(figures, folder, written);
-  for (const auto& [svg, caption] : drawn) page.drawing(svg, caption);
-  if (drawn.empty()) {
+  if (const auto drawn = cli::write_figures(figures, folder)) {
+    for (const cli::DrawnFigure& figure : *drawn) page.drawing(figure.svg, figure.caption);
+  } else {
     page.paragraph(cli::gnuplot_missing);
     cli::say(cli::gnuplot_missing);
   }

@@ -50,6 +50,9 @@ skip() {
   say "Skipped: $1"
 }
 
+# Programs of ours end themselves on Ctrl-C, and would leave the next one to begin.
+trap 'exit 130' INT
+
 while (($#)); do
   case $1 in
     --quick) quick=1 ;;
@@ -92,7 +95,7 @@ measure() {
   else
     done_parts+=("$name")
   fi
-  ((status != 130)) || exit 130 # Ctrl-C
+  return "$status"
 }
 
 # Scenes, a name and a path each; a cut-out cloud keeps its own cameras.
@@ -189,9 +192,8 @@ part_tradeoff() {
     [[ $name != cloud-* ]] || continue # a random network: its errors say nothing about scenes
     [[ $name != fox || -z $photographs ]] || options=("$photographs" --scale 0.25)
     measure "tradeoff-$name" "$bin/tureen" tradeoff "${scene_paths[i]}" "${options[@]}" \
-      ${quick:+--quick} -o "$out/tradeoff-$name"
-    # What an earlier run left behind is none of this one's.
-    [[ ${done_parts[*]: -1} != "tradeoff-$name" ]] || imports+=(--import "$out/tradeoff-$name/tradeoff.json")
+      ${quick:+--quick} -o "$out/tradeoff-$name" || continue
+    imports+=(--import "$out/tradeoff-$name/tradeoff.json")
   done
   if ((${#imports[@]} < 4)); then
     skip "tradeoff over several scenes: fewer than two were measured"
@@ -239,16 +241,20 @@ part_browser() {
 # steps N: so many, or few.
 steps() { if [[ $quick ]]; then echo 20; else echo "$1"; fi; }
 
-# train NAME DATASET OPTION..: a soup, the plot of its log, and what photographs say of it.
+# train NAME DATASET OPTION..: a soup, its log and the log's plot. Fails where there is none.
 train() {
-  local name=$1 dataset=$2 soup=$out/training/$1.glb scale=()
+  local name=$1 dataset=$2 soup=$out/training/$1.glb
   shift 2
-  [[ -n $dataset ]] || { skip "training on the $name: its photographs are not here"; return; }
-  [[ $1 != --scale ]] || scale=("$1" "$2")
+  [[ -n $dataset ]] || { skip "training on the $name: its photographs are not here"; return 1; }
+  rm -f "${soup%.glb}.checkpoint" # of a run that was broken off
   measure "train-$name" "$bin/tureen" train "$dataset" "$@" -o "$soup" --json
-  [[ ${done_parts[*]: -1} == "train-$name" ]] || return
-  measure "train-$name-plot" "$bin/tureen" plot "$out/training/$name.jsonl" -o "$out/training/$name.svg"
-  measure "train-$name-eval" "$bin/tureen" eval "$soup" "$dataset" "${scale[@]}"
+}
+
+# evaluate NAME DATASET OPTION..: what photographs say of a soup that was trained.
+evaluate() {
+  local name=$1
+  shift
+  measure "train-$name-eval" "$bin/tureen" eval "$out/training/$name.glb" "$@"
 }
 
 # One constant changed at a time: a name, and what changes it.
@@ -275,12 +281,15 @@ part_training() {
   local views=(--views 90 --test-views 10 --strata 4)
   [[ -z $quick ]] || views=(--views 9 --test-views 1 --strata 1)
   mkdir -p "$out/training"
-  train fox "$photographs" --scale 0.25 --steps "$(steps 10000)"
-  [[ -n $fox || ! -e $out/training/fox.glb ]] || fox=$out/training/fox.glb
+  if train fox "$photographs" --scale 0.25 --steps "$(steps 10000)"; then
+    evaluate fox "$photographs" --scale 0.25
+    [[ -n $fox ]] || fox=$out/training/fox.glb
+  fi
   train bottle "$bottle" --scale 0.5 --steps "$(steps 1500)"
-  train lego "$lego" --scale 0.5 --steps "$(steps 10000)"
-  measure train-example-photographs "$bin/make_photographs" "$out/training/photographs" "${views[@]}"
-  train example "$out/training/photographs" --config examples/training.json --steps "$(steps 3000)"
+  train lego "$lego" --scale 0.5 --steps "$(steps 10000)" && evaluate lego "$lego" --scale 0.5
+  measure train-example-photographs "$bin/make_photographs" "$out/training/photographs" "${views[@]}" &&
+    train example "$out/training/photographs" --config examples/training.json --steps "$(steps 3000)" &&
+    evaluate example "$out/training/photographs"
   train_ablations
 }
 

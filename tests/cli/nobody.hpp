@@ -16,13 +16,14 @@ namespace tureen::test {
 class Nobody {
  public:
   Nobody() : was_root_(::geteuid() == 0) {
-    if (was_root_ && ::setresuid(nobody, nobody, 0) != 0)
+    // The saved user stays root, to come back by.
+    if (was_root_ && (::setreuid(nobody, 0) != 0 || ::seteuid(nobody) != 0))
       throw std::runtime_error("root cannot be nobody");
   }
   Nobody(const Nobody&) = delete;
   Nobody& operator=(const Nobody&) = delete;
   ~Nobody() {
-    if (was_root_ && ::setresuid(0, 0, 0) != 0) std::abort();
+    if (was_root_ && (::seteuid(0) != 0 || ::setreuid(0, 0) != 0)) std::abort();
   }
 
  private:

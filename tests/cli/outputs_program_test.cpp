@@ -96,15 +96,22 @@ TEST_F(Outputs, AreNotTheInputs) {
          "scenes.json is an input itself");
 }
 
-TEST_F(Outputs, AreNoPartsOfTheInputs) {
+TEST_F(Outputs, ReplaceNothingInFoldersOfInputs) {
   ASSERT_EQ(run({"convert", "scene.off", "export/"}).exit_code, 0);
   const auto before = Input::open(folder / "export/mesh.ply").read_rest();
   fs::create_symlink("export/mesh.ply", folder / "link.ply");
   for (const char* output : {"export/mesh.ply", "export/../export/mesh.ply", "link.ply"})
-    expect({"convert", "export", output, "--force"}, 2, "is a part of export, which is an input");
+    expect({"convert", "export", output, "--force"}, 2,
+           "in the folder of an input, export, nothing");
+  expect({"render", "export", "-o", "export/lut0.png"}, 2, "in the folder of an input, export");
+  expect({"render", "export", "--orbit", "2", "-o", "export/lut%d.png"}, 2, "lut0.png is there");
+  // What would be replaced as a whole takes what lies in it along.
+  expect({"convert", "export/mesh.ply", "export", "--force"}, 2,
+         "export holds an input, export/mesh.ply");
   EXPECT_EQ(Input::open(folder / "export/mesh.ply").read_rest(), before);
-  // What is not there yet is no part of it.
+  // What is not there yet may come, once.
   EXPECT_EQ(run({"convert", "export", "export/scene.glb"}).exit_code, 0);
+  expect({"convert", "export", "export/scene.glb", "--force"}, 2, "scene.glb is there already");
 }
 
 TEST_F(Outputs, KeepThePermissionsOfWhatTheyReplace) {
@@ -174,10 +181,11 @@ TEST_F(Outputs, ThatCannotBeWrittenAreToldBeforeAnythingIsRead) {
   expect({"convert", "bad.off", "out.xyz"}, 2, "no format that we write ends in .xyz");
   expect({"convert", "bad.off", "out.xyz"}, 2, "; a page is .html");
   expect({"convert", "bad.off", "out.gltf"}, 2, "glTF is written as .glb only");
-  expect({"convert", "bad.off", "."}, 2, ". exists and is no DiffSoup export");
-  for (const char* name : {".ply", ".html"})
+  expect({"convert", "bad.off", "."}, 2, ". holds an input, bad.off");
+  for (const char* name : {".ply", ".gltf", ".html"})
     expect({"convert", "bad.off", name}, 2,
            "'" + std::string(name) + "' is an extension without a name before it");
+  expect({"convert", "bad.off", ".hidden"}, 3, "bad.off");  // a folder like others
   expect({"render", "bad.off", "-o", "nowhere/out.png"}, 5, "there is no folder nowhere");
   expect({"render", "bad.off", "--orbit", "3", "-o", "nowhere/o.png"}, 5,
          "there is no folder nowhere");

@@ -122,6 +122,8 @@ TEST(CameraFile, RefusesWithTheFileTheCameraAndTheReason) {
   EXPECT_THAT(failure("{\"frames\": [}"), HasSubstr("cameras.json: byte 12: not valid JSON"));
   EXPECT_THAT(failure("{\"frames\": [1e999]}"),
               HasSubstr("byte 12: the number 1e999 is too large"));
+  EXPECT_THAT(failure(R"({"note": "1e999", "frames": [1e999]})"),
+              HasSubstr("cameras.json: the number 1e999 is too large"));
   EXPECT_THAT(failure("7"), HasSubstr("no JSON object or list"));
   EXPECT_THAT(failure("{}"), HasSubstr("no camera file that we know"));
   EXPECT_THAT(failure("{\"frames\": 3}"), HasSubstr("frames is no list"));

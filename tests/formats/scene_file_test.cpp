@@ -108,7 +108,7 @@ TEST(SceneFile, EveryFormatStandsInTheTableOnce) {
   std::set<std::string> names, extensions;
   for (const FormatInfo& format : known_formats()) {
     EXPECT_TRUE(names.insert(format.name).second) << format.name;
-    for (const std::string& extension : format.read)
+    for (const std::string& extension : format.read_extensions)
       EXPECT_TRUE(extensions.insert(extension).second) << extension;
   }
 }
@@ -118,7 +118,7 @@ TEST(SceneFile, WritesByExtension) {
   write_text(folder / "a.off", off_text);
   const Scene scene = read_scene(folder / "a.off");
   for (const FormatInfo& format : known_formats()) {
-    for (const std::string& extension : format.written) {
+    for (const std::string& extension : format.written_extensions) {
       const auto path = folder / ("b" + extension);
       write_scene(scene, path);
       EXPECT_EQ(soup_of(read_scene(path)).positions, soup_of(scene).positions) << extension;

@@ -150,7 +150,7 @@ TEST_P(GlOraclePublished, AgreesAtThisLevel) {
   const Drawn generic = draw(
       soup, camera, {.specialise = false, .reversed_depth = false, .site = ShadingSite::deferred});
   const Drawn published = draw(soup, camera, {.pipeline = PipelineKind::published, .site = {}});
-  // docs/numerics.md, T4: 54 to 61 dB for rounded texels through an 8-bit G-buffer.
+  // Measured before this was written: 54 to 61 dB for rounded texels through an 8-bit G-buffer.
   expect_agreement(snapped_oracle(soup, camera), with_faces_of(generic, published), "published",
                    {.least_psnr = 53.0});
 }

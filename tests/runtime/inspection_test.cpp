@@ -391,7 +391,7 @@ TEST_P(Inspections, OverdrawCountsEveryFragment) {
       ASSERT_LE(std::abs(255 * color[c] - picture.pixels[i][c]), 0.52) << int(counts[i]);
   }
   EXPECT_GT(most, 10u);
-  // Vertices that snap otherwise: the budget of docs/numerics.md for coverage, over some ten
+  // Vertices that snap otherwise: the budget of docs/numerics.md, H10, for coverage, over some ten
   // layers.
   EXPECT_LE(double(off), 1e-3 * double(counts.size())) << "seed " << scenery.seed;
 }

@@ -54,7 +54,7 @@ TEST_P(KnobFeatures, AgreeInEveryStorage) {
   // Half floats have 11 bits, so that what 8-bit colours show hides their rounding.
   expect({.feature_storage = FeatureStorage::rgba16f}, true, "half floats", 55.0);
   expect({.feature_storage = FeatureStorage::rgba16f}, false, "half floats generic", 55.0);
-  // docs/numerics.md, T4: 54 to 61 dB for rounded texels through an 8-bit G-buffer.
+  // Measured before this was written: 54 to 61 dB for rounded texels through an 8-bit G-buffer.
   expect({.feature_storage = FeatureStorage::rgba8}, true, "bytes", 53.0);
   expect({.feature_storage = FeatureStorage::rgba8}, false, "bytes generic", 53.0);
 }
@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(Soup, KnobFeatures,
                                                           Kind::uv_textures_mlp)),
                          name_of);
 
-// The soup that speed is measured on. Bytes cost what T4 says, half floats nothing that eight
+// The soup that speed is measured on. Bytes cost decibels, half floats nothing that eight
 // bits of colour would show: so the two storages are not one.
 TEST(KnobCloud, BytesLoseMoreThanHalfFloats) {
   const Scene scene = test::cutout_cloud({.triangles = 4000, .width = 640, .height = 360});

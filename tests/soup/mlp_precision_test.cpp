@@ -1,4 +1,4 @@
-// The emulated network against what was measured elsewhere (docs/numerics.md, T4), on networks of
+// The emulated network against what was measured before this was written, on networks of
 // the same law.
 #include "soup/mlp_precision.hpp"
 

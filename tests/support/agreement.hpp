@@ -46,7 +46,7 @@ Agreement agreement(const OracleImage& oracle, const Drawn& drawn);
 
 struct AgreementLimits {
   /// Vertices that rounding in float sends to another 1/256 of a pixel, and alphas and depths that
-  /// float cannot tell from the threshold or from each other: a budget for both.
+  /// float cannot tell from the threshold or from each other: docs/numerics.md, H10.
   double most_coverage_mismatch = 1e-4;
   double most_face_mismatch = 1e-4;
   /// Half a step of 8 bits leaves 58.9 dB; 55 leave room for edges.
