@@ -90,7 +90,7 @@ class SetAtSizes {
  public:
   SetAtSizes(const CameraSet& set, const BenchViewOptions& options, const Scene& scene,
              const std::string& scene_path, std::vector<std::string>& notes)
-      : set_(set), scene_(scene), subject_(subject_of(scene)) {
+      : set_(set), subject_(subject_of(scene)) {
     if (set.kind == CameraSet::Kind::dataset) {
       fixed_ = dataset_cameras(options.dataset, notes);
     } else if (set.kind == CameraSet::Kind::file) {
@@ -121,7 +121,6 @@ class SetAtSizes {
 
  private:
   const CameraSet& set_;
-  const Scene& scene_;
   Subject subject_;
   std::vector<Camera> fixed_;  // of recorded and adversarial views
 };

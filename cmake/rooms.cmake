@@ -31,17 +31,10 @@ function(tureen_test name)
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_compile_definitions(${name} PRIVATE
     TUREEN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" TUREEN_BINARY_DIR="${PROJECT_BINARY_DIR}")
-  set(properties TIMEOUT 300)
+  set(timeout 300)
   if(TUREEN_SANITIZE)
-    set(properties TIMEOUT 1200)  # damage of glTF takes 295 s under the thread sanitizer
-    # The sanitizers of GCC up to 13 expect in front of a thread's storage what glibc has not put
-    # there since 2.25, and now and then die of what they find as they look for leaks
-    # ("Tracer caught signal 11").
-    list(APPEND properties ENVIRONMENT
-      "ASAN_OPTIONS=intercept_tls_get_addr=0"
-      "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/leaks.supp:print_suppressions=0"
-      "TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/races.supp:print_suppressions=0")
+    set(timeout 1200)  # damage of glTF takes 295 s under the thread sanitizer
   endif()
   # NO_PRETTY_VALUES: without the values, which are bytes of memory where a type has no printer.
-  gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
+  gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${timeout})
 endfunction()

@@ -183,7 +183,7 @@ ColorMlp exported_mlp(const TriangleSoup& soup, std::vector<std::string>& notes)
 /// A folder that is made under a temporary name beside its own and takes its place at the end.
 class NewFolder {
  public:
-  explicit NewFolder(const fs::path& path) : path_(path) {
+  explicit NewFolder(fs::path path) : path_(std::move(path)) {
     if (path_.filename().empty()) path_ = path_.parent_path();
     std::error_code error;
     if (fs::exists(path_, error) && !is_diffsoup_export(path_) &&

@@ -24,15 +24,6 @@ std::span<const std::byte> bytes_of(std::string_view text) {
   return std::as_bytes(std::span(text.data(), text.size()));
 }
 
-/// A browser's files have no links, no permissions and no devices among them.
-std::filesystem::path target_of(std::filesystem::path path) {
-#ifdef __EMSCRIPTEN__
-  return path;
-#else
-  return writable_file(path);
-#endif
-}
-
 /// Both are there afterwards, or neither has moved.
 bool swap_names([[maybe_unused]] const std::filesystem::path& a,
                 [[maybe_unused]] const std::filesystem::path& b) {
@@ -45,7 +36,10 @@ bool swap_names([[maybe_unused]] const std::filesystem::path& a,
 
 }  // namespace
 
-Output::Output(std::filesystem::path path) : path_(target_of(std::move(path))) {
+Output::Output(std::filesystem::path path) : path_(std::move(path)) {
+#ifndef __EMSCRIPTEN__  // whose files have no links, no permissions and no devices among them
+  path_ = writable_file(path_);
+#endif
   static std::atomic<unsigned> counter{0};
   temporary_ = path_;
   temporary_ += ".tmp" + std::to_string(getpid()) + "-" + std::to_string(counter++);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "formats/existing_path.hpp"
+
 namespace tureen {
 
 namespace {
@@ -110,11 +112,9 @@ std::filesystem::path resolve_name_in_folder(const std::filesystem::path& folder
   std::error_code error;
   const fs::path root = fs::canonical(folder.empty() ? fs::path(".") : folder, error);
   if (error) refuse("cannot be looked up: " + error.message());
-  const fs::path target = fs::weakly_canonical(root / relative, error);
+  fs::path target = fs::weakly_canonical(root / relative, error);
   if (error) refuse("cannot be looked up: " + error.message());
-  const auto [end_of_root, ignored] =
-      std::mismatch(root.begin(), root.end(), target.begin(), target.end());
-  if (end_of_root != root.end()) refuse("is a link that leads out of the scene's folder");
+  if (!lies_in(target, root)) refuse("is a link that leads out of the scene's folder");
   return target;
 }
 

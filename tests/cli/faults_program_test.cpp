@@ -2,11 +2,11 @@
 // the new one, whole.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <map>
 #include <random>
 #include <sstream>
@@ -99,7 +99,7 @@ class Faults : public test::Program {
 TEST_F(Faults, AFullDiskLeavesWhatWasThere) {
   write_hills("large.off", 100, 0);
   write_scene();
-  const auto expect = [&](const std::string& output, std::vector<std::string> arguments,
+  const auto expect = [&](const std::string& output, const std::vector<std::string>& arguments,
                           rlim_t room) {
     SCOPED_TRACE(output);
     const auto before = contents(output);

@@ -34,7 +34,7 @@ class Nobody {
 /// The files in `folder` that take what children say (child.cpp), for everybody to write.
 inline void make_streams_for_all(const std::filesystem::path& folder) {
   for (const char* stream : {"stdout.txt", "stderr.txt"}) {
-    std::ofstream(folder / stream, std::ios::app);
+    const std::ofstream made(folder / stream, std::ios::app);
     std::filesystem::permissions(folder / stream, std::filesystem::perms(0666));
   }
 }

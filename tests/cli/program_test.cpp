@@ -157,9 +157,9 @@ TEST_F(Program, InfoTellsWhatASceneIs) {
   EXPECT_EQ(json["triangles"], 3);
   EXPECT_EQ(json["appearance"], "face colours");
   EXPECT_EQ(json["bytes_on_disk"], fs::file_size(folder / "scene.off"));
-  EXPECT_EQ(json["bounds"]["high"], nlohmann::json({1.0, 1.0, 1.0}));
+  EXPECT_EQ(json["bounds"]["high"], nlohmann::ordered_json({1.0, 1.0, 1.0}));
   EXPECT_EQ(json["lint"]["duplicate_faces"]["count"], 1);
-  EXPECT_EQ(json["lint"]["duplicate_faces"]["first"], nlohmann::json({2}));
+  EXPECT_EQ(json["lint"]["duplicate_faces"]["first"], nlohmann::ordered_json({2}));
   EXPECT_FALSE(json["plan"].empty());
   EXPECT_TRUE(json["devices"][0]["fits"].get<bool>());
   EXPECT_THAT(result.err, HasSubstr("1 of 3 faces repeats the corners of an earlier face: face 2"));
@@ -247,7 +247,7 @@ TEST_F(Program, RenderDrawsAndReports) {
   EXPECT_EQ(json["frame_ms"]["n"], 5);
   EXPECT_GT(json["frame_ms"]["median"].get<double>(), 0);
   EXPECT_GE(json["frame_ms"]["p95"].get<double>(), json["frame_ms"]["median"].get<double>());
-  EXPECT_EQ(json["output"], nlohmann::json({"picture.png"}));
+  EXPECT_EQ(json["output"], nlohmann::ordered_json({"picture.png"}));
   const Image8 picture = read_png("picture.png");
   EXPECT_EQ(picture.width, 64);
   EXPECT_EQ(picture.height, 48);

@@ -1,11 +1,11 @@
 // `tureen train` from outside: on photographs of a coloured ball, 32 pixels a side.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <signal.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <optional>
@@ -141,7 +141,8 @@ TEST_F(Train, MakesASoupAndAllThatBelongsToIt) {
   EXPECT_EQ(read_png("ball.previews/step_40.png").width, 3 * size);
   const ChildResult evaluated = run({"eval", "ball.glb", "ball", "--json"});
   if (evaluated.exit_code == 0) {
-    EXPECT_EQ(nlohmann::json::parse(evaluated.out)["mean"]["psnr_db"], json["test"]["psnr_db"]);
+    EXPECT_EQ(nlohmann::ordered_json::parse(evaluated.out)["mean"]["psnr_db"],
+              json["test"]["psnr_db"]);
   } else {
     EXPECT_EQ(evaluated.exit_code, 4) << evaluated.err;
     EXPECT_EQ(json["test"]["drawn_by"], "trainer");

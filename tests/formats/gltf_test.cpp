@@ -74,7 +74,7 @@ class GlbBuilder {
   /// One triangle at (0,0,0) (1,0,0) (0,1,0).
   json& triangle() { return primitive({{"POSITION", floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, 3)}}); }
 
-  int texture(const Image8& image, json sampler = {}) {
+  int texture(const Image8& image, const json& sampler = {}) {
     const auto png = encode_png(image);
     document["images"].push_back(
         {{"bufferView", view(png.data(), png.size())}, {"mimeType", "image/png"}});

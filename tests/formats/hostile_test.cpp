@@ -590,24 +590,25 @@ std::string nested(int depth, char open, char close) {
 
 TEST(HostileJson, NestedDeeperThanOurLimitIsRefusedEverywhere) {
   for (const JsonReader& reader : json_readers)
-    for (const auto& [open, close] : {std::pair('[', ']'), std::pair('{', '}')}) {
+    for (const std::pair<char, char>& ends : {std::pair('[', ']'), std::pair('{', '}')}) {
       const TemporaryFolder folder;
       SCOPED_TRACE(reader.name);
+      const auto read = [&](int depth) {
+        return input_error(
+            [&] { reader.read(nested(depth, ends.first, ends.second), folder / ""); });
+      };
       for (const int depth : {64, 65, 1000, 1000000}) {
         within_bounds(
             default_max_memory,
             [&] {
-              EXPECT_THAT(
-                  input_error([&] { reader.read(nested(depth, open, close), folder / ""); }),
-                  // With the place: a log of lines names the line.
-                  AllOf(HasSubstr("JSON nested deeper than 64 levels"),
-                        AnyOf(HasSubstr("byte"), HasSubstr(".jsonl:1: "))));
+              // With the place: a log of lines names the line.
+              EXPECT_THAT(read(depth), AllOf(HasSubstr("JSON nested deeper than 64 levels"),
+                                             AnyOf(HasSubstr("byte"), HasSubstr(".jsonl:1: "))));
             },
             "depth");
       }
       // One less is not refused for its depth.
-      EXPECT_THAT(input_error([&] { reader.read(nested(63, open, close), folder / ""); }),
-                  ::testing::Not(HasSubstr("nested deeper")));
+      EXPECT_THAT(read(63), ::testing::Not(HasSubstr("nested deeper")));
     }
 }
 

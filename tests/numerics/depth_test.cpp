@@ -124,7 +124,7 @@ TEST(Numerics, D2_WinnersDoNotDependOnTheNearPlane) {
         trainer::kernels::for_each_fragment(
             view, trainer::kernels::project(view, &corners[3 * face].x), {0, 0, pixels, pixels},
             [&](const trainer::kernels::Fragment& f) {
-              const auto i = std::size_t(f.y * pixels + f.x);
+              const auto i = std::size_t(f.y) * pixels + f.x;
               const float key = published_key(1 / double(f.inverse_depth), near, 100);
               if (!(key < best[i])) return;
               best[i] = key;

@@ -139,7 +139,8 @@ TEST(Numerics, G2_NeedlesThatShareEdgesCoverEveryCentreOnce) {
     const double aspect = std::pow(10.0, exponent), width = length / aspect;
     const int needles = 2 * std::min(500, int(120 / width));
     std::vector<double> places = {-150};
-    for (int i = 0; i <= needles; ++i) places.push_back(width * (i - needles / 2));
+    const int middle = needles / 2;
+    for (int i = 0; i <= needles; ++i) places.push_back(width * (i - middle));
     places.push_back(150);
     std::vector<glm::vec3> corners;
     for (std::size_t i = 0; i + 1 < places.size(); ++i)
@@ -157,7 +158,7 @@ TEST(Numerics, G2_NeedlesThatShareEdgesCoverEveryCentreOnce) {
       count.resize(side * side);
       const oracle::Rays rays(soup, glm::dvec3(0), camera, {.coverage = coverage});
       rays.visit_faces(
-          0, side, [&](int x, int y, const oracle::Hit&) { ++count[std::size_t(y * side + x)]; });
+          0, side, [&](int x, int y, const oracle::Hit&) { ++count[std::size_t(y) * side + x]; });
     }
     Inspector inspector(shared_context(), soup, glm::dvec3(0));
     inspector.show(Inspection::overdraw);
@@ -168,7 +169,7 @@ TEST(Numerics, G2_NeedlesThatShareEdgesCoverEveryCentreOnce) {
       trainer::kernels::for_each_fragment(view, trainer::kernels::project(view, &corners[t].x),
                                           {0, 0, side, side},
                                           [&](const trainer::kernels::Fragment& f) {
-                                            ++in_trainer[std::size_t(f.y * side + f.x)];
+                                            ++in_trainer[std::size_t(f.y) * side + f.x];
                                           });
       glm::vec3 p[3];
       for (std::size_t k = 0; k < 3; ++k) p[k] = float_pixel(camera, corners[t + k]);
@@ -177,7 +178,7 @@ TEST(Numerics, G2_NeedlesThatShareEdgesCoverEveryCentreOnce) {
           bool inside = true;
           for (int k = 0; k < 3 && inside; ++k)
             inside = float_edge(p[k], p[(k + 1) % 3], float(x) + 0.5f, float(y) + 0.5f) <= 0;
-          in_floats[std::size_t(y * side + x)] += inside;
+          in_floats[std::size_t(y) * side + x] += inside;
         }
     }
     double wrong[5] = {};
@@ -186,7 +187,7 @@ TEST(Numerics, G2_NeedlesThatShareEdgesCoverEveryCentreOnce) {
       for (int x = 0; x < side; ++x) {
         if (!well_within(x + 0.5, y + 0.5)) continue;
         ++within;
-        const auto i = std::size_t(y * side + x);
+        const auto i = std::size_t(y) * side + x;
         wrong[0] += counts[0][i] != 1;
         wrong[1] += counts[1][i] != 1;
         wrong[2] += on_device[i] != 1;
@@ -400,7 +401,7 @@ TEST(Numerics, G7_TrianglesBelowAPixelKeepTheirShareOfTheLight) {
   constexpr int side = 512;
   for (const double pixels : {0.5, 1.0, 2.0, 4.0}) {
     // At a quarter of the size they are so large.
-    const int cells = int(side / 4 / pixels);
+    const int cells = int(side / (4 * pixels));
     std::vector<glm::vec3> corners;
     for (int y = 0; y < cells; ++y)
       for (int x = 0; x < cells; ++x) {

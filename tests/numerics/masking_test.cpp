@@ -136,7 +136,7 @@ TEST(Numerics, S3_DrawsDoNotDependOnTheOrderOfFragments) {
         trainer::kernels::for_each_fragment(
             forwards.view, forwards.projected[face], {0, 0, side, side},
             [&](const trainer::kernels::Fragment& f) {
-              const auto at = std::size_t(f.y * side + f.x);
+              const auto at = std::size_t(f.y) * side + f.x;
               if (!generator.chance(0.5) || f.inverse_depth <= nearest[at]) return;
               nearest[at] = f.inverse_depth;
               shown[at] = face;

@@ -286,7 +286,8 @@ TEST(Numerics, O7_FlatPicturesHaveNoNegativeVariance) {
             for (int i = 0; i < 11; ++i) {
               const auto w = float(trainer::ssim_weight(std::abs(i - 5)) *
                                    trainer::ssim_weight(std::abs(j - 5)));
-              const std::size_t at = std::size_t((c * side + y + j) * side + x + i);
+              const int row = c * side + y + j;
+              const std::size_t at = std::size_t(row) * side + x + i;
               const float p = rendered[at], q = float(target[at]) / 255;
               a += w * p, b += w * q, aa += w * p * p, bb += w * q * q, ab += w * p * q;
             }

@@ -44,7 +44,7 @@ class Recorder {
  public:
   explicit Recorder(Case what);
   /// Asserts that the naive form failed, where there is one, and writes the file.
-  ~Recorder();
+  ~Recorder();  // NOLINT(bugprone-exception-escape), see there
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 

@@ -371,13 +371,17 @@ TEST(Numerics, T8_IndicesBecomeCoordinatesAgain) {
 TriangleSoup grey_ramp(Kind kind) {
   std::vector<glm::vec3> corners;
   for (int g = 0; g < 256; ++g) {
+    const int row = g / 16;
     const auto at = [&](int x, int y) {
-      return glm::vec3((g % 16 + x) / 16.0 - 0.5, 0.5 - (g / 16 + y) / 16.0, -1);
+      return glm::vec3((g % 16 + x) / 16.0 - 0.5, 0.5 - (row + y) / 16.0, -1);
     };
     corners.insert(corners.end(), {at(0, 0), at(0, 1), at(1, 1), at(0, 0), at(1, 1), at(1, 0)});
   }
   TriangleSoup soup = soup_of(corners);
-  const auto grey = [](std::size_t face) { return float(face / 2) / 255; };
+  const auto grey = [](std::size_t face) {
+    const std::size_t pair = face / 2;
+    return float(pair) / 255;
+  };
   if (kind == Kind::face_colors) {
     for (std::size_t t = 0; t < 512; ++t)
       std::get<FaceColors>(soup.appearance).rgba[t] = glm::vec4(glm::vec3(grey(t)), 1);

@@ -72,7 +72,7 @@ double rounding_bound(const ColorMlp& mlp, const Sample& sample) {
     for (int o = 0; o < layer.outputs; ++o) {
       double sum = layer.biases[std::size_t(o)], magnitude = std::abs(sum), through = 0;
       for (int i = 0; i < layer.inputs; ++i) {
-        const double w = layer.weights[std::size_t(o * layer.inputs + i)];
+        const double w = layer.weights[std::size_t(o) * layer.inputs + i];
         sum += w * x[std::size_t(i)];
         magnitude += std::abs(w) * (std::abs(x[std::size_t(i)]) + error[std::size_t(i)]);
         through += std::abs(w) * error[std::size_t(i)];
@@ -205,7 +205,7 @@ TEST(Numerics, M2_SaturatedSigmoidsHaveAGradient) {
     double ours = 0, naive = 0;
     for (const float bias : {-size, size}) {
       trainer::MlpParameters mlp{}, gradient{};
-      for (int c = 0; c < 3; ++c) mlp[std::size_t(kernels::biases3 + c)] = bias;
+      for (int c = 0; c < 3; ++c) mlp[std::size_t(kernels::biases3) + c] = bias;
       kernels::NetworkState<float> state{};
       state.input[trainer::blend_channel] = 1;
       float color[3], by_features[kernels::features];
@@ -215,7 +215,7 @@ TEST(Numerics, M2_SaturatedSigmoidsHaveAGradient) {
       // Of e^-|x|, which does not overflow.
       const double e = std::exp(-std::abs(double(bias))), truth = e / ((1 + e) * (1 + e));
       for (int c = 0; c < 3; ++c) {
-        const double error = std::abs(double(gradient[std::size_t(kernels::biases3 + c)]) - truth);
+        const double error = std::abs(double(gradient[std::size_t(kernels::biases3) + c]) - truth);
         ours = std::isfinite(error) ? std::max(ours, error) : infinity;
       }
       for (const float g : gradient) ASSERT_TRUE(std::isfinite(g));

@@ -212,7 +212,8 @@ TEST(GlOracleSingle, CentresOnEdgesHaveTheSameOwner) {
   TriangleSoup soup;
   // Squares and diamonds with corners on centres, in both windings.
   for (int i = 0; i < 36; ++i) {
-    const double x = 2.5 + 10 * (i % 6), y = 2.5 + 10 * (i / 6);
+    const int row = i / 6;
+    const double x = 2.5 + 10 * (i % 6), y = 2.5 + 10 * row;
     const glm::dvec2 square[] = {{0, 0}, {7, 0}, {7, 7}, {0, 7}};
     const glm::dvec2 diamond[] = {{4, 0}, {8, 4}, {4, 8}, {0, 4}};
     const auto& shape = i % 2 ? square : diamond;

@@ -105,7 +105,7 @@ TEST(FineTexture, AlphaKeepsItsSideOfOneHalf) {
     TrainingState state;
     state.model = model;
     for (int texel = 0; texel < 3; ++texel)
-      state.model.logits[std::size_t(channels * texel + alpha_channel)] = logit;
+      state.model.logits[std::size_t(channels) * texel + alpha_channel] = logit;
     state.moments.reset_faces(state.model);
     backend->upload(state);
     return backend->visible_pixels({&views[0].camera, 1})[0] > 0;

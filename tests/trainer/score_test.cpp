@@ -207,7 +207,7 @@ TEST_P(ScoreThroughTheStep, HasTheDerivativeAsItsMean) {
             layer.texels[at.texels[j]] = faces.store.alpha[3 * face + at.texels[j]];
             layer.weights[at.texels[j]] = at.weights[j];
           }
-          stacks[std::size_t(f.y * side + f.x)].layers.push_back(layer);
+          stacks[std::size_t(f.y) * side + f.x].layers.push_back(layer);
         });
   for (const Stack& stack : stacks) {
     ASSERT_EQ(stack.layers.size(), 3u);

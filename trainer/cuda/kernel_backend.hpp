@@ -59,6 +59,7 @@ class Buffer {
   template <class U>
   void upload(const std::vector<U>& values) {
     static_assert(sizeof(U) % sizeof(T) == 0);
+    // NOLINTNEXTLINE(bugprone-sizeof-expression): addresses are values like others here
     resize(values.size() * (sizeof(U) / sizeof(T)));
     if (size_) machine_.upload(data_, values.data(), size_ * sizeof(T));
   }

@@ -111,7 +111,7 @@ struct CompareWindows {
       shared.dissimilarity[at.thread] = local.dissimilarity;
     } else if (at.thread == 0) {
       double sum = 0;
-      for (unsigned t = 0; t < threads; ++t) sum += shared.dissimilarity[t];
+      for (const double own : shared.dissimilarity) sum += own;
       Atomics::add(sums[tile.index].dissimilarity, to_fixed(sum, loss_scale));
     }
   }

@@ -72,9 +72,9 @@ struct SumPieces {
       shared.sums[at.thread] = sum;
     } else if (phase == 1 && at.thread == 0) {
       std::uint64_t sum = 0;
-      for (unsigned i = 0; i < threads; ++i) {
-        const std::uint64_t own = shared.sums[i];
-        shared.sums[i] = sum;
+      for (std::uint64_t& before : shared.sums) {
+        const std::uint64_t own = before;
+        before = sum;
         sum += own;
       }
       first_piece[count] = sum;

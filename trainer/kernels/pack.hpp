@@ -14,11 +14,11 @@ namespace tureen::trainer::kernels {
 #if defined(__GNUC__) && !defined(__CUDACC__)
 
 inline constexpr int pack_lanes = 16;  // one register of AVX-512, two of AVX2, four of SSE
-typedef float Pack __attribute__((vector_size(sizeof(float) * pack_lanes)));
-typedef std::int32_t IntPack __attribute__((vector_size(sizeof(float) * pack_lanes)));
+using Pack __attribute__((vector_size(sizeof(float) * pack_lanes))) = float;
+using IntPack __attribute__((vector_size(sizeof(float) * pack_lanes))) = std::int32_t;
 
 /// The channels of one texel.
-typedef float TexelPack __attribute__((vector_size(sizeof(float) * channels)));
+using TexelPack __attribute__((vector_size(sizeof(float) * channels))) = float;
 
 TUREEN_HOST_DEVICE TexelPack load_texel(const float* values) {
   TexelPack result;
