@@ -178,7 +178,7 @@ std::optional<std::string> defect(const Checkpoint& checkpoint) {
     return fmt::format("step {} of {} is none", state.step, checkpoint.config.steps);
   if (!state.baseline.empty() && state.baseline.size() != pixels)
     return fmt::format("a baseline of {} pixels for views of {}", state.baseline.size(), pixels);
-  if (const auto reason = defect(state.model)) return reason;
+  if (auto reason = defect(state.model)) return reason;
   if (!state.errors.empty() && state.errors.size() != state.model.faces())
     return fmt::format("errors of {} faces for {}", state.errors.size(), state.model.faces());
   return defect(state.moments, state.model);

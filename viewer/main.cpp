@@ -110,6 +110,7 @@ int run(const Arguments& arguments) {
 
 }  // namespace tureen::viewer
 
+// NOLINTNEXTLINE(bugprone-exception-escape): without memory for a message there is none
 int main(int argc, char** argv) {
   using namespace tureen::viewer;
   CLI::App program("Shows trained triangle soups in a window.", "tureen view");

@@ -310,7 +310,7 @@ void CpuBackend::step_network(float rate, StepReport& report) {
 std::vector<std::uint64_t> CpuBackend::visible_pixels(std::span<const Camera> cameras) {
   std::vector<std::uint64_t> counts(state_.model.faces());
   // A few pictures at a time: they are counted and forgotten.
-  const std::size_t at_once = std::size_t(2 * pool_.threads());
+  const std::size_t at_once = 2 * std::size_t(pool_.threads());
   for (std::size_t begin = 0; begin < cameras.size(); begin += at_once) {
     std::vector<Picture> pictures(std::min(at_once, cameras.size() - begin));
     for (std::size_t i = 0; i < pictures.size(); ++i) prepare(pictures[i], cameras[begin + i]);
