@@ -1,4 +1,5 @@
 // `tureen convert`: a scene in another format.
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -30,10 +31,19 @@ struct Options {
 /// A folder, where no extension says otherwise.
 bool is_export(const fs::path& output) { return output.extension().empty(); }
 
+/// ".ply" would be a hidden folder, to the letter, which is not what anybody means.
+bool is_bare_extension(const fs::path& output) {
+  const std::string name = output.filename().string();
+  const auto formats = known_formats();
+  return name == ".html" || std::any_of(formats.begin(), formats.end(), [&](const FormatInfo& f) {
+           return std::count(f.read_extensions.begin(), f.read_extensions.end(), name) > 0;
+         });
+}
+
 void require_known_extension(const fs::path& output) {
   if (is_scene_page(output)) return;
-  if (output.filename() == ".html")
-    throw UsageError("'.html' is an extension without a name before it");
+  if (is_bare_extension(output))
+    throw UsageError("'" + output.string() + "' is an extension without a name before it");
   try {
     require_written_format(output);
   } catch (const UsageError& error) {

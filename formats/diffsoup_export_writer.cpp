@@ -1,18 +1,10 @@
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cassert>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <utility>
-
-#ifdef _WIN32
-#include <process.h>
-#define getpid _getpid
-#else
-#include <unistd.h>
-#endif
 
 #include "formats/diffsoup_export.hpp"
 #include "formats/diffsoup_mesh.hpp"
@@ -196,9 +188,7 @@ class NewFolder {
 #ifndef __EMSCRIPTEN__  // where there are no links
     path_ = writable_folder(path_);
 #endif
-    static std::atomic<unsigned> counter{0};
-    temporary_ = path_;
-    temporary_ += ".tmp" + std::to_string(getpid()) + "-" + std::to_string(counter++);
+    temporary_ = temporary_beside(path_);
     check(fs::create_directory(temporary_, error), "cannot be created", error);
   }
   NewFolder(const NewFolder&) = delete;

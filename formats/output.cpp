@@ -1,6 +1,5 @@
 #include "formats/output.hpp"
 
-#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <string>
@@ -8,12 +7,8 @@
 
 #include "formats/output_path.hpp"
 
-#ifdef _WIN32
-#include <process.h>
-#define getpid _getpid
-#else
+#ifndef _WIN32
 #include <fcntl.h>
-#include <unistd.h>
 #endif
 
 namespace tureen {
@@ -40,9 +35,7 @@ Output::Output(std::filesystem::path path) : path_(std::move(path)) {
 #ifndef __EMSCRIPTEN__  // whose files have no links, no permissions and no devices among them
   path_ = writable_file(path_);
 #endif
-  static std::atomic<unsigned> counter{0};
-  temporary_ = path_;
-  temporary_ += ".tmp" + std::to_string(getpid()) + "-" + std::to_string(counter++);
+  temporary_ = temporary_beside(path_);
   file_ = std::fopen(temporary_.c_str(), "wb");
   const int reason = errno;
   std::error_code none;

@@ -1,11 +1,14 @@
 #include "formats/output_path.hpp"
 
+#include <atomic>
 #include <string>
 
 #include "soup/error.hpp"
 
 #ifdef _WIN32
 #include <io.h>
+#include <process.h>
+#define getpid _getpid
 #else
 #include <fcntl.h>
 #include <unistd.h>
@@ -61,6 +64,13 @@ fs::path writable_folder(const fs::path& path) {
   if (fs::is_directory(path, error) && !may_write(path))
     throw OutputError({path.string(), {}, {}}, "cannot be replaced: it is write-protected");
   return followed(path);
+}
+
+fs::path temporary_beside(const fs::path& path) {
+  static std::atomic<unsigned> counter{0};
+  fs::path name = path;
+  name += ".tmp" + std::to_string(getpid()) + "-" + std::to_string(counter++);
+  return name;
 }
 
 }  // namespace tureen

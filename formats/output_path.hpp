@@ -19,4 +19,8 @@ std::filesystem::path writable_file(const std::filesystem::path& path);
 /// where one lies there that may not be written.
 std::filesystem::path writable_folder(const std::filesystem::path& path);
 
+/// A name beside `path` that no other output of this process or of another has: what is written
+/// there takes the name `path` when it is whole.
+std::filesystem::path temporary_beside(const std::filesystem::path& path);
+
 }  // namespace tureen

@@ -149,10 +149,6 @@ const Format& format_to_write(const std::filesystem::path& path) {
   const std::string extension = extension_of(path);
   // Its bytes would lie in a second file, which is what a GLB is there to avoid.
   if (extension == ".gltf") throw UsageError("glTF is written as .glb only");
-  // A hidden folder, to the letter, which is not what anybody means.
-  for (const Format& format : formats())
-    if (const std::string name = path.filename().string(); contains(format.read_extensions, name))
-      throw UsageError("'" + name + "' is an extension without a name before it");
   for (const Format& format : formats())
     if (format.write &&
         (extension.empty() ? format.is_folder : contains(format.written_extensions, extension)))

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cassert>
 #include <cctype>
 #include <cerrno>
@@ -120,9 +119,7 @@ VideoFile::VideoFile(fs::path path, const Format& format)
   std::error_code error;
   if (!folder.empty() && !fs::is_directory(folder, error))
     throw OutputError({path_.string(), {}, {}}, "there is no folder " + folder.string());
-  static std::atomic<unsigned> counter{0};
-  temporary_ = target_;
-  temporary_ += ".tmp" + std::to_string(getpid()) + "-" + std::to_string(counter++);
+  temporary_ = temporary_beside(target_);
   bytes_.resize(std::size_t(3) * even(format.width) * even(format.height));
   start();
 }
