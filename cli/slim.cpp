@@ -10,6 +10,7 @@
 #include "runtime/renderer.hpp"
 #include "soup/error.hpp"
 #include "soup/feature_sensitivity.hpp"
+#include "soup/lattice_levels.hpp"
 
 namespace tureen::cli {
 
@@ -88,6 +89,14 @@ Kept keep_seen(const TriangleSoup& soup, const std::vector<std::uint64_t>& pixel
   return kept;
 }
 
+/// Each face at the smallest level that says the same to half a step of 8 bits. What a finer level
+/// would say is coded as nothing anyway; without it there are fewer texels to decode and to draw.
+void lower_levels(TriangleSoup& soup) {
+  auto& texture = std::get<LatticeTexture>(soup.appearance);
+  const LevelProgress interrupted = [](double) { throw_if_interrupted(); };
+  texture = at_levels(texture, smallest_levels(texture, {}, interrupted), interrupted);
+}
+
 /// The faces to keep, with the pixels that each has in the recorded views.
 Kept seen_faces(const gl::Context& context, const Scene& scene, bool all) {
   const auto& soup = std::get<TriangleSoup>(scene.primitives);
@@ -99,7 +108,9 @@ Kept seen_faces(const gl::Context& context, const Scene& scene, bool all) {
                      hemisphere(subject_of(scene), views_around, {.width = 800, .height = 600}));
     for (std::size_t t = 0; t < seen.size(); ++t) seen[t] = pixels[t] + around[t] > 0;
   }
-  return keep_seen(soup, pixels, seen);
+  Kept kept = keep_seen(soup, pixels, seen);
+  lower_levels(kept.soup);
+  return kept;
 }
 
 /// What does not change while the step does.

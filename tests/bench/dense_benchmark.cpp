@@ -54,11 +54,16 @@ void measure(const Scene& base, const Options& options) {
   const glm::vec4 black(0, 0, 0, 1);
   Renderer whole(context, soup, glm::dvec3(0),
                  {.plan = {.specialise = false}, .background = black});
+  const LeaveOutSet all_but = LeaveOutSet::all().without(LeaveOut::faces_between_pixels);
+  Renderer with_tiny(context, soup, glm::dvec3(0),
+                     {.plan = {.leave_out = all_but}, .background = black});
   Renderer ours(context, soup, glm::dvec3(0), {.background = black});
   const auto finish = [] { glFinish(); };
   const std::vector<Entrant> entrants = {
       {"plain", [&](const Camera& camera) { plain.draw(camera); }, finish},
       {"nothing left out", [&](const Camera& camera) { whole.draw(camera); }, finish},
+      {"our plan with faces between pixels", [&](const Camera& camera) { with_tiny.draw(camera); },
+       finish},
       {"our plan", [&](const Camera& camera) { ours.draw(camera); }, finish}};
   const auto cameras = views_around(soup, base.info.up, width, height);
   const BenchmarkResult result = run_benchmark(

@@ -10,6 +10,7 @@
 #include "formats/scene_file.hpp"
 #include "soup/error.hpp"
 #include "soup/lattice.hpp"
+#include "soup/lattice_levels.hpp"
 #include "support/random.hpp"
 
 namespace tureen::test {
@@ -37,26 +38,13 @@ std::size_t distinct_lattices(const LatticeTexture& texture) {
   return known.size();
 }
 
-/// Whether every second texel says it all, to half a step of each channel.
-bool fits_a_level_lower(const LatticeTexture& texture, const LatticePatch& patch) {
-  const int level = int(patch.level), n = lattice::resolution(level);
-  if (level == 0) return false;
-  for (std::uint32_t k = 0; k < lattice::texel_count(level); ++k) {
-    const auto [x, y] = lattice::texel_coordinates(k);
-    const auto at = lattice::footprint(level - 1, double(x) / n, double(y) / n);
-    for (int c = 0; c < LatticeTexture::channels; ++c) {
-      double value = 0;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const auto coarse = lattice::texel_coordinates(at.texels[i]);
-        value += at.weights[i] *
-                 double(texture.value(
-                     patch.first_texel + lattice::texel_index(2 * coarse.x, 2 * coarse.y), c));
-      }
-      if (std::abs(value - double(texture.value(patch.first_texel + k, c))) > half_step)
-        return false;
-    }
-  }
-  return true;
+/// Faces that a lower level says to half a step of each channel.
+std::size_t faces_that_fit_lower(const LatticeTexture& texture) {
+  const std::vector<std::uint8_t> levels = smallest_levels(texture);
+  std::size_t count = 0;
+  for (std::size_t t = 0; t < levels.size(); ++t)
+    count += levels[t] < texture.patches[t].level ? 1 : 0;
+  return count;
 }
 
 /// Of so many random texels those whose colour moves by at most a step over 256 directions.
@@ -89,13 +77,10 @@ void audit(const char* path) {
     return;
   }
   const std::size_t faces = texture->patches.size();
-  const auto lower =
-      std::count_if(texture->patches.begin(), texture->patches.end(),
-                    [&](const LatticePatch& patch) { return fits_a_level_lower(*texture, patch); });
   std::printf(
-      "%s: %zu faces, %zu of them with a lattice of their own (L4), %zu fit a level lower "
+      "%s: %zu faces, %zu of them with a lattice of their own (L4), %zu fit a lower level "
       "(L3)",
-      path, faces, distinct_lattices(*texture), std::size_t(lower));
+      path, faces, distinct_lattices(*texture), faces_that_fit_lower(*texture));
   if (texture->mlp && texture->texel_count() > 0) {
     constexpr std::size_t samples = 4000;
     std::printf("; %zu of %zu texels view-independent (M3)",

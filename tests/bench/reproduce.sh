@@ -4,7 +4,7 @@
 set -uo pipefail
 
 bin=build/release/bin out=build/bench data=../shared/data
-usual_parts=(load frames leave_out growth tradeoff agreement step browser)
+usual_parts=(load frames leave_out growth tradeoff slim agreement step browser)
 all_parts=("${usual_parts[@]}" training)
 quick='' processor='' check='' ficus='' fox='' photographs='' lego='' bottle=''
 parts=() done_parts=() skipped=() failed=()
@@ -20,6 +20,7 @@ Measures and writes tables, plots and pages into build/bench; without a PART all
   leave_out   what each thing that a plan leaves out gains
   growth      the time of a frame against triangles, pixels and overdraw, and its model
   tradeoff    tureen tradeoff: error against run time, on every scene there is and over all of them
+  slim        what tureen convert --slim makes of every soup there is
   agreement   how well GL agrees with the oracle
   step        what a training step costs
   browser     bench.html in Chromium on two rasterisers, memory, and how long the first picture takes
@@ -27,7 +28,7 @@ Measures and writes tables, plots and pages into build/bench; without a PART all
 
   --quick        everything small: whether it works, not a measurement
   --processor-time
-                 frames, leave_out and growth by the processor time of all threads instead of the time
+                 frames, leave_out, growth and tradeoff by the processor time of all threads instead of the time
                  that passed: ratios on a busy machine, without a GPU (leave_out does so by itself there)
   --ficus SOUP   a soup of 2D Triangle Splatting; ../shared/data/soups/ficus_2dts.off where it is there
   --fox SOUP     a soup trained from photographs (docs/benchmarks.md, Photographs)
@@ -162,6 +163,7 @@ measure_stages() {
   for i in "${!scene_names[@]}"; do
     [[ ${scene_names[i]} != ficus ]] || continue # shaded forward
     options=(--cameras hemisphere:4 --rounds 2 --seconds 30)
+    [[ ${scene_names[i]} != cloud-* ]] || options[1]=${scene_paths[i]}
     [[ -z $quick ]] || options=(--size 160x90 --rounds 1 --seconds 1)
     options+=(--only "tureen-fragment,tureen-compute")
     [[ -z $processor ]] || options+=(--processor-time)
@@ -177,6 +179,8 @@ part_leave_out() {
   done
   [[ -z $quick ]] || options=(--rounds 1 --width 160 --height 90)
   measure leave_out "$bin/leave_out_benchmark" "${scenes[@]}" "${options[@]}"
+  [[ ! -e $out/training/lego.glb ]] || scenes+=("$out/training/lego.glb")
+  measure leave_out_counts "$bin/leave_out_audit" "${scenes[@]}"
 }
 
 part_growth() {
@@ -192,7 +196,7 @@ part_tradeoff() {
     [[ $name != cloud-* ]] || continue # a random network: its errors say nothing about scenes
     [[ $name != fox || -z $photographs ]] || options=("$photographs" --scale 0.25)
     measure "tradeoff-$name" "$bin/tureen" tradeoff "${scene_paths[i]}" "${options[@]}" \
-      ${quick:+--quick} -o "$out/tradeoff-$name" || continue
+      ${quick:+--quick} ${processor:+--processor-time} -o "$out/tradeoff-$name" || continue
     imports+=(--import "$out/tradeoff-$name/tradeoff.json")
   done
   if ((${#imports[@]} < 4)); then
@@ -200,6 +204,31 @@ part_tradeoff() {
     return
   fi
   measure tradeoff-scenes "$bin/tureen" tradeoff "${imports[@]}" -o "$out/tradeoff-scenes"
+}
+
+# slim NAME SOUP OPTION..: a slim file of it.
+slim() {
+  local name=$1 soup=$2
+  shift 2
+  measure "slim-$name" "$bin/tureen" convert "$soup" "$out/slim/$name.glb" --slim --force "$@"
+}
+
+part_slim() {
+  mkdir -p "$out/slim"
+  local lego_soup=$out/training/lego.glb
+  slim example examples/soup.glb
+  make_example_photographs && slim example-photographs examples/soup.glb --photographs "$example_photographs"
+  if [[ -z $fox ]]; then
+    skip "slim: the fox soup"
+  elif [[ $photographs ]]; then
+    slim fox-photographs "$fox" --photographs "$photographs" --scale 0.25
+  fi
+  if [[ ! -e $lego_soup ]]; then
+    skip "slim: the lego soup, which the part training leaves"
+    return
+  fi
+  slim lego "$lego_soup"
+  [[ -z $lego ]] || slim lego-photographs "$lego_soup" --photographs "$lego" --scale 0.5
 }
 
 # Properties that tests recorded, from GoogleTest's XML: a table's row for each.
@@ -236,6 +265,16 @@ part_browser() {
   measure browser node tests/bench/browser_benchmark.mjs "$out/browser" "$cloud" examples/soup.glb ${quick:+--quick}
   for file in "$out"/browser/*.json; do imports+=(--import "$file"); done
   measure browser-tables "$bin/tureen" bench "${imports[@]}" -o "$out/browser/tables"
+}
+
+# Of what the example was trained on, from another renderer; once.
+make_example_photographs() {
+  local views=(--views 90 --test-views 10 --strata 4)
+  [[ -z $quick ]] || views=(--views 9 --test-views 1 --strata 1)
+  [[ -e $example_photographs.made ]] && return
+  rm -rf "$example_photographs"
+  measure example-photographs "$bin/make_photographs" "$example_photographs" "${views[@]}" &&
+    touch "$example_photographs.made"
 }
 
 # steps N: so many, or few.
@@ -278,8 +317,6 @@ END
 }
 
 part_training() {
-  local views=(--views 90 --test-views 10 --strata 4)
-  [[ -z $quick ]] || views=(--views 9 --test-views 1 --strata 1)
   mkdir -p "$out/training"
   if train fox "$photographs" --scale 0.25 --steps "$(steps 10000)"; then
     evaluate fox "$photographs" --scale 0.25
@@ -287,13 +324,14 @@ part_training() {
   fi
   train bottle "$bottle" --scale 0.5 --steps "$(steps 1500)"
   train lego "$lego" --scale 0.5 --steps "$(steps 10000)" && evaluate lego "$lego" --scale 0.5
-  measure train-example-photographs "$bin/make_photographs" "$out/training/photographs" "${views[@]}" &&
-    train example "$out/training/photographs" --config examples/training.json --steps "$(steps 3000)" &&
-    evaluate example "$out/training/photographs"
+  make_example_photographs &&
+    train example "$example_photographs" --config examples/training.json --steps "$(steps 3000)" &&
+    evaluate example "$example_photographs"
   train_ablations
 }
 
 mkdir -p "$out/scenes"
+example_photographs=$out/photographs${quick:+-quick}
 [[ " ${parts[*]} " != *" training "* ]] || part_training
 case " ${parts[*]} " in
   *" frames "* | *" leave_out "* | *" tradeoff "*) find_scenes ;;

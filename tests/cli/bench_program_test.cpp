@@ -6,7 +6,7 @@
 #include <csignal>
 #include <thread>
 
-#include "cli/program_fixture.hpp"
+#include "cli/photographs_fixture.hpp"
 #include "support/schema.hpp"
 
 namespace tureen {
@@ -20,7 +20,7 @@ using testing::Not;
 
 const std::string example = TUREEN_SOURCE_DIR "/examples/soup.glb";
 
-class Bench : public test::Program {
+class Bench : public test::ProgramWithPhotographs {
  protected:
   /// One round of two small views of the example, and what is added.
   ChildResult bench(std::vector<std::string> more = {}) const {
@@ -182,6 +182,20 @@ TEST_F(Bench, RecordedCamerasComeInFullHalfAndQuarter) {
     EXPECT_EQ(each["width"], full["width"].get<int>() / 4);
     EXPECT_EQ(each["height"], full["height"].get<int>() / 4);
   }
+}
+
+TEST_F(Bench, ADatasetGivesItsCamerasAndTheirSizes) {
+  photograph(example);
+  const ChildResult result = run({"bench", example, "data", "--sizes", "full,half", "--only",
+                                  "tureen", "--context", "osmesa", "--rounds", "1", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_THAT(all(json["measurements"], "size"), ElementsAre("half", "full"));
+  const auto& half = json["measurements"][0];
+  const auto& full = json["measurements"][1];
+  EXPECT_EQ(full["width"], width);
+  EXPECT_EQ(half["height"], height / 2);
+  EXPECT_EQ(full["views"], 2);  // those to test
 }
 
 struct Refusal {

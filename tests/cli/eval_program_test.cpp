@@ -4,10 +4,8 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <glm/matrix.hpp>
 
-#include "cli/program_fixture.hpp"
-#include "soup/camera.hpp"
+#include "cli/photographs_fixture.hpp"
 
 namespace tureen {
 namespace {
@@ -19,41 +17,8 @@ using testing::IsEmpty;
 
 const std::string example = TUREEN_SOURCE_DIR "/examples/soup.glb";
 
-class Eval : public test::Program {
+class Eval : public test::ProgramWithPhotographs {
  protected:
-  static constexpr int width = 64, height = 48;
-
-  static nlohmann::json frame(const std::string& file, glm::dvec3 eye) {
-    const Camera camera = look_at(eye, {0, 0, 0}, {0, 0, 1}, 0.8, width, height);
-    const glm::dmat4 world_from_view = glm::inverse(camera.view_from_world);
-    nlohmann::json rows = nlohmann::json::array();
-    for (int row = 0; row < 4; ++row)
-      rows.push_back({world_from_view[0][row], world_from_view[1][row], world_from_view[2][row],
-                      world_from_view[3][row]});
-    return {{"file_path", file}, {"transform_matrix", rows}};
-  }
-
-  /// NeRF-synthetic: two views to test, one to train. Their pictures are drawn by the program.
-  void make_dataset() const {
-    std::filesystem::create_directories(folder / "data/test");
-    std::filesystem::create_directories(folder / "data/train");
-    const Camera camera = look_at({3, 0, 1}, {0, 0, 0}, {0, 0, 1}, 0.8, width, height);
-    nlohmann::json test{{"fl_x", camera.fx}, {"fl_y", camera.fy}, {"cx", camera.cx},
-                        {"cy", camera.cy},   {"w", width},        {"h", height}};
-    nlohmann::json train = test;
-    test["frames"] = {frame("test/r_0.png", {3, 0, 1}), frame("test/r_1.png", {0, -3, 0.5})};
-    train["frames"] = {frame("train/r_0.png", {-2, 2, 1})};
-    write("data/transforms_test.json", test.dump());
-    write("data/transforms_train.json", train.dump());
-    for (const char* split : {"test", "train"}) {
-      const std::string which = std::string("data/transforms_") + split + ".json:all";
-      const ChildResult drawn =
-          run({"render", example, "--camera", which, "-o",
-               std::string("data/") + split + "/r_%d.png", "--context", "osmesa"});
-      ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
-    }
-    ASSERT_TRUE(exists("data/test/r_1.png"));
-  }
   ChildResult eval(std::vector<std::string> more = {}) const {
     std::vector<std::string> arguments{"eval", example, "data", "--context", "osmesa", "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -62,7 +27,7 @@ class Eval : public test::Program {
 };
 
 TEST_F(Eval, TheScenesOwnPicturesAreMetExactly) {
-  make_dataset();
+  photograph(example);
   const ChildResult result = eval({"-o", "views"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto json = nlohmann::ordered_json::parse(result.out);
@@ -93,7 +58,7 @@ TEST_F(Eval, TheScenesOwnPicturesAreMetExactly) {
 }
 
 TEST_F(Eval, AKnownErrorHasItsDecibels) {
-  make_dataset();
+  photograph(example);
   Image8 photograph = read_png("data/test/r_0.png");
   for (glm::u8vec4& pixel : photograph.pixels) pixel.r ^= 8;  // 8 more or less, never clamped
   write_png("data/test/r_0.png", photograph);
@@ -107,7 +72,7 @@ TEST_F(Eval, AKnownErrorHasItsDecibels) {
 }
 
 TEST_F(Eval, TakesTheSplitTheScaleAndTheBackground) {
-  make_dataset();
+  photograph(example);
   const auto train = nlohmann::json::parse(eval({"--split", "train", "--no-flip"}).out);
   ASSERT_EQ(train["views"].size(), 1u);
   EXPECT_EQ(train["views"][0]["name"], "train/r_0.png");
@@ -135,7 +100,7 @@ TEST_F(Eval, TakesTheSplitTheScaleAndTheBackground) {
 }
 
 TEST_F(Eval, ExitCodesSayWhoIsToBlame) {
-  make_dataset();
+  photograph(example);
   const auto expect = [&](const std::vector<std::string>& arguments, int code,
                           const std::string& words) {
     const ChildResult result = run(arguments);
@@ -162,7 +127,7 @@ TEST_F(Eval, ExitCodesSayWhoIsToBlame) {
 }
 
 TEST_F(Eval, DoesNotReplaceThePhotographsOfTheDataset) {
-  make_dataset();
+  photograph(example);
   std::filesystem::copy_file(folder / "data/test/r_0.png", folder / "data/test_r_0.png");
   const ChildResult refused = eval({"-o", "data"});
   EXPECT_EQ(refused.exit_code, 2);
@@ -174,7 +139,7 @@ TEST_F(Eval, DoesNotReplaceThePhotographsOfTheDataset) {
 }
 
 TEST_F(Eval, WithoutAContextItSaysSo) {
-  make_dataset();
+  photograph(example);
   // The loader of EGL drivers finds none.
   ::setenv("__EGL_VENDOR_LIBRARY_FILENAMES", (folder / "none.json").c_str(), 1);
   const ChildResult result = run({"eval", example, "data", "--context", "egl", "-o", "views"});

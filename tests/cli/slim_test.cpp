@@ -89,6 +89,28 @@ TEST(Slim, LeavesOutWhatNoViewSees) {
   EXPECT_EQ(slim(scene, {.max_loss_db = 1, .photographs = photographs}).unseen, 0u);
 }
 
+TEST(Slim, FacesOfOneColorHaveOneTexelACorner) {
+  Scene scene = part_of_the_example(40);
+  auto& texture = std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance);
+  auto& texels = std::get<std::vector<std::uint8_t>>(texture.texels);
+  constexpr std::size_t channels = LatticeTexture::channels;
+  const std::size_t plain = 20;
+  std::vector<std::uint32_t> level;
+  for (std::size_t t = 0; t < texture.patches.size(); ++t) {
+    const LatticePatch& patch = texture.patches[t];
+    ASSERT_GT(patch.level, 0u);
+    level.push_back(t < plain ? 0 : patch.level);
+    const auto first = texels.begin() + std::ptrdiff_t(patch.first_texel * channels);
+    for (std::size_t i = 0; t < plain && i < lattice::texel_count(int(patch.level)); ++i)
+      std::copy_n(first, channels, first + std::ptrdiff_t(i * channels));
+  }
+  const SlimResult result = slim(scene, {.max_loss_db = 0.1, .keep_unseen = true});
+  const TriangleSoup decoded = decode_slim(result.soup, result.kept);
+  for (std::size_t t = 0; t < level.size(); ++t)
+    EXPECT_EQ(std::get<LatticeTexture>(decoded.appearance).patches[t].level, level[t]) << t;
+  EXPECT_LE(result.loss.db, 0.1);
+}
+
 TEST(Slim, RefusesWhatItCannotHold) {
   Scene scene = part_of_the_example(2);
   std::get<TriangleSoup>(scene.primitives).appearance = FaceColors{{glm::vec4(1), glm::vec4(1)}};

@@ -5,7 +5,7 @@
 #include <csignal>
 #include <thread>
 
-#include "cli/program_fixture.hpp"
+#include "cli/photographs_fixture.hpp"
 #include "formats/scene_file.hpp"
 #include "support/random_soups.hpp"
 #include "support/schema.hpp"
@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-class Tradeoff : public test::Program {
+class Tradeoff : public test::ProgramWithPhotographs {
  protected:
   void write_soup() const {
     Scene scene;
@@ -78,6 +78,31 @@ TEST_F(Tradeoff, MeasuresWritesAndKeepsTheChoice) {
   const ChildResult drawn =
       run({"render", "fast.glb", "--size", "64x48", "--context", "osmesa", "--json"});
   ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+}
+
+// The photographs are the scene's own pictures: what draws it as it is meets them exactly.
+TEST_F(Tradeoff, PhotographsHaveAnErrorOfTheirOwn) {
+  write_soup();
+  photograph("soup.glb");
+  const ChildResult result =
+      run({"tradeoff", "soup.glb", "data", "--quick", "--context", "osmesa", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(test::schema_violations(json, "tradeoff.schema.json"), "");
+  EXPECT_EQ(json["e_model"]["photographs"], 2);
+  int faithful = 0, coarse = 0;
+  for (const auto& each : json["drawing"]["configurations"]) {
+    if (each["e_model"].is_null()) continue;  // the pictures of another one
+    if (each["name"] == "defaults") {
+      EXPECT_EQ(each["e_model"]["psnr_db"], 100);
+      ++faithful;
+    } else if (each["knobs"]["lattice_level"] == "0") {
+      EXPECT_LT(each["e_model"]["psnr_db"], 50) << each["name"];
+      ++coarse;
+    }
+  }
+  EXPECT_EQ(faithful, 1);
+  EXPECT_GT(coarse, 0);
 }
 
 TEST_F(Tradeoff, NeverOverwritesSilently) {

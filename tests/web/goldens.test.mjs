@@ -44,7 +44,7 @@ test('every look on llvmpipe', drawing(llvmpipe, async ({ load, picture }) => {
                await picture({ from: 0, width: 160, height: 120, look, features: { first: 4, count: 3 } }));
 }));
 
-// Folders bring no cameras; the program draws them from the same place.
+// Folders bring no cameras; the program draws from the same place.
 const radians = Math.PI / 180;
 const from = { eye: [1.6, -2.1, 1.2], target: [0.1, 0, 0.05], up: [0, 0, 1], fov: 50 * radians, roll: 0 };
 function drawnByProgram(scene) {
@@ -63,6 +63,13 @@ for (const name of ['diffsoup', 'mobilenerf']) {
     assertSame(name, drawnByProgram(folder), await picture({ from, width: 320, height: 240 }));
   }));
 }
+
+test('a slim file on llvmpipe', drawing(llvmpipe, async ({ load, picture }) => {
+  const slim = join(scenes, 'slim.glb');
+  execFileSync(join(programs, 'tureen'), ['convert', join(scenes, 'LatticeMlp.glb'), slim, '--slim'], { stdio: 'ignore' });
+  await load(scenes, ['slim.glb']);
+  assertSame('slim', drawnByProgram(slim), await picture({ from, width: 320, height: 240 }));
+}));
 
 // SwiftShader rounds the places of vertices and the weights of corners otherwise: pixels at edges show
 // the other side of the edge. On triangles of a few pixels that is 32 to 42 dB; a wrong appearance, a
