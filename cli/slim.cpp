@@ -1,9 +1,9 @@
 #include "cli/slim.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/matrix.hpp>
-#include <optional>
 
 #include "cli/interrupt.hpp"
 #include "runtime/camera_sets.hpp"
@@ -25,8 +25,9 @@ constexpr double geometry_share = 0.25;
 constexpr double least_step = 0.5, largest_step = 64;
 /// Halves the ratio of the two to 1.02: a step's bytes and loss follow within about as much.
 constexpr int bisections = 8;
-/// Alpha is seen only by where it reaches 1/2: 0, 85, 170, 255 do.
-constexpr std::uint8_t alpha_step = 85;
+/// Alpha is seen only by where it reaches 1/2: 0, 85, 170, 255 do for trained soups. Where alpha is
+/// about 1/2 everywhere, as before training, its edges take more; 1 keeps them as they are.
+constexpr std::array<std::uint8_t, 3> alpha_steps = {85, 17, 1};
 /// A dead zone: misses below two thirds of a step become none. Between 0.25 and 0.4 the bytes at
 /// the same loss differ by 1 % (15,000 triangles of lego).
 constexpr double rounding = 0.33;
@@ -134,7 +135,7 @@ class Coarseness {
     }
   }
 
-  SlimTexelOptions options(double step) const {
+  SlimTexelOptions options(double step, std::uint8_t alpha_step) const {
     return {.basis = basis(step),
             .feature_step = slim_fraction,
             .alpha_step = alpha_step,
@@ -179,29 +180,12 @@ class Search {
     result.model_db = judge_.model_db();
     result.views = judge_.views();
     find_bits(result);
-    double low = least_step, high = largest_step;
-    std::optional<SlimSoup> best;
-    for (int i = 0; i < bisections; ++i) {
-      progress();
-      // The finest is tried alone where everything else failed.
-      const double step = i + 1 == bisections && !best ? least_step : std::sqrt(low * high);
-      SlimSoup slim = encode_slim(
-          soup_, {.position_bits = result.position_bits, .texels = coarseness_.options(step)});
-      const SlimLoss loss = judge_.loss(decode_slim(slim, soup_));
-      if (loss.db > request_.max_loss_db) {
-        high = step;
-        continue;
-      }
-      low = step;
-      result.color_step = step;
-      result.loss = loss;
-      best = std::move(slim);
-    }
-    if (!best)
+    const bool found = std::any_of(alpha_steps.begin(), alpha_steps.end(),
+                                   [&](std::uint8_t alpha) { return find_step(result, alpha); });
+    if (!found)
       throw UsageError("a slim file of this scene loses more than the " +
                        std::to_string(request_.max_loss_db) +
                        " dB that are allowed, however fine its steps");
-    result.soup = std::move(*best);
     result.unseen = unseen_;
     result.seeing_views = views_.size() + views_around;
     result.kept = std::move(kept_.soup);
@@ -209,6 +193,30 @@ class Search {
   }
 
  private:
+  /// The largest step of colour that keeps within the bound; whether there is one.
+  bool find_step(SlimResult& result, std::uint8_t alpha_step) {
+    double low = least_step, high = largest_step;
+    bool found = false;
+    for (int i = 0; i < bisections; ++i) {
+      progress();
+      // The finest is tried alone where everything else failed.
+      const double step = i + 1 == bisections && !found ? least_step : std::sqrt(low * high);
+      SlimSoup slim = encode_slim(soup_, {.position_bits = result.position_bits,
+                                          .texels = coarseness_.options(step, alpha_step)});
+      const SlimLoss loss = judge_.loss(decode_slim(slim, soup_));
+      if (loss.db > request_.max_loss_db) {
+        high = step;
+        continue;
+      }
+      low = step;
+      found = true;
+      result.color_step = step;
+      result.loss = loss;
+      result.soup = std::move(slim);
+    }
+    return found;
+  }
+
   /// The texels as they are, on positions of so many bits.
   SlimLoss geometry_loss(int bits) {
     const auto bytes = encode_slim_geometry({soup_.positions, soup_.triangles}, bits);

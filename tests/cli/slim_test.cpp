@@ -7,6 +7,7 @@
 #include "formats/scene_file.hpp"
 #include "soup/error.hpp"
 #include "soup/lattice.hpp"
+#include "support/random.hpp"
 
 namespace tureen::cli {
 namespace {
@@ -109,6 +110,17 @@ TEST(Slim, FacesOfOneColorHaveOneTexelACorner) {
   for (std::size_t t = 0; t < level.size(); ++t)
     EXPECT_EQ(std::get<LatticeTexture>(decoded.appearance).patches[t].level, level[t]) << t;
   EXPECT_LE(result.loss.db, 0.1);
+}
+
+// As before training: edges lie anywhere, and coarse alphas would move them all.
+TEST(Slim, AlphasAroundTheThresholdAreKept) {
+  Scene scene = part_of_the_example(200);
+  auto& texture = std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance);
+  auto& texels = std::get<std::vector<std::uint8_t>>(texture.texels);
+  test::Random random(5);
+  for (std::size_t i = LatticeTexture::features; i < texels.size(); i += LatticeTexture::channels)
+    texels[i] = std::uint8_t(118 + random.below(20));
+  EXPECT_LE(slim(scene, {.max_loss_db = 0.1}).loss.db, 0.1);
 }
 
 TEST(Slim, RefusesWhatItCannotHold) {
