@@ -7,7 +7,6 @@
 
 #include "numerics/recorder.hpp"
 #include "numerics/scenes.hpp"
-#include "runtime/clip_range.hpp"
 #include "runtime/renderer.hpp"
 #include "trainer/kernels/fragments.hpp"
 #include "trainer/stages.hpp"
@@ -75,10 +74,8 @@ double catalogued_unit(double distance) {
   return a.unit * std::pow(b.unit / a.unit, t);
 }
 
-/// One unit of 24 bits, as the table has it for other near planes.
-double unit_of_fixed(double distance, const ClipRange& range) {
-  return distance * distance * (1 / range.near - 1 / range.far) * epsilon;
-}
+/// One unit of 24 bits, as the table has it for other near planes and a far plane far beyond.
+double unit_of_fixed(double distance, double near) { return distance * distance / near * epsilon; }
 
 TEST(Numerics, D1_TwoWallsAreToldApart) {
   const std::vector<double> reversed = least_gaps(true), fixed = least_gaps(false);
@@ -90,8 +87,7 @@ TEST(Numerics, D1_TwoWallsAreToldApart) {
   Recorder elsewhere({.stressed = "the same without clip control: 24 bits, as documented",
                       .parameter = "distance / units",
                       .unit = "least gap / units"});
-  const ClipRange range =
-      clip_range(bounds(two_walls(0, false)), {0, 0, 1}, {0, 0, -1}, DepthStorage::fixed_24);
+  const double documented_near = 1e-3 * bounds(two_walls(0, false)).radius();
   for (std::size_t i = 0; i < std::size(distances); ++i) {
     // Four units of depth, of which one lets two values differ at all and the others are roundings
     // of half a unit for each wall: of the corner less the eye, of the product, of the quotient.
@@ -103,7 +99,7 @@ TEST(Numerics, D1_TwoWallsAreToldApart) {
     // furthest.
     elsewhere.add({.at = distances[i],
                    .ours = fixed[i],
-                   .tolerance = 4 * unit_of_fixed(nudges[4] * distances[i], range)});
+                   .tolerance = 4 * unit_of_fixed(nudges[4] * distances[i], documented_near)});
   }
 }
 
