@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <string>
 
 #include "numerics/recorder.hpp"
 #include "numerics/scenes.hpp"
@@ -10,6 +11,7 @@
 #include "runtime/gl/program.hpp"
 #include "runtime/gl/state.hpp"
 #include "runtime/shader_source.hpp"
+#include "support/shader_probe.hpp"
 #include "trainer/cuda/device_picture.hpp"
 
 namespace tureen::test {
@@ -58,20 +60,49 @@ class NamedByDevice {
   gl::VertexArray nothing_ = gl::VertexArray::create();
 };
 
+/// The place of a face's first texel at level 0, as its appearance looks it up, counted again.
+class TexelOnDevice {
+ public:
+  std::uint64_t first_texel_of(std::uint32_t face) const {
+    // Numbers above 2^24 travel in halves of 16 bits.
+    const glm::vec4 place =
+        probe_.run({glm::vec4(float(face >> 16), float(face & 0xffffu), 0, 0)}).front();
+    return std::uint64_t(place.x) + (std::uint64_t(place.y) << row_bits) +
+           (std::uint64_t(place.z) << (row_bits + layer_bits));
+  }
+
+ private:
+  static constexpr int row_bits = 12, layer_bits = 9;
+
+  Probe probe_{shared_context().capabilities().api,
+               "#include \"appearance_lattice.glsl\"\n"
+               "vec4 probe(vec4 x) { uint face = uint(x.x) * 65536u + uint(x.y);"
+               " return vec4(vec3(texel_position(patch_of(face).first_texel)), 0.0); }",
+               {{"LATTICE_LEVEL", "0"},
+                {"LATENT_FEATURES", "0"},
+                {"ALPHA_BY_CELL", "0"},
+                {"LATTICE_HARMONICS", "0"},
+                {"COLOR_MLP", "0"},
+                {"ALPHA_THRESHOLD", "0.5"},
+                {"TEXEL_ROW_BITS", std::to_string(row_bits)},
+                {"TEXEL_LAYER_BITS", std::to_string(layer_bits)}}};
+};
+
 TEST(Numerics, T7b_FacesBeyondTwoToThe24KeepTheirNames) {
   Recorder recorder({.stressed = "the name of a face from its vertex to the picture: geometry.vert "
-                                 "with whole faces and with parts, visibility.frag; and in a key "
-                                 "of the trainer on a GPU",
+                                 "with whole faces and with parts, visibility.frag; on to its "
+                                 "texels at level 0; and in a key of the trainer on a GPU",
                      .parameter = "face",
-                     .unit = "of the three that name another face",
+                     .unit = "of the four that end at another face",
                      .naive = "names that pass through a float"});
   const NamedByDevice whole(false), parts(true);
+  const TexelOnDevice texel;
   // The last one that OpenGL counts the vertices of, too.
   for (const std::uint32_t face :
        {0u, (1u << 24) - 1, (1u << 24) + 1, (1u << 25) + 1, 0x7fffffffu / 3 - 1}) {
     const std::uint32_t in_key = trainer::cuda::face_of(trainer::cuda::visible_key(1.0f, face));
-    const double ours =
-        (whole.name_of(face) != face) + (parts.name_of(face) != face) + (in_key != face);
+    const double ours = (whole.name_of(face) != face) + (parts.name_of(face) != face) +
+                        (texel.first_texel_of(face) != 3 * std::uint64_t(face)) + (in_key != face);
     const double naive = std::uint32_t(float(face)) != face;
     recorder.add({.at = double(face), .naive = naive, .ours = ours, .tolerance = 0});
     EXPECT_EQ(naive > 0, face > 1u << 24) << face;
