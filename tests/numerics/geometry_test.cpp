@@ -404,7 +404,7 @@ TEST(Numerics, G7_TrianglesBelowAPixelKeepTheirShareOfTheLight) {
                      .unit = "relative change of the mean intensity at a quarter of the size",
                      .naive = "triangles of less than a pixel are dropped"});
   Random random(7);
-  constexpr int side = 512;
+  constexpr int side = 512, small = side / 4;
   for (const double pixels : {0.5, 1.0, 2.0, 4.0}) {
     // At a quarter of the size they are so large.
     const int cells = int(side / (4 * pixels));
@@ -423,10 +423,10 @@ TEST(Numerics, G7_TrianglesBelowAPixelKeepTheirShareOfTheLight) {
     const auto intensity = [](const TriangleSoup& of, int size) {
       return shown_pixels(faces_of_device(of, straight_camera(size, size, size))) / size / size;
     };
-    const double full = intensity(soup, side), quarter = intensity(soup, side / 4);
+    const double full = intensity(soup, side), quarter = intensity(soup, small);
     // Those whose box is less than a pixel wide or high become points, which show nothing.
     std::vector<glm::vec3> large = corners;
-    const Camera small_camera = straight_camera(side / 4, side / 4, side / 4);
+    const Camera small_camera = straight_camera(small, small, small);
     for (std::size_t t = 0; t < large.size(); t += 3) {
       glm::vec3 p[3];
       for (std::size_t k = 0; k < 3; ++k) p[k] = float_pixel(small_camera, large[t + k]);
@@ -434,7 +434,7 @@ TEST(Numerics, G7_TrianglesBelowAPixelKeepTheirShareOfTheLight) {
           glm::max(p[0], glm::max(p[1], p[2])) - glm::min(p[0], glm::min(p[1], p[2]));
       if (std::min(box.x, box.y) < 1) large[t + 1] = large[t + 2] = large[t];
     }
-    const double without_small = intensity(soup_of(large), side / 4);
+    const double without_small = intensity(soup_of(large), small);
     // A mean of 16384 samples of 0 or 1 has a deviation of 0.4 %, of a mean of one half 0.8 %: 2 %
     // are 2.6 deviations, and the seed is fixed.
     recorder.add({.at = pixels,

@@ -80,12 +80,14 @@ bool at_outline(const HazardousScene& scene, std::uint32_t face, glm::dvec2 plac
 double differing_away_from_outlines(const HazardousScene& scene,
                                     const std::vector<std::uint32_t>& expected,
                                     std::vector<std::uint32_t> drawn) {
-  for (std::size_t i = 0; i < drawn.size(); ++i) {
-    if (drawn[i] == expected[i]) continue;
-    const glm::dvec2 centre(double(i % width) + 0.5, double(i / width) + 0.5);
-    if (at_outline(scene, expected[i], centre) || at_outline(scene, drawn[i], centre))
-      drawn[i] = expected[i];
-  }
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const std::size_t i = std::size_t(y) * width + std::size_t(x);
+      const glm::dvec2 centre(x + 0.5, y + 0.5);
+      if (drawn[i] != expected[i] &&
+          (at_outline(scene, expected[i], centre) || at_outline(scene, drawn[i], centre)))
+        drawn[i] = expected[i];
+    }
   return differing_away_from_edges(expected, drawn, width, height);
 }
 
