@@ -7,7 +7,6 @@
 
 #include "numerics/recorder.hpp"
 #include "numerics/scenes.hpp"
-#include "runtime/clip_range.hpp"
 #include "runtime/renderer.hpp"
 #include "trainer/kernels/fragments.hpp"
 #include "trainer/stages.hpp"
@@ -34,6 +33,7 @@ TriangleSoup two_walls(float apart, bool rear_first) {
 }
 
 constexpr double distances[] = {1, 2, 5, 10, 20, 50};
+constexpr double nudges[] = {1.0, 1.037, 1.1, 1.21, 1.33};  // of each of them
 
 /// For each of the distances the least gap, in steps of a factor sqrt(2), from which on no pixel
 /// shows the rear wall, whichever comes first and wherever exactly the eye is.
@@ -46,7 +46,7 @@ std::vector<double> least_gaps(bool reversed) {
       Renderer renderer(shared_context(), two_walls(apart, rear_first), glm::dvec3(0),
                         {.plan = {.reversed_depth = reversed, .site = ShadingSite::deferred}});
       for (std::size_t i = 0; i < std::size(distances); ++i)
-        for (const double nudge : {1.0, 1.037, 1.1, 1.21, 1.33}) {
+        for (const double nudge : nudges) {
           Camera camera = straight_camera(side, side, side);
           camera.view_from_world[3] = glm::dvec4(0, 0, -distances[i] * nudge, 1);
           renderer.draw(camera);
@@ -60,6 +60,23 @@ std::vector<double> least_gaps(bool reversed) {
   return gaps;
 }
 
+/// The catalogue's table of what one unit of depth is in the world, reversed with the far plane far
+/// beyond (its row for 0.01 and 1e5): 9e-8 at 1, 1e-6 at 10, 4e-6 at 50, and between them a power
+/// of the distance.
+double catalogued_unit(double distance) {
+  struct Entry {
+    double distance, unit;
+  };
+  constexpr Entry table[] = {{1, 9e-8}, {10, 1e-6}, {50, 4e-6}};
+  const Entry& a = table[distance > 10 ? 1 : 0];
+  const Entry& b = table[distance > 10 ? 2 : 1];
+  const double t = std::log(distance / a.distance) / std::log(b.distance / a.distance);
+  return a.unit * std::pow(b.unit / a.unit, t);
+}
+
+/// One unit of 24 bits, as the table has it for other near planes and a far plane far beyond.
+double unit_of_fixed(double distance, double near) { return distance * distance / near * epsilon; }
+
 TEST(Numerics, D1_TwoWallsAreToldApart) {
   const std::vector<double> reversed = least_gaps(true), fixed = least_gaps(false);
   Recorder recorder({.stressed = "two walls one behind the other within a scene of radius 104: "
@@ -70,19 +87,19 @@ TEST(Numerics, D1_TwoWallsAreToldApart) {
   Recorder elsewhere({.stressed = "the same without clip control: 24 bits, as documented",
                       .parameter = "distance / units",
                       .unit = "least gap / units"});
-  const ClipRange range =
-      clip_range(bounds(two_walls(0, false)), {0, 0, 1}, {0, 0, -1}, DepthStorage::fixed_24);
+  const double documented_near = 1e-3 * bounds(two_walls(0, false)).radius();
   for (std::size_t i = 0; i < std::size(distances); ++i) {
     // Four units of depth, of which one lets two values differ at all and the others are roundings
     // of half a unit for each wall: of the corner less the eye, of the product, of the quotient.
-    const double z = 1.33 * distances[i];
     recorder.add({.at = distances[i],
                   .naive = fixed[i],
                   .ours = reversed[i],
-                  .tolerance = 4 * z * 2 * epsilon});
+                  .tolerance = 4 * catalogued_unit(distances[i])});
+    // Those of 24 bits grow with the square of the distance: they are taken where the eye is
+    // furthest.
     elsewhere.add({.at = distances[i],
                    .ours = fixed[i],
-                   .tolerance = 4 * z * z * (1 / range.near - 1 / range.far) * epsilon});
+                   .tolerance = 4 * unit_of_fixed(nudges[4] * distances[i], documented_near)});
   }
 }
 

@@ -1,0 +1,113 @@
+// Names of faces that floats do not hold: the row T7b. (What texels such a face has is T7.)
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+
+#include "numerics/recorder.hpp"
+#include "numerics/scenes.hpp"
+#include "runtime/fragment_store.hpp"
+#include "runtime/geometry.hpp"
+#include "runtime/gl/program.hpp"
+#include "runtime/gl/state.hpp"
+#include "runtime/shader_source.hpp"
+#include "support/shader_probe.hpp"
+#include "trainer/cuda/device_picture.hpp"
+
+namespace tureen::test {
+namespace {
+
+/// Draws one vertex as a point, the way faces are drawn, and reads which face it belongs to. There
+/// are no buffers, so that faces may be as many as they like: vertices are all at the origin.
+class NamedByDevice {
+ public:
+  explicit NamedByDevice(bool parts)
+      : parts_(parts),
+        program_(
+            assemble({.file = "geometry.vert", .constants = {{"PARTS", parts ? "1" : "0"}}}, api()),
+            assemble({.file = "visibility.frag",
+                      .constants = {{"ALPHA_TEST", "0"}},
+                      .generated = {{"appearance.glsl", ""}}},
+                     api())),
+        store_(FragmentStore::FeatureStorage::visibility, 1, 1, 0) {}
+
+  /// With parts of faces, `face` is the first one that has any and the vertex is its part's.
+  std::uint32_t name_of(std::uint32_t face) const {
+    Camera camera = straight_camera(1, 1, 1);
+    camera.view_from_world[3] = glm::dvec4(0, 0, -1, 1);
+    store_.begin();
+    gl::use_plain_rasterisation(1, 1);
+    glDisable(GL_DEPTH_TEST);
+    program_.use();
+    Geometry::set_camera(program_, {camera, camera.eye(), {0.01, 100}},
+                         clip_from_view_reversed(camera, 0.01));
+    if (parts_) program_.set("first_part", int(face));
+    glBindVertexArray(nothing_.id());
+    glDrawArrays(GL_POINTS, parts_ ? 0 : int(3 * face), 1);
+    glFinish();
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, store_.visibility_framebuffer());
+    std::uint32_t fragment[4] = {};
+    glReadPixels(0, 0, 1, 1, GL_RGBA_INTEGER, GL_UNSIGNED_INT, fragment);
+    return fragment[0];
+  }
+
+ private:
+  static gl::Api api() { return shared_context().capabilities().api; }
+
+  bool parts_;
+  gl::Program program_;
+  FragmentStore store_;
+  gl::VertexArray nothing_ = gl::VertexArray::create();
+};
+
+/// The place of a face's first texel at level 0, as its appearance looks it up, counted again.
+class TexelOnDevice {
+ public:
+  std::uint64_t first_texel_of(std::uint32_t face) const {
+    // Numbers above 2^24 travel in halves of 16 bits.
+    const glm::vec4 place =
+        probe_.run({glm::vec4(float(face >> 16), float(face & 0xffffu), 0, 0)}).front();
+    return std::uint64_t(place.x) + (std::uint64_t(place.y) << row_bits) +
+           (std::uint64_t(place.z) << (row_bits + layer_bits));
+  }
+
+ private:
+  static constexpr int row_bits = 12, layer_bits = 9;
+
+  Probe probe_{shared_context().capabilities().api,
+               "#include \"appearance_lattice.glsl\"\n"
+               "vec4 probe(vec4 x) { uint face = uint(x.x) * 65536u + uint(x.y);"
+               " return vec4(vec3(texel_position(patch_of(face).first_texel)), 0.0); }",
+               {{"LATTICE_LEVEL", "0"},
+                {"LATENT_FEATURES", "0"},
+                {"ALPHA_BY_CELL", "0"},
+                {"LATTICE_HARMONICS", "0"},
+                {"COLOR_MLP", "0"},
+                {"ALPHA_THRESHOLD", "0.5"},
+                {"TEXEL_ROW_BITS", std::to_string(row_bits)},
+                {"TEXEL_LAYER_BITS", std::to_string(layer_bits)}}};
+};
+
+TEST(Numerics, T7b_FacesBeyondTwoToThe24KeepTheirNames) {
+  Recorder recorder({.stressed = "the name of a face from its vertex to the picture: geometry.vert "
+                                 "with whole faces and with parts, visibility.frag; on to its "
+                                 "texels at level 0; and in a key of the trainer on a GPU",
+                     .parameter = "face",
+                     .unit = "of the four that end at another face",
+                     .naive = "names that pass through a float"});
+  const NamedByDevice whole(false), parts(true);
+  const TexelOnDevice texel;
+  // The last one that OpenGL counts the vertices of, too.
+  for (const std::uint32_t face :
+       {0u, (1u << 24) - 1, (1u << 24) + 1, (1u << 25) + 1, 0x7fffffffu / 3 - 1}) {
+    const std::uint32_t in_key = trainer::cuda::face_of(trainer::cuda::visible_key(1.0f, face));
+    const double ours = (whole.name_of(face) != face) + (parts.name_of(face) != face) +
+                        (texel.first_texel_of(face) != 3 * std::uint64_t(face)) + (in_key != face);
+    const double naive = std::uint32_t(float(face)) != face;
+    recorder.add({.at = double(face), .naive = naive, .ours = ours, .tolerance = 0});
+    EXPECT_EQ(naive > 0, face > 1u << 24) << face;
+  }
+}
+
+}  // namespace
+}  // namespace tureen::test

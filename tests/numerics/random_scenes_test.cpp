@@ -1,0 +1,162 @@
+// Random scenes that mix what can go wrong with geometry, drawn by all that draw: the row H10.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "numerics/recorder.hpp"
+#include "numerics/scenes.hpp"
+#include "soup/quantise.hpp"
+#include "soup/scene.hpp"
+#include "support/agreement.hpp"
+#include "support/hazardous_scenes.hpp"
+#include "trainer/backend.hpp"
+#include "trainer/stages.hpp"
+
+namespace tureen::test {
+namespace {
+
+constexpr int width = 240, height = 180;
+
+/// Before the nearest pixel of any of the scenes, as the oracle's is.
+constexpr float trained_near = 1e-6f;
+
+/// What the trainer draws of a model, its colours in 8 bits as the device has them.
+Drawn drawn_by_trainer(const trainer::Model& model, const Camera& camera) {
+  trainer::Config config;
+  config.near = trained_near;
+  std::ranges::fill(config.background, 0.0f);
+  trainer::TrainingState state;
+  state.model = model;
+  state.moments.reset_faces(model);
+  const auto backend = trainer::make_cpu_backend({}, config, 1);
+  backend->upload(state);
+  const std::vector<float> planes = backend->render(camera);
+  Drawn drawn{.color = Image8(width, height), .faces = {}};
+  const std::size_t pixels = drawn.color.pixels.size();
+  for (std::size_t i = 0; i < pixels; ++i)
+    drawn.color.pixels[i] =
+        glm::u8vec4(quantised_unit(planes[i]), quantised_unit(planes[pixels + i]),
+                    quantised_unit(planes[2 * pixels + i]), 255);
+  EXPECT_TRUE(std::ranges::all_of(planes, [](float value) { return std::isfinite(value); }));
+
+  trainer::test::Faces faces(model.positions, 0, model.max_level);
+  faces.model = model;
+  faces.refresh();
+  trainer::Picture picture = trainer::test::make_picture(camera);
+  picture.view = trainer::view_of(camera, model.origin, config.near, config.far);
+  faces.find(picture, trainer::Masking::threshold);
+  for (const trainer::VisiblePixel& pixel : picture.visible) drawn.faces.push_back(pixel.face);
+  return drawn;
+}
+
+/// Whether an edge of a face, or the line that goes on from it, passes within a pixel of a place.
+bool at_outline(const HazardousScene& scene, std::uint32_t face, glm::dvec2 place) {
+  if (face == no_face) return false;
+  const auto& [soup, origin, camera] = scene;
+  std::array<glm::dvec3, 3> corners;  // homogeneous: no division by a depth of 0
+  for (int k = 0; k < 3; ++k) {
+    const glm::dvec3 position(soup.positions[soup.triangles[face][k]]);
+    const glm::dvec3 view = camera.view_from_world * glm::dvec4(origin + position, 1);
+    corners[std::size_t(k)] = {camera.fx * view.x - camera.cx * view.z,
+                               -camera.cy * view.z - camera.fy * view.y, -view.z};
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const glm::dvec3 line = glm::cross(corners[k], corners[(k + 1) % 3]);
+    if (std::abs(glm::dot(line, glm::dvec3(place, 1))) <= glm::length(glm::dvec2(line)))
+      return true;
+  }
+  return false;
+}
+
+/// Pixels with different faces that no rounding of corners explains: neither does another face
+/// show next to them, nor has one of the two its outline there, as a face below a pixel has it
+/// everywhere.
+double differing_away_from_outlines(const HazardousScene& scene,
+                                    const std::vector<std::uint32_t>& expected,
+                                    std::vector<std::uint32_t> drawn) {
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const std::size_t i = std::size_t(y) * width + std::size_t(x);
+      const glm::dvec2 centre(x + 0.5, y + 0.5);
+      if (drawn[i] != expected[i] &&
+          (at_outline(scene, expected[i], centre) || at_outline(scene, drawn[i], centre)))
+        drawn[i] = expected[i];
+    }
+  return differing_away_from_edges(expected, drawn, width, height);
+}
+
+/// How one of those that draw is held against the oracle.
+class Comparison {
+ public:
+  explicit Comparison(const std::string& who)
+      : faces_({.stressed = "random scenes that mix G1 to G9: " + who,
+                .parameter = "seed",
+                .unit = "fraction of pixels that one alone covers, or that show another face, "
+                        "whichever is larger"}),
+        away_({.stressed = "the same, away from edges: " + who,
+               .parameter = "seed",
+               .unit = "pixels that show another face"}),
+        colors_({.stressed = "the same, the colours where both show one face: " + who,
+                 .parameter = "seed",
+                 .unit = "root mean square of a channel"}) {}
+
+  void add(int seed, const HazardousScene& scene, const OracleImage& expected, const Drawn& drawn) {
+    for (const glm::vec4& pixel : expected.color.pixels)
+      for (int c = 0; c < 4; ++c) ASSERT_TRUE(std::isfinite(pixel[c])) << seed;
+    const AgreementLimits limits;
+    const Agreement found = agreement(expected, drawn);
+    ASSERT_GE(found.compared, limits.least_compared) << seed << ": there is hardly anything";
+    // The catalogue's 1e-4, four pixels here. Roundings of a corner, (5 + 5 + sqrt(3)) epsilon of
+    // 240 pixels (G3), may move an edge across 3e-4 of the pixels at edges, which are up to a
+    // quarter of the picture: three. A needle's are an edge on both sides, and some alphas and
+    // depths floats cannot tell apart.
+    faces_.add({.at = double(seed),
+                .ours = std::max(found.coverage_mismatch, found.face_mismatch),
+                .tolerance = 1e-4});
+    away_.add({.at = double(seed),
+               .ours = differing_away_from_outlines(scene, expected.face, drawn.faces),
+               .tolerance = 0});
+    // That of 55 dB: rounding to 8 bits alone leaves 58.9 (AgreementLimits).
+    colors_.add({.at = double(seed),
+                 .ours = std::pow(10.0, -found.psnr / 20),
+                 .tolerance = std::pow(10.0, -limits.least_psnr / 20)});
+  }
+
+ private:
+  Recorder faces_, away_, colors_;
+};
+
+TEST(Numerics, H10_RandomScenesLookTheSameToAllThree) {
+  Comparison device("device against oracle");
+  Comparison trained("trainer, of what it makes of the scene, against oracle");
+  std::map<Hazard, int> shown;  // pixels
+  for (int seed = 1; seed <= 36; ++seed) {
+    const Kind kind = all_kinds[std::size_t(seed) % all_kinds.size()];
+    const HazardousScene scene = hazardous_scene(900 + std::uint64_t(seed), kind, width, height);
+    const auto& [soup, origin, camera] = scene;
+    const OracleImage expected = snapped_oracle(soup, origin, camera);
+    for (const std::uint32_t face : expected.face)
+      if (face != no_face) ++shown[hazard_of(face)];
+    device.add(seed, scene, expected, draw(shared_context(), soup, origin, camera));
+
+    const trainer::Model model =
+        trainer::from_scene({.primitives = soup, .cameras = {}, .origin = origin, .info = {}},
+                            {.min_level = 3, .max_level = 3, .seed = std::uint64_t(seed)});
+    const Scene made = trainer::to_scene(model);
+    const HazardousScene learned{std::get<TriangleSoup>(made.primitives), made.origin, camera};
+    trained.add(seed, learned, render_oracle(learned.soup, learned.origin, camera),
+                drawn_by_trainer(model, camera));
+  }
+  for (const Hazard hazard : {Hazard::corner_at_the_eye, Hazard::below_a_pixel, Hazard::coincident})
+    EXPECT_GT(shown[hazard], 20) << int(hazard);
+  EXPECT_EQ(shown[Hazard::behind_the_eye], 0);
+}
+
+}  // namespace
+}  // namespace tureen::test
