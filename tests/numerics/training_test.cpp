@@ -418,21 +418,20 @@ TEST(Numerics, R7_ACameraInATriangle) {
   }
 }
 
-/// Corners on a line to the bit, two that coincide, three that do; and needles of this aspect, an
-/// edge of each along a row of pixel centres of `view`, so that it has pixels however thin it is.
-/// All about a depth of 2 before a camera at the origin.
+/// Corners on a line, two that coincide, three that do, all of them on pixel centres of `view` to
+/// the bit; and needles of this aspect, an edge of each along a row of such centres, so that it has
+/// pixels however thin it is. At a depth of 2 before a camera at the origin.
 std::vector<glm::vec3> faces_of_next_to_no_area(const Camera& view, double aspect) {
   std::vector<glm::vec3> corners;
   const auto at_pixel = [&](double x, double y) {
     return glm::vec3(2 * (x - view.cx) / view.fx, 2 * (view.cy - y) / view.fy, -2);
   };
-  Random random(20);
   for (int i = 0; i < 4; ++i) {
-    const glm::vec3 a = at_pixel(random.uniform(5, width - 5), random.uniform(5, height - 5));
-    const glm::vec3 step(0.25f, 0.125f, 0.0625f);  // few bits, so that sums are exact
-    corners.insert(corners.end(), {a, a + step, a + 2.0f * step});
-    corners.insert(corners.end(), {a, a, a + step});
-    corners.insert(corners.end(), {a, a, a});
+    const double x = 8.5 + 5 * i, y = 6.5 + 4 * i;
+    const auto step = [&](int n) { return i % 2 ? at_pixel(x + n, y) : at_pixel(x + n, y + n); };
+    corners.insert(corners.end(), {step(0), step(2), step(6)});
+    corners.insert(corners.end(), {step(0), step(0), step(5)});
+    corners.insert(corners.end(), {step(0), step(0), step(0)});
   }
   constexpr double length = 24;
   for (int i = 0; i < 8; ++i) {
