@@ -16,8 +16,12 @@
 #include "support/random.hpp"
 #include "trainer/cpu/image_loss.hpp"
 #include "trainer/cuda/kernel.hpp"
+#include "trainer/cuda/kernel_backend.hpp"
+#include "trainer/host_machine.hpp"
 #include "trainer/kernels/adam.hpp"
+#include "trainer/kernels/color_network.hpp"
 #include "trainer/kernels/image_loss.hpp"
+#include "trainer/mlp_parameters.hpp"
 #include "trainer/trainer.hpp"
 
 namespace tureen::test {
@@ -200,6 +204,99 @@ TEST(Numerics, O4_StepsTurnWithTheAxes) {
     // either sign add up as the root of their number.
     const double tolerance = 2 * std::sqrt(3.0) * std::sqrt(200.0) * (6 * 0.01 + length) * epsilon;
     recorder.add({.at = degrees, .naive = naive, .ours = ours, .tolerance = tolerance});
+  }
+}
+
+// What becomes of the weights: R3b, and CpuStep in tests/trainer.
+TEST(Numerics, O5_APixelThatIsNoNumberIsMaskedAndCounted) {
+  Recorder recorder({.stressed =
+                         "the network's gradient where pixels are no numbers, against that of "
+                         "the same pictures without them: both backends",
+                     .parameter = "pixels that are none, of 1280",
+                     .unit = "largest difference of a derivative, in the largest of them",
+                     .naive = "the derivatives of all pixels added up"});
+  constexpr int width = 40, height = 32, strips = 8;
+  const Camera camera = straight_camera(width, height, height);
+  // Strips side by side, opaque whatever is drawn, so that pixels that a caller leaves out are
+  // those of the same faces.
+  trainer::TrainingState state;
+  for (int i = 0; i < strips; ++i)
+    for (int half = 0; half < 2; ++half) {
+      const float x0 = -1.25f + 0.3125f * float(i), x1 = x0 + 0.3125f, y = half ? -3.0f : 3.0f;
+      state.model.positions.insert(state.model.positions.end(),
+                                   {{x0, y, -2}, {x1, y, -2}, {half ? x1 : x0, -y, -2}});
+    }
+  state.model.mlp = trainer::initial_mlp(5);
+  Random random(5);
+  state.model.logits.resize(state.model.faces() * state.model.texels() * trainer::channels);
+  for (std::size_t i = 0; i < state.model.logits.size(); ++i)
+    state.model.logits[i] =
+        i % trainer::channels == trainer::alpha_channel ? 200.0f : float(random.normal());
+  state.moments.reset_faces(state.model);
+  const std::vector<std::uint32_t> shown = faces_of_trainer(soup_of(state.model.positions), camera);
+  ASSERT_EQ(shown_pixels(shown), width * height);
+  trainer::TrainingView view{.camera = camera, .target = {}, .ignored = {}};
+  for (int i = 0; i < 3 * width * height; ++i)
+    view.target.push_back(std::uint8_t(random.below(256)));
+
+  // With a beta1 of 0 the first moments are the gradient.
+  trainer::Config config;
+  config.beta1 = 0;
+  struct Step {
+    trainer::MlpParameters gradient;
+    std::uint64_t non_finite;
+  };
+  const auto step_of = [&](bool kernels, const trainer::TrainingState& begin,
+                           const trainer::TrainingView& of) {
+    const std::span<const trainer::TrainingView> views(&of, 1);
+    std::unique_ptr<trainer::Backend> backend;
+    if (kernels)
+      backend = std::make_unique<trainer::cuda::KernelBackend<trainer::test::HostMachine<false>>>(
+          views, config);
+    else
+      backend = trainer::make_cpu_backend(views, config, 2);
+    backend->upload(begin);
+    const std::uint32_t batch[] = {0};
+    const trainer::StepReport report = backend->step(batch, {.texture = 0, .mlp = 0, .vertex = 0});
+    trainer::TrainingState end;
+    backend->download(end);
+    return Step{end.moments.mlp_first, report.non_finite};
+  };
+
+  for (const std::size_t bad_faces : {1u, 4u, 15u}) {
+    trainer::TrainingState bad = state;
+    for (std::size_t face = 0; face < bad_faces; ++face)
+      bad.model.face_logits(face)[trainer::blend_channel] = std::numeric_limits<float>::quiet_NaN();
+    trainer::TrainingView without = view;
+    for (const std::uint32_t face : shown) without.ignored.push_back(face < bad_faces);
+    const auto bad_pixels =
+        double(std::count(without.ignored.begin(), without.ignored.end(), std::uint8_t(1)));
+    double ours = 0;
+    for (const bool kernels : {false, true}) {
+      const Step masked = step_of(kernels, bad, view), expected = step_of(kernels, state, without);
+      // And the textures of those faces, whose gradient is none.
+      EXPECT_EQ(masked.non_finite, std::uint64_t(bad_pixels) + bad_faces) << kernels;
+      EXPECT_EQ(expected.non_finite, 0u) << kernels;
+      double largest = 0, most = 0;
+      for (std::size_t i = 0; i < masked.gradient.size(); ++i) {
+        largest = std::max(largest, std::abs(double(expected.gradient[i])));
+        most = worse(most, std::abs(double(masked.gradient[i]) - double(expected.gradient[i])));
+      }
+      ASSERT_GT(largest, 0) << kernels;
+      ours = worse(ours, most / largest);
+    }
+    // One of these pixels, added to the others.
+    trainer::MlpParameters sum{};
+    kernels::NetworkState<float> pixel{};
+    pixel.input[trainer::blend_channel] = std::numeric_limits<float>::quiet_NaN();
+    float color[3], by_features[kernels::features];
+    const float by_color[3] = {0.1f, 0.1f, 0.1f};
+    kernels::shade(state.model.mlp.data(), pixel, color);
+    kernels::shade_backward(state.model.mlp.data(), pixel, by_color, sum.data(), by_features);
+    double naive = 0;
+    for (const float derivative : sum) naive = worse(naive, double(derivative));
+    // The same sums, with zeros where those pixels are: nothing is rounded otherwise.
+    recorder.add({.at = bad_pixels, .naive = naive, .ours = ours, .tolerance = 0});
   }
 }
 

@@ -1,11 +1,14 @@
 // Texture, opacity and what passes through 8 bits: the rows T1 to T9.
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "formats/png.hpp"
@@ -171,6 +174,8 @@ TEST(Numerics, T3_BytesKeepTheSideOfTheThreshold) {
                   .naive = naive / texels,
                   .ours = ours / texels,
                   .tolerance = 0});
+    // The nearest byte is half a step away at most, products with 255 are exact in double, and the
+    // side of one half, 127.5 steps, never asks for another byte than the nearest.
     bias.add({.at = double(distribution), .naive = naive_off, .ours = ours_off, .tolerance = 0.5});
   }
 }
@@ -293,6 +298,90 @@ TEST(Numerics, T6_TransparentTexelsKeepTheirFeatures) {
       naive += lost;
     }
     recorder.add({.at = double(alpha), .naive = naive, .ours = ours, .tolerance = 0});
+  }
+}
+
+using Bytes = std::vector<std::byte>;
+
+void append_big_endian(Bytes& out, std::uint32_t value) {
+  for (const int shift : {24, 16, 8, 0}) out.push_back(std::byte(value >> shift & 255));
+}
+
+/// The PNG with one more chunk, where chunks about colour belong: behind the header.
+Bytes with_chunk(const Bytes& png, const std::string& type, const Bytes& content) {
+  constexpr std::size_t header_end = 8 + 12 + 13;
+  Bytes chunk;
+  append_big_endian(chunk, std::uint32_t(content.size()));
+  for (const char c : type) chunk.push_back(std::byte(c));
+  chunk.insert(chunk.end(), content.begin(), content.end());
+  const auto sum = crc32(0, reinterpret_cast<const Bytef*>(&chunk[4]), uInt(chunk.size() - 4));
+  append_big_endian(chunk, std::uint32_t(sum));
+  Bytes result = png;
+  result.insert(result.begin() + header_end, chunk.begin(), chunk.end());
+  return result;
+}
+
+Bytes gamma_content(double gamma) {
+  Bytes content;
+  append_big_endian(content, std::uint32_t(std::lround(gamma * 100'000)));
+  return content;
+}
+
+/// The profile's name, and a profile that is its header and an empty table of tags.
+Bytes profile_content() {
+  Bytes profile(132);
+  profile[3] = std::byte(132);  // its size
+  const auto sign = [&](std::size_t at, const char* four) {
+    for (std::size_t i = 0; i < 4; ++i) profile[at + i] = std::byte(four[i]);
+  };
+  sign(12, "mntr"), sign(16, "RGB "), sign(20, "XYZ "), sign(36, "acsp");
+  uLongf size = compressBound(uLong(profile.size()));
+  Bytes packed(size);
+  EXPECT_EQ(compress(reinterpret_cast<Bytef*>(packed.data()), &size,
+                     reinterpret_cast<const Bytef*>(profile.data()), uLong(profile.size())),
+            Z_OK);
+  Bytes content;
+  for (const char c : std::string("linear")) content.push_back(std::byte(c));
+  content.resize(content.size() + 2);  // the end of the name, and the one method there is
+  content.insert(content.end(), packed.begin(), packed.begin() + std::ptrdiff_t(size));
+  return content;
+}
+
+TEST(Numerics, T6b_TexelsAreNotManagedAsColours) {
+  Recorder recorder({.stressed =
+                         "features in a PNG that says what its colours mean: (1) sRGB, (2) a "
+                         "gamma of 1, (3) of 1/2.2, (4) a profile of linear light",
+                     .parameter = "what it says",
+                     .unit = "of 4096 texels changed",
+                     .naive = "colours converted to what a screen shows"});
+  Random random(16);
+  Image8 image(64, 64);
+  for (glm::u8vec4& pixel : image.pixels)
+    pixel = glm::u8vec4(random.below(256), random.below(256), random.below(256), random.below(256));
+  const Bytes plain = encode_png(image);
+  struct Said {
+    Bytes png;
+    double gamma;  // of the file: colours are light to this power
+  };
+  const Said said[] = {{with_chunk(plain, "sRGB", Bytes(1)), 1 / 2.2},
+                       {with_chunk(plain, "gAMA", gamma_content(1)), 1},
+                       {with_chunk(plain, "gAMA", gamma_content(1 / 2.2)), 1 / 2.2},
+                       {with_chunk(plain, "iCCP", profile_content()), 1}};
+  for (std::size_t i = 0; i < std::size(said); ++i) {
+    const Image8 back = decode_image(said[i].png, "texels");
+    ASSERT_EQ(back.pixels.size(), image.pixels.size());
+    double ours = 0, naive = 0;
+    for (std::size_t p = 0; p < image.pixels.size(); ++p) {
+      ours += back.pixels[p] != image.pixels[p];
+      bool changed = false;
+      for (int c = 0; c < 3; ++c) {
+        const double light = std::pow(image.pixels[p][c] / 255.0, 1 / said[i].gamma);
+        const double on_screen = std::pow(light, 1 / 2.2);
+        changed = changed || std::lround(255 * on_screen) != image.pixels[p][c];
+      }
+      naive += changed;
+    }
+    recorder.add({.at = double(i + 1), .naive = naive, .ours = ours, .tolerance = 0});
   }
 }
 

@@ -5,12 +5,16 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <regex>
+#include <string>
 #include <vector>
 
 #include "numerics/recorder.hpp"
 #include "numerics/scenes.hpp"
 #include "runtime/color_mlp_source.hpp"
-#include "runtime/renderer.hpp"
+#include "runtime/prepared_soup.hpp"
+#include "runtime/render_options.hpp"
+#include "runtime/shader_source.hpp"
 #include "soup/lattice.hpp"
 #include "soup/mlp_precision.hpp"
 #include "soup/quantise.hpp"
@@ -165,6 +169,34 @@ TEST(Numerics, M1_NetworksOfLargeWeights) {
   }
 }
 
+/// No device is told to compute with less: what a shader does not say is as its head has it.
+/// Drawing would not tell, as desktop OpenGL takes no notice of these words.
+void expect_high_precision(const std::string& glsl) {
+  for (const char* word : {"mediump", "lowp"})
+    EXPECT_FALSE(std::regex_search(glsl, std::regex("\\b" + std::string(word) + "\\b")))
+        << word << " in\n"
+        << glsl;
+}
+
+/// All fragment and compute shaders of ours that have the network in them, complete, of a soup that
+/// has one.
+std::vector<std::string> shaders_with_a_network(bool specialise, gl::Api to) {
+  const TriangleSoup soup = random_soup(31, {.kind = Kind::lattice_mlp});
+  const AppearanceSource appearance =
+      prepare_soup(soup, glm::dvec3(0), DeviceLimits{}, {.plan = {.specialise = specialise}})
+          .appearance;
+  std::vector<std::string> shaders;
+  for (const char* file : {"forward.frag", "visibility.frag", "shading.frag", "shading.comp",
+                           "features.frag", "feature_shading.frag"}) {
+    ShaderSource source{
+        .file = file,
+        .constants = appearance.constants,
+        .generated = {{"appearance.glsl", appearance.glsl}, {"network.glsl", appearance.mlp.text}}};
+    shaders.push_back(assemble(source, to));
+  }
+  return shaders;
+}
+
 TEST(Numerics, M3_AMediumPrecisionWouldShow) {
   Recorder recorder({.stressed =
                          "the network where a device has 16-bit medium floats: the shaders ask "
@@ -172,10 +204,16 @@ TEST(Numerics, M3_AMediumPrecisionWouldShow) {
                      .parameter = "gain of the weights",
                      .unit = "largest error of a channel",
                      .naive = "mediump: rounded to a half after every operation"});
-  const std::string assembled =
-      assemble({.file = "shading.frag", .generated = {{"appearance.glsl", "\n"}}}, gl::Api::es);
-  ASSERT_NE(assembled.find("precision highp float;"), std::string::npos);
-  ASSERT_EQ(assembled.find("mediump"), std::string::npos);
+  for (const MlpWeights kind :
+       {MlpWeights::uniforms, MlpWeights::constants, MlpWeights::all_constants})
+    expect_high_precision(color_mlp_source(scaled_network(1), kind).text);
+  for (const bool specialise : {true, false})
+    for (const gl::Api to : {gl::Api::es, gl::Api::desktop})
+      for (const std::string& shader : shaders_with_a_network(specialise, to)) {
+        ASSERT_NE(shader.find("vec3 predicted"), std::string::npos);  // of the network's body
+        ASSERT_NE(shader.find("precision highp float;"), std::string::npos);
+        expect_high_precision(shader);
+      }
   Random random(3);
   const std::vector<Sample> samples = random_samples(random, 1000);
   for (const double gain : {0.5, 1.0, 2.0, 4.0, 8.0}) {

@@ -63,7 +63,6 @@ TUREEN_HOST_DEVICE PointGradient edge_gradient(const ProjectedFace& face,
     const float other_inverse_p = other_p[0] + other_p[1] + other_p[2];
     const bool covers_p = other_p[0] >= 0 && other_p[1] >= 0 && other_p[2] >= 0;
     if (!covers_p || !(other_inverse_p < p.inverse_depth)) return result;
-    result.kind = EdgeCase::intersection;
     // Along pq the inverse depths are affine: they cross at t, and t moves by 1 / slope for each
     // unit by which p's triangle comes nearer. Pairs side by side and pairs one above the other
     // both see that motion of a slanted line in full, so they share it by the squares of its
@@ -75,8 +74,14 @@ TUREEN_HOST_DEVICE PointGradient edge_gradient(const ProjectedFace& face,
       across += face.dx[k] - other->dx[k];
       down += face.dy[k] - other->dy[k];
     }
+    const float squared = across * across + down * down;
+    // `slope` is one component of that gradient. Where it is longer than the whole, two faces of
+    // one plane cover each other: which of them is in front is a matter of rounding, and no line
+    // moves.
+    if (!(slope * slope < 2 * squared)) return result;
+    result.kind = EdgeCase::intersection;
     t = ahead / slope;
-    result.g_inverse = adjoint * slope / (across * across + down * down);
+    result.g_inverse = adjoint * slope / squared;
   } else if (covers_q) {
     result.kind = EdgeCase::opacity;  // nearer than what shows at q, and yet not accepted there
   } else if (q_is_background || p.inverse_depth > q.inverse_depth) {

@@ -1,0 +1,215 @@
+// What needles show: the row T1 where it is drawn. Interpolated at a pixel's centre, barycentrics
+// lie outside of a needle by many times its width where the samples that it covers lie beside the
+// centre, or where its corners are rounded to the grid within pixels.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "numerics/recorder.hpp"
+#include "numerics/scenes.hpp"
+#include "runtime/oracle/hits.hpp"
+#include "runtime/oracle/shade.hpp"
+#include "runtime/renderer.hpp"
+#include "support/agreement.hpp"
+#include "support/random.hpp"
+
+namespace tureen::test {
+namespace {
+
+constexpr int side = 192;
+constexpr double low = 0.4, high = 0.6;  // of all features
+
+/// Shows sigmoid(4 (f - 1/2)) of each of the first three features: colour has the slope of its
+/// feature where that is 1/2, and less elsewhere.
+ColorMlp one_channel_each() {
+  ColorMlp mlp;
+  mlp.encoding = DirectionEncoding::none;
+  mlp.layers = {
+      {.inputs = 3, .outputs = 3, .weights = {4, 0, 0, 0, 4, 0, 0, 0, 4}, .biases = {-2, -2, -2}}};
+  return mlp;
+}
+
+double shown(double feature) { return 1 / (1 + std::exp(-4 * (feature - 0.5))); }
+
+/// A large triangle, face 0, before needles of this width in pixels. Every face goes from one end
+/// of the features' range to the other; every second needle is cut out somewhere along it.
+TriangleSoup soup_of_needles(double width) {
+  Random random(1);
+  std::vector<glm::vec3> corners;
+  const auto at_pixel = [](const glm::dvec2& p, double depth) {
+    return glm::vec3(glm::dvec3((p.x - side / 2.0) / side, (side / 2.0 - p.y) / side, -1) * depth);
+  };
+  for (const glm::dvec2& p : {glm::dvec2(4.2, 4.1), {60.7, 9.4}, {12.3, 70.6}})
+    corners.push_back(at_pixel(p, 0.5));
+  constexpr int needles = 2000;
+  for (int i = 0; i < needles; ++i) {
+    const glm::dvec2 tip(random.uniform(0, side), random.uniform(0, side));
+    const double angle = random.uniform(0, 2 * M_PI), length = random.uniform(60, 120);
+    const glm::dvec2 along(std::cos(angle), std::sin(angle)), across(-along.y, along.x);
+    const glm::dvec2 end = tip + length * along;
+    std::array<glm::vec3, 3> needle;
+    const double depth = 1 + 0.001 * i;  // one behind the other
+    needle[0] = at_pixel(tip, depth);
+    needle[1] = at_pixel(end - width / 2 * across, depth);
+    needle[2] = at_pixel(end + width / 2 * across, depth);
+    std::rotate(needle.begin(), needle.begin() + i % 3, needle.end());
+    corners.insert(corners.end(), needle.begin(), needle.end());
+  }
+  TriangleSoup soup = soup_of(corners);
+  LatticeTexture texture;
+  std::vector<float> texels;
+  for (std::uint32_t face = 0; face <= needles; ++face) {
+    texture.patches.push_back({3 * face, 0});
+    for (std::uint32_t texel = 0; texel < 3; ++texel)
+      for (int c = 0; c < LatticeTexture::channels; ++c) {
+        const bool up = (face + texel + std::uint32_t(c)) % 3 == 0;
+        texels.push_back(c < LatticeTexture::features ? float(up ? high : low)
+                         : face % 2 == 1 && up        ? 0.2f
+                                                      : 0.9f);
+      }
+  }
+  texture.texels = std::move(texels);
+  texture.mlp = one_channel_each();
+  soup.appearance = std::move(texture);
+  return soup;
+}
+
+/// Which face shows in each pixel and its colour there, as visibility.frag documents it: at the
+/// point of the face that simplex.glsl takes for what was interpolated.
+struct Expected {
+  std::vector<std::uint32_t> faces;
+  std::vector<glm::dvec3> colors;
+};
+
+Expected expected_of(const TriangleSoup& soup, const Camera& camera) {
+  Expected result{snapped_oracle(soup, glm::dvec3(0), camera).face,
+                  std::vector<glm::dvec3>(std::size_t(side) * side)};
+  const oracle::Rays rays(soup, glm::dvec3(0), camera, {.coverage = oracle::Coverage::snapped});
+  rays.visit_faces(0, side, [&](int x, int y, const oracle::Hit& hit) {
+    const std::size_t i = std::size_t(y) * side + std::size_t(x);
+    if (hit.face != result.faces[i]) return;
+    const double b0 = std::max(hit.b0, 0.0), b1 = std::max(hit.b1, 0.0);
+    const double sum = std::max(b0 + b1, 1.0);
+    result.colors[i] = oracle::color(soup, {.face = hit.face, .b0 = b0 / sum, .b1 = b1 / sum},
+                                     {0, 0, 1}, glm::dvec3(0));
+  });
+  return result;
+}
+
+/// How far a channel is outside of what any point of any face shows.
+double beyond_all_texels(double channel) {
+  return std::isfinite(channel) ? std::max({0.0, shown(low) - channel, channel - shown(high)})
+                                : std::numeric_limits<double>::infinity();
+}
+
+/// The same of the centres of the pixels that faces cover, where nothing is clamped: the pixels
+/// that one of samples^2 points within them belongs to.
+double beyond_without_clamp(const TriangleSoup& soup, const Camera& camera, int samples) {
+  Camera finer = camera;
+  finer.width *= samples, finer.height *= samples;
+  finer.fx *= samples, finer.fy *= samples, finer.cx *= samples, finer.cy *= samples;
+  const auto& texture = std::get<LatticeTexture>(soup.appearance);
+  double most = 0;
+  const oracle::Rays rays(soup, glm::dvec3(0), finer, {.coverage = oracle::Coverage::snapped});
+  rays.visit_faces(0, finer.height, [&](int column, int row, const oracle::Hit& hit) {
+    // All of a face is at one depth: barycentrics are affine in pixels.
+    const auto pixel = [&](std::size_t k) {
+      const glm::dvec3 p(soup.positions[3 * std::size_t(hit.face) + k]);
+      return glm::dvec2(camera.cx - camera.fx * p.x / p.z, camera.cy + camera.fy * p.y / p.z);
+    };
+    const glm::dvec2 c = pixel(2), a = pixel(0) - c, b = pixel(1) - c;
+    const glm::dvec2 centre = glm::dvec2(column / samples + 0.5, row / samples + 0.5) - c;
+    const double area = a.x * b.y - a.y * b.x;
+    const double b0 = (centre.x * b.y - centre.y * b.x) / area;
+    const double b1 = (a.x * centre.y - a.y * centre.x) / area;
+    const std::size_t first = 3 * std::size_t(hit.face);
+    const double feature = b0 * double(texture.value(first, 0)) +
+                           b1 * double(texture.value(first + 1, 0)) +
+                           (1 - b0 - b1) * double(texture.value(first + 2, 0));
+    most = worse(most, beyond_all_texels(shown(feature)));
+  });
+  return most;
+}
+
+TEST(Numerics, T1b_NeedlesShowNothingBeyondTheirTexels) {
+  using Preset = RenderPreset;
+  struct Path {
+    std::string what;
+    ShadingSite site;
+    Preset preset;
+    int samples;  // of a pixel, along an axis of the grid that they lie on
+  };
+  const std::vector<Path> paths = {{"forward.frag, 4 samples with alpha to coverage",
+                                    ShadingSite::forward, Preset{.alpha_to_coverage = 4}, 16},
+                                   {"visibility.frag", ShadingSite::deferred, Preset{}, 1},
+                                   {"features.frag, half floats", ShadingSite::deferred,
+                                    Preset{.feature_storage = Preset::FeatureStorage::rgba16f}, 1}};
+  const Camera camera = straight_camera(side, side, side);
+  for (const Path& path : paths) {
+    Recorder recorder({.stressed = "needles whose barycentrics are extrapolated: " + path.what,
+                       .parameter = "width of the needles / pixels",
+                       .unit = "how far a channel is outside of what all texels show",
+                       .naive = "sampling where interpolation arrives, without clamping"});
+    for (const double width : {1e-3, 1e-2, 0.1, 1.0}) {
+      const TriangleSoup soup = soup_of_needles(width);
+      const Expected expected = expected_of(soup, camera);
+      const std::vector<std::uint32_t> faces = faces_of_device(soup, camera);
+      double ours = 0;
+      for (const bool specialise : {true, false}) {
+        // Grey is within the range: what a needle covers a part of may show it, too.
+        const RenderOptions options{
+            .plan = {.specialise = specialise, .site = path.site, .preset = path.preset},
+            .background = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f),
+            .limits = {},
+            .progress = {}};
+        shared_context().make_current();
+        Renderer renderer(shared_context(), soup, glm::dvec3(0), options);
+        renderer.draw(camera);
+        const Image8 picture = renderer.read_color();
+        int by_needles = 0, compared = 0;
+        double off = 0;
+        for (int y = 0; y < side; ++y)
+          for (int x = 0; x < side; ++x) {
+            const glm::u8vec4 pixel = picture.at(x, y);
+            for (int c = 0; c < 3; ++c) ours = worse(ours, beyond_all_texels(pixel[c] / 255.0));
+            // Right of the large face, whatever is not grey.
+            by_needles += x > 75 && std::abs(pixel.r - 127.5) > 2;
+            // With several samples, where the neighbours show the large face as well: all of the
+            // pixel does.
+            const auto at = [&](int u, int v) {
+              return expected.faces[std::size_t(std::clamp(v, 0, side - 1)) * side +
+                                    std::size_t(std::clamp(u, 0, side - 1))];
+            };
+            const std::uint32_t face = at(x, y);
+            const bool all_of_it = face == 0 && at(x - 1, y) == 0 && at(x + 1, y) == 0 &&
+                                   at(x, y - 1) == 0 && at(x, y + 1) == 0;
+            const std::size_t i = std::size_t(y) * side + std::size_t(x);
+            if (path.samples > 1 ? !all_of_it : face == no_face || face != faces[i]) continue;
+            compared += face != 0 || path.samples > 1;
+            for (int c = 0; c < 3; ++c)
+              off = worse(off, std::abs(pixel[c] / 255.0 - expected.colors[i][c]));
+          }
+        EXPECT_GT(by_needles, 20) << path.what << ' ' << width;
+        EXPECT_GT(compared, 20);
+        // Half a step of 8 bits; one of the half floats that features may be; and the rounding of
+        // a plane of barycentrics, which rises by 1 over the width of a needle, at the far side of
+        // the picture.
+        const double tolerance = 0.5 / 255 + 0x1p-11 + (high - low) * side / width * epsilon;
+        EXPECT_LE(off, tolerance) << path.what << ' ' << width;
+      }
+      // Half a step of 8 bits when a sample is stored, and half of one when their mean is.
+      recorder.add({.at = width,
+                    .naive = beyond_without_clamp(soup, camera, path.samples),
+                    .ours = ours,
+                    .tolerance = 1.0 / 255});
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tureen::test
