@@ -132,7 +132,9 @@ void GltfDocument::parse() {
   } catch (const std::exception& exception) {
     error += exception.what();
   }
-  if (!parsed) fail("", "not valid glTF: " + one_line(error));
+  // Of some parts it says what is wrong, leaves them out and goes on: a material whose colour has
+  // three numbers would lose its texture, too.
+  if (!parsed || !error.empty()) fail("", "not valid glTF: " + one_line(error));
 }
 
 void GltfDocument::fail(const std::string& where, const std::string& reason) const {

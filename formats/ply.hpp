@@ -5,7 +5,7 @@
 // vertices or faces as uchar (0..255), ushort (0..65535), float or double (0..1), where
 // diffuse_red .. stand for red ..; everything else in the file is passed over exactly. Elements may
 // come in any order. Positions that are not finite are kept; bytes after the last element are
-// noted.
+// noted. A face that names a vertex which is not there refuses the file (SECURITY.md says why).
 //
 // Not read: Gaussian splats and point clouds, which have no faces; both are told what they are.
 #pragma once

@@ -120,12 +120,30 @@ double Application::seconds_since_start() const {
 }
 
 void Application::run() {
-  while (!quit_ && !(options_.interrupted && options_.interrupted())) frame();
-  if (recorder_) write_file(options_.record, session_to_json(recorder_->session()));
-  if (options_.settings) {
-    if (!window_.fullscreen()) state_.settings.window = window_.size();
-    write_settings(state_.settings, *options_.settings);
+  try {
+    while (!quit_ && !(options_.interrupted && options_.interrupted())) frame();
+  } catch (...) {
+    // A lost device, most likely. What cannot be written then adds nothing to what is told of that.
+    for (const auto keep : {&Application::keep_session, &Application::keep_settings}) {
+      try {
+        (this->*keep)();
+      } catch (const std::exception&) {
+      }
+    }
+    throw;
   }
+  keep_session();
+  keep_settings();
+}
+
+void Application::keep_session() {
+  if (recorder_) write_file(options_.record, session_to_json(recorder_->session()));
+}
+
+void Application::keep_settings() {
+  if (!options_.settings) return;
+  if (!window_.fullscreen()) state_.settings.window = window_.size();
+  write_settings(state_.settings, *options_.settings);
 }
 
 std::vector<std::string> Application::errors() const {

@@ -48,8 +48,9 @@ class Application {
   explicit Application(ApplicationOptions options);
   ~Application();
 
-  /// Until the window is closed, or the session is at its end. Throws OutputError where the session
-  /// cannot be written.
+  /// Until the window is closed, or the session is at its end; then writes the session and the
+  /// settings. Throws OutputError where they cannot be written, and ContextError where the device
+  /// was lost: they are written, then, too.
   void run();
 
   const RunReport& report() const { return report_; }
@@ -72,6 +73,10 @@ class Application {
   double wait_seconds() const;
   double clock() const;
   double seconds_since_start() const;
+
+  // -- the end
+  void keep_session();
+  void keep_settings();
 
   // -- requests (application_requests.cpp, application_pictures.cpp, application_looks.cpp)
   void carry_out();

@@ -60,6 +60,14 @@ void Child::signal(int number) const {
   if (pid_ > 0) ::kill(pid_, number);
 }
 
+void Child::stop() {
+  signal(SIGSTOP);
+  int status = 0;
+  if (pid_ < 0 || ::waitpid(pid_, &status, WUNTRACED) != pid_ || WIFSTOPPED(status)) return;
+  status_ = status;  // it has ended before it heard of that
+  pid_ = -1;
+}
+
 bool Child::running() {
   if (pid_ > 0 && ::waitpid(pid_, &status_, WNOHANG) == pid_) pid_ = -1;
   return pid_ > 0;

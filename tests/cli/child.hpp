@@ -28,6 +28,8 @@ class Child {
 
   /// As `kill` does: SIGINT is Ctrl-C.
   void signal(int number) const;
+  /// Returns once it stands still: SIGCONT lets it go on, SIGKILL ends it where it stands.
+  void stop();
   bool running();
   ChildResult wait();
 

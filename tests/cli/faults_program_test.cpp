@@ -2,16 +2,17 @@
 // the new one, whole.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <map>
 #include <random>
 #include <sstream>
-#include <thread>
 
+#include "cli/faults.hpp"
 #include "cli/nobody.hpp"
 #include "cli/program_fixture.hpp"
 #include "support/measured.hpp"
@@ -22,28 +23,12 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using test::ChildResult;
+using test::Moment;
 using test::Nobody;
-using testing::Contains;
+using test::SmallDisk;
 using testing::Each;
 using testing::HasSubstr;
 using testing::Not;
-
-/// Children that start meanwhile cannot write a file beyond so many bytes: to them the disk is
-/// full.
-class SmallDisk {
- public:
-  explicit SmallDisk(rlim_t bytes) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-  ~SmallDisk() { ::setrlimit(RLIMIT_FSIZE, &before_); }
-
- private:
-  rlimit before_{};
-};
 
 class Faults : public test::Program {
  protected:
@@ -64,35 +49,14 @@ class Faults : public test::Program {
     write(name, off.str());
   }
 
-  std::string bytes(const fs::path& path) const {
-    std::ifstream stream(folder / path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
-
-  /// A file's bytes by "", or those of a folder's files by their names.
   std::map<std::string, std::string> contents(const std::string& name) const {
-    if (!fs::is_directory(folder / name)) return {{"", bytes(name)}};
-    std::map<std::string, std::string> files;
-    for (const auto& entry : fs::directory_iterator(folder / name))
-      files[entry.path().filename().string()] = bytes(name / entry.path().filename());
-    return files;
+    return test::contents_of(folder / name);
   }
-
-  std::vector<std::string> names() const {
-    std::vector<std::string> result;
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
-      result.push_back(fs::relative(entry.path(), folder).string());
-    return result;
-  }
+  std::vector<std::string> names() const { return test::names_in(folder); }
 
   void put(const std::string& from, const std::string& to) const {
     fs::remove_all(folder / to);
     fs::copy(folder / from, folder / to, fs::copy_options::recursive);
-  }
-
-  void remove_temporaries() const {
-    for (const std::string& name : names())
-      if (name.find(".tmp") != std::string::npos) fs::remove_all(folder / name);
   }
 };
 
@@ -120,6 +84,25 @@ TEST_F(Faults, AFullDiskLeavesWhatWasThere) {
   }
   // So small that it fails when the last of it is flushed.
   expect("out.ply", {"convert", "scene.off", "out.ply", "--force"}, 200);
+
+  // Pictures: one, the first of several, and their contact sheet, which is larger than each.
+  const std::vector<std::string> orbit{"render",  "scene.off", "--size", "160x120",
+                                       "--orbit", "3",         "-o",     "view_%d.png"};
+  ASSERT_EQ(run({"render", "scene.off", "-o", "picture.png"}).exit_code, 0);
+  ASSERT_EQ(run(orbit).exit_code, 0);
+  const auto views = [&] {
+    return std::array{contents("view_0.png"), contents("view_1.png"), contents("view_2.png")};
+  };
+  const auto before = views();
+  expect("picture.png", {"render", "large.off", "-o", "picture.png"}, 1000);
+  expect("view_0.png", {"render", "large.off", "--orbit", "3", "-o", "view_%d.png"}, 1000);
+  EXPECT_EQ(views(), before);
+  std::uintmax_t largest = 0;
+  for (int i = 0; i < 3; ++i)
+    largest = std::max(largest, fs::file_size(folder / ("view_" + std::to_string(i) + ".png")));
+  ASSERT_GT(fs::file_size(folder / "contact_sheet.png"), largest);
+  expect("contact_sheet.png", orbit, largest);
+  EXPECT_EQ(views(), before) << "the same pictures again, whole";
 }
 
 TEST_F(Faults, WhereNothingMayBeWrittenNothingIs) {
@@ -148,47 +131,60 @@ TEST_F(Faults, WhereNothingMayBeWrittenNothingIs) {
   EXPECT_EQ(contents("locked"), before);
 }
 
-/// Ends conversions over an old file at moments from their beginning to their end.
+/// Ends conversions over an old file at moments from their beginning to their end, and behind it.
 TEST_F(Faults, ASignalAtAnyMomentLeavesTheOldOrTheNewWhole) {
+  constexpr unsigned seed = 7;
+  SCOPED_TRACE("seed " + std::to_string(seed));
   write_hills("old.off", 40, 0);
-  write_hills("new.off", 120, 1);
-  std::minstd_rand random(7);
+  // So large that it is asked several times whether Ctrl-C was pressed.
+  write_hills("new.off", 300, 1);
+  std::minstd_rand random(seed);
   for (const std::string output : {"out.glb", "export"}) {
     const bool is_folder = output == "export";
     const auto target = [&](const std::string& name) { return is_folder ? name + "/" : name; };
-    const std::string old_output = "old_" + output, new_output = "new_" + output;
     fs::create_directories(folder / "a");
     fs::create_directories(folder / "b");
     // The name is in the file.
     ASSERT_EQ(run({"convert", "old.off", target("a/" + output)}).exit_code, 0);
-    const Clock::time_point begin = Clock::now();
-    ASSERT_EQ(run({"convert", "new.off", target("b/" + output)}).exit_code, 0);
-    const auto whole = std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - begin);
+    auto whole = std::chrono::microseconds::max();
+    for (int i = 0; i < 3; ++i) {
+      const Clock::time_point begin = Clock::now();
+      ASSERT_EQ(run({"convert", "new.off", target("b/" + output), "--force"}).exit_code, 0);
+      whole = std::min(whole,
+                       std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - begin));
+    }
     const auto before = contents("a/" + output), after = contents("b/" + output);
     ASSERT_NE(before, after);
     for (const int signal : {SIGKILL, SIGINT}) {
-      constexpr int sent = 16;
+      std::vector<Moment> moments = test::moments_of(whole, 14, random);
+      // While the new one is written, and between its taking the old one's place and the end.
+      moments.push_back({.until = Moment::Until::written, .path = output});
+      moments.push_back({.until = Moment::Until::replaced, .path = output});
       int cut_short = 0, replaced = 0;
-      for (int i = 0; i < sent; ++i) {
+      for (const Moment& moment : moments) {
         put("a/" + output, output);
-        // Half of them early: the run that was timed may have been a slow one.
-        const auto latest = whole.count() >> (i % 4);
-        const auto moment = std::chrono::microseconds(i == 0 ? 0 : random() % latest);
         test::Child child({"convert", "new.off", target(output), "--force"}, folder);
-        std::this_thread::sleep_for(moment);
-        child.signal(signal);
+        const bool came = test::wait_for(moment, child, folder);
+        test::end_by(signal, child);
         const ChildResult result = child.wait();
         const auto now = contents(output);
         EXPECT_TRUE(now == before || now == after)
-            << output << " after signal " << signal << " at " << moment.count() << " us";
+            << output << " after signal " << signal << " at " << moment.after.count() << " us";
         replaced += now == after;
+        // Ctrl-C as late as that is heard no more: the old one, or the new one after all.
+        if (came && moment.until == Moment::Until::written && signal == SIGKILL) {
+          EXPECT_TRUE(now == before);
+        }
+        if (moment.until == Moment::Until::replaced) {
+          EXPECT_TRUE(now == after);
+        }
         if (result.exit_code == 0) {
-          EXPECT_EQ(now, after);
+          EXPECT_TRUE(now == after);
           continue;
         }
         ++cut_short;
         if (signal == SIGKILL) {
-          remove_temporaries();  // nobody else could
+          test::remove_temporaries(folder);  // nobody else could
         } else {
           EXPECT_THAT(names(), Each(Not(HasSubstr(".tmp"))));
           if (result.exit_code != -1) {  // which is before anything was made
@@ -197,7 +193,10 @@ TEST_F(Faults, ASignalAtAnyMomentLeavesTheOldOrTheNewWhole) {
           }
         }
       }
+      const int sent = int(moments.size());
       EXPECT_GT(cut_short, 0) << "no moment was early enough";
+      EXPECT_LT(replaced, sent) << "the old one was never left";
+      EXPECT_GT(replaced, 0) << "no moment was late enough";
       const std::string name = signal == SIGKILL ? "SIGKILL" : "SIGINT";
       test::leave_measured(
           "signal-" + output + "-" + name,

@@ -150,6 +150,33 @@ TEST(DiffSoupExport, AnyWidthOfTheImagesReadsAlike) {
                                                "texels in rows of 50: 3 rows expected"));
 }
 
+// Row X3 of the catalogue of numerical hazards: N texels in rows of W are ceil(N / W) rows.
+TEST(DiffSoupExport, X3_ATableOfOtherThanTheRowsThatItsTexelsTakeIsRefused) {
+  const TemporaryFolder folder;
+  const Scene scene = random_scene(1, 7, 2);
+  constexpr int texels = 105;
+  for (const char* file : {"lut0.png", "lut1.png"})
+    for (const int width : {1, 7, 50, 104, 105, 106, 4096}) {
+      write_diffsoup_export(scene, folder / "a");
+      const int rows = (texels + width - 1) / width;
+      for (const int wrong : {rows - 1, rows + 1, 2 * rows}) {
+        if (wrong < 1) continue;
+        const auto png = encode_png(Image8(width, wrong));
+        write_text(folder / (std::string("a/") + file),
+                   {reinterpret_cast<const char*>(png.data()), png.size()});
+        const std::string expected = std::to_string(rows) + " rows";
+        EXPECT_THAT(refusal(folder / "a"),
+                    HasSubstr(std::string(file) + ": byte 16: " + std::to_string(width) + " x " +
+                              std::to_string(wrong) + " pixels cannot be 105 texels in rows of " +
+                              std::to_string(width) + ": " + expected + " expected"));
+      }
+      const auto png = encode_png(Image8(width, rows));
+      write_text(folder / (std::string("a/") + file),
+                 {reinterpret_cast<const char*>(png.data()), png.size()});
+      EXPECT_EQ(refusal(folder / "a"), "") << width;
+    }
+}
+
 TEST(DiffSoupExport, TheExactBytesOfTheMesh) {
   const TemporaryFolder folder;
   write_diffsoup_export(random_scene(2, 3, 1), folder / "a");

@@ -118,6 +118,37 @@ TEST(Off, KeepsPositionsThatAreNotFinite) {
   EXPECT_EQ(soup_of(scene).positions[1], glm::vec3(-INFINITY, INFINITY, 0));
 }
 
+// Row X5 of the catalogue of numerical hazards.
+TEST(Off, X5_CommentsMissingAlphaAndColoursFromZeroToOneAreRead) {
+  const glm::vec4 grey(0.8f, 0.8f, 0.8f, 1.0f);
+  // Comments: lines of them, and the ends of lines, before, between and behind everything.
+  const std::string commented =
+      "# by hand\nCOFF # kind\n# counts\n 3 1 0 # of them\n\n# corners\n0 0 0 # first\n# 1 1 1\n"
+      "1 0 0\n0 1 0#last\n#\n3 0 1 2 # no colour\n# end\n";
+  const Scene scene = read_text(commented);
+  EXPECT_THAT(soup_of(scene).positions,
+              ElementsAre(glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)));
+  EXPECT_THAT(soup_of(scene).triangles, ElementsAre(glm::uvec3(0, 1, 2)));
+  EXPECT_THAT(face_rgba(scene), ElementsAre(grey));
+  // Of faces and of vertices, without and with an alpha, as bytes and from 0 to 1.
+  const auto of_face = [](const std::string& color) {
+    return face_rgba(read_text("OFF 3 1 0\n" + triangle + "3 0 1 2 " + color + "\n")).front();
+  };
+  EXPECT_EQ(of_face("255 51 0"), glm::vec4(1, 0.2f, 0, 1));
+  EXPECT_EQ(of_face("255 51 0 102"), glm::vec4(1, 0.2f, 0, 0.4f));
+  EXPECT_EQ(of_face("1.0 0.5 0.25"), glm::vec4(1, 0.5f, 0.25f, 1));
+  EXPECT_EQ(of_face("1.0 0.5 0.25 0.125"), glm::vec4(1, 0.5f, 0.25f, 0.125f));
+  const auto of_vertex = [](const std::string& color) {
+    return vertex_rgba(read_text("COFF 3 1 0\n0 0 0 " + color + "\n1 0 0 " + color + "\n0 1 0 " +
+                                 color + "\n3 0 1 2\n"))
+        .front();
+  };
+  EXPECT_EQ(of_vertex("255 51 0"), glm::vec4(1, 0.2f, 0, 1));
+  EXPECT_EQ(of_vertex("255 51 0 102"), glm::vec4(1, 0.2f, 0, 0.4f));
+  EXPECT_EQ(of_vertex("1.0 0.5 0.25"), glm::vec4(1, 0.5f, 0.25f, 1));
+  EXPECT_EQ(of_vertex("1.0 0.5 0.25 0.125"), glm::vec4(1, 0.5f, 0.25f, 0.125f));
+}
+
 TEST(Off, NotesTrailingText) {
   const Scene scene = read_text("OFF 3 1 0\n" + triangle + "3 0 1 2\n# fine\n\nmore\n");
   EXPECT_THAT(scene.info.notes, Contains("Text after the last face, from line 8 on, is ignored."));

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <random>
 #include <string>
@@ -247,6 +248,128 @@ TEST(Ply, RefusesByPlaceAndReason) {
   Builder shorter = b;
   shorter.value(std::int8_t(3)).value(0).value(0).value(0);
   EXPECT_EQ(message_of(shorter.text()), byte(16) + "the file ends within its 'face' elements");
+}
+
+// -- Row X1 of the catalogue of numerical hazards, clause by clause
+
+const char* const encodings[] = {"ascii", "binary_little_endian", "binary_big_endian"};
+
+/// Four corners, and the faces that are named; `corner` in the place of the second x.
+std::string square(const std::string& encoding, const std::string& line_break,
+                   const std::vector<std::vector<int>>& faces, float corner = 1.0f) {
+  Builder b(encoding, line_break);
+  b.line("element vertex 4").line("property float x").line("property float y");
+  b.line("property float nx").line("property float z");  // one that is passed over
+  b.line("element face " + std::to_string(faces.size()));
+  b.line("property uchar flags").line("property list uchar int vertex_indices");
+  b.line("end_header");
+  const float x[] = {0, corner, 1, 0}, y[] = {0, 0, 1, 1};
+  for (int v = 0; v < 4; ++v) b.value(x[v]).value(y[v]).value(9.0f).value(0.5f).end_row();
+  for (const std::vector<int>& face : faces) {
+    b.value(std::uint8_t(7)).value(std::uint8_t(face.size()));
+    for (const int index : face) b.value(index);
+    b.end_row();
+  }
+  return b.text();
+}
+
+TEST(Ply, X1_BigEndianAsciiCarriageReturnsExtraPropertiesAndQuadsAreRead) {
+  for (const std::string encoding : encodings)
+    for (const std::string line_break : {"\n", "\r\n"}) {
+      SCOPED_TRACE(encoding + (line_break.size() == 2 ? " CR LF" : " LF"));
+      const Scene scene = read_bytes(square(encoding, line_break, {{0, 1, 2, 3}, {1, 2, 3}}));
+      EXPECT_THAT(soup_of(scene).positions,
+                  ElementsAre(glm::vec3(0, 0, 0.5f), glm::vec3(1, 0, 0.5f), glm::vec3(1, 1, 0.5f),
+                              glm::vec3(0, 1, 0.5f)));
+      // A quad is a fan, in the place where it stands among the faces.
+      EXPECT_THAT(soup_of(scene).triangles,
+                  ElementsAre(glm::uvec3(0, 1, 2), glm::uvec3(0, 2, 3), glm::uvec3(1, 2, 3)));
+    }
+}
+
+TEST(Ply, X1_FloatsThatAreNotFiniteAreKept) {
+  for (const std::string encoding : encodings)
+    for (const float value : {NAN, INFINITY, -INFINITY}) {
+      const Scene scene = read_bytes(square(encoding, "\n", {{0, 1, 2}}, value));
+      const float x = soup_of(scene).positions[1].x;
+      EXPECT_TRUE(std::isnan(value) ? std::isnan(x) : x == value) << encoding << ' ' << value;
+      EXPECT_EQ(soup_of(scene).positions[2], glm::vec3(1, 1, 0.5f));
+      EXPECT_EQ(defect(soup_of(scene)), std::nullopt);
+    }
+}
+
+// The catalogue would skip such a face and keep the numbers of the others; SECURITY.md says why we
+// do not.
+TEST(Ply, X1_FacesThatNameNoVertexRefuseTheFileByTheirNumber) {
+  for (const std::string encoding : encodings)
+    for (const int index :
+         {-1, 4, 5, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()})
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        std::vector<std::vector<int>> faces{{0, 1, 2}, {1, 2, 3}, {0, 2, 3}};
+        faces[1][corner] = index;
+        EXPECT_THAT(message_of(square(encoding, "\n", faces)),
+                    HasSubstr("'face' 1 names vertex " + std::to_string(index) + " of 4"))
+            << encoding;
+      }
+}
+
+TEST(Ply, X1_ZeroFacesAreNoSceneUnlessThereIsNothingAtAll) {
+  for (const std::string encoding : encodings) {
+    EXPECT_EQ(message_of(square(encoding, "\n", {})),
+              "folder/plant.ply:3: element 'vertex' is a point cloud: 4 vertices and no faces, "
+              "nothing to draw");
+    const Scene empty = read_bytes(Builder(encoding)
+                                       .line("element vertex 0")
+                                       .line("property float x")
+                                       .line("property float y")
+                                       .line("property float z")
+                                       .line("element face 0")
+                                       .line("property list uchar int vertex_indices")
+                                       .line("end_header")
+                                       .text());
+    EXPECT_TRUE(soup_of(empty).positions.empty());
+    EXPECT_TRUE(soup_of(empty).triangles.empty());
+    EXPECT_EQ(defect(soup_of(empty)), std::nullopt);
+    const TemporaryFolder folder;
+    write_ply(empty, folder / "empty.ply");
+    EXPECT_TRUE(soup_of(read_ply(folder / "empty.ply")).triangles.empty());
+    // As in every format: a picture of nothing would leave open what is wrong.
+    EXPECT_THAT(input_error([&] { read_scene(folder / "empty.ply"); }),
+                HasSubstr("empty.ply: the file holds no triangles"));
+  }
+}
+
+TEST(Ply, X1_SplatsAreToldWhatTheyAreWithAndWithoutTheirHarmonics) {
+  const std::string head = ascii + "element vertex 1\n" + xyz + "property float f_dc_0\n";
+  const std::string scales =
+      "property float scale_0\nproperty float scale_1\nproperty float scale_2\n"
+      "property float rot_0\nend_header\n0 0 0 0 0 0 0 0";
+  const auto is_told = HasSubstr("holds 3D Gaussian splats, not triangles: a radiance field of 1 ");
+  EXPECT_THAT(message_of(head + scales + "\n"), is_told);
+  EXPECT_THAT(message_of(head + "property float f_rest_0\n" + scales + " 0\n"), is_told);
+}
+
+TEST(Ply, X1_BodiesThatEndEarlyAreRefusedAtEveryLength) {
+  for (const std::string encoding : encodings) {
+    const std::string text = square(encoding, "\n", {{0, 1, 2, 3}, {1, 2, 3}});
+    const std::size_t body = text.find("end_header\n") + 11;
+    // A text without its last line break is whole.
+    const std::size_t whole = encoding == "ascii" ? text.size() - 1 : text.size();
+    for (std::size_t size = body; size < whole; ++size)
+      EXPECT_THAT(message_of(text.substr(0, size)), HasSubstr("folder/plant.ply"))
+          << encoding << ' ' << size;
+  }
+}
+
+TEST(Ply, X1_SizesOfFourGigabytesAreRefusedByTheirNumber) {
+  for (const std::string encoding : encodings)
+    for (const char* size : {"4294967295", "4294967296", "9223372036854775808"})
+      for (const std::string element : {"vertex 4", "face 1"}) {
+        std::string text = square(encoding, "\n", {{0, 1, 2}});
+        const std::size_t at = text.find(element) + element.size() - 1;
+        text.replace(at, 1, size);
+        EXPECT_THAT(message_of(text), HasSubstr(size)) << encoding << ' ' << element;
+      }
 }
 
 TEST(Ply, SurvivesTruncationAndDamage) {

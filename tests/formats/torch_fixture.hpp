@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -153,9 +154,17 @@ struct PickleFixture {
     out += '\n';
     return *this;
   }
+  /// One that need not fit into an integer of 32 bits: LONG1, as Python writes it.
+  PickleFixture& whole(std::uint64_t value) {
+    if (value < 1u << 31) return integer(static_cast<std::int32_t>(value));
+    const int bytes = value >> 63 ? 9 : 8;  // the top bit is the sign's
+    op("\x8a").op(std::string(1, static_cast<char>(bytes)));
+    append_little(out, value, bytes);
+    return *this;
+  }
   PickleFixture& integers(const std::vector<std::uint64_t>& values) {
     op("(");
-    for (const std::uint64_t value : values) integer(static_cast<std::int32_t>(value));
+    for (const std::uint64_t value : values) whole(value);
     return op("t");
   }
   std::string done() const { return out + '.'; }
@@ -170,6 +179,7 @@ struct TensorFixture {
   std::vector<std::uint64_t> shape;
   std::vector<std::uint64_t> strides{};  // empty: row-major
   std::uint64_t offset = 0;
+  std::optional<std::uint64_t> stored{};  // how many the storage says it holds; none: as it does
   bool parameter = false;
 
   template <class T>
@@ -245,8 +255,8 @@ class TorchFixture {
     if (tensor.parameter) pickle_.global("torch._utils", "_rebuild_parameter").op("(");
     pickle_.global("torch._utils", "_rebuild_tensor_v2").op("((");
     pickle_.text("storage").global("torch", tensor.type).text(std::to_string(storages_.size()));
-    pickle_.text("cpu").integer(static_cast<std::int32_t>(tensor.storage.size() / tensor.element));
-    pickle_.op("tQ").integer(static_cast<std::int32_t>(tensor.offset));
+    pickle_.text("cpu").whole(tensor.stored.value_or(tensor.storage.size() / tensor.element));
+    pickle_.op("tQ").whole(tensor.offset);
     pickle_.integers(tensor.shape).integers(strides);
     pickle_.op("\x89").global("collections", "OrderedDict").op(")RtR");
     if (tensor.parameter) pickle_.op("\x88").global("collections", "OrderedDict").op(")RtR");

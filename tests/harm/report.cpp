@@ -119,10 +119,11 @@ std::string fault_table(const std::vector<Measured>& all) {
   for (const Measured& row : all)
     if (row.name == "resume")
       text += fmt::format(
-          "\nA training of {} steps that was killed {} times and went on by `--resume` ended in "
-          "the "
-          "very same file as one that was left alone.\n",
-          row.json.at("steps").get<int>(), row.json.at("kills").get<int>());
+          "\nTrainings of {} steps were ended by {} signals, {} of them SIGKILL while a file was "
+          "half written, and went on by `--resume` {} times: each ended in the very same file as "
+          "one that was left alone.\n",
+          row.json.at("steps").get<int>(), row.json.at("signals").get<int>(),
+          row.json.at("half_written").get<int>(), row.json.at("went_on").get<int>());
   return text;
 }
 

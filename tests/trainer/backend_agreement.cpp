@@ -5,13 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <iostream>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "support/random.hpp"
+#include "trainer/checkpoint.hpp"
 #include "trainer/random_model.hpp"
+#include "trainer/trainer.hpp"
 
 namespace tureen::trainer::test {
 
@@ -303,6 +307,44 @@ void expect_same_bits_again(const MakeBackend& make_first, const MakeBackend& ma
   first->download(a);
   second->download(b);
   expect_same_bits(a, b);
+}
+
+void expect_same_end_after_a_break(const MakeBackend& make) {
+  Fixture fixture(14, {.faces = 40, .min_level = 1, .max_level = 1}, 50, 40);
+  Config& config = fixture.config;
+  config.steps = 12;
+  config.triangles = config.initial_triangles = 40;
+  config.coarse_level = config.min_level = 1;
+  config.max_level = 2;
+  config.lift_at = 0.5f;
+  config.resample_every = 5;
+  config.batch = 2;
+  const auto trained = [&](const TrainingState& state, int until) {
+    Trainer trainer(config, fixture.views, make(fixture.views, config), state);
+    while (trainer.steps_done() < until) trainer.step();
+    return trainer.state();
+  };
+  const TrainingState whole = trained(fixture.state, config.steps);
+  const std::filesystem::path path =
+      std::filesystem::path(testing::TempDir()) /
+      (std::string(testing::UnitTest::GetInstance()->current_test_info()->test_suite_name()) +
+       "_break.checkpoint");
+  // A checkpoint names its views, and holds a baseline of their pixels.
+  std::vector<ViewFingerprint> views;
+  for (const TrainingView& view : fixture.views)
+    views.push_back(
+        {"view " + std::to_string(views.size()), view.camera.width, view.camera.height, 1u, 2u});
+  // Before, at and after a resampling and the lift.
+  for (const int step : {1, 5, 6, 8}) {
+    SCOPED_TRACE("broken off after step " + std::to_string(step));
+    write_checkpoint(
+        path,
+        {.config = config, .views = views, .seconds = 0, .state = trained(fixture.state, step)});
+    const TrainingState resumed = trained(read_checkpoint(path).state, config.steps);
+    expect_same_bits(resumed, whole);
+    EXPECT_EQ(resumed.model.faces(), whole.model.faces());
+  }
+  std::filesystem::remove(path);
 }
 
 void expect_quarantine(const MakeBackend& make) {

@@ -23,6 +23,8 @@ void expect_same_step_in_odd_cases(const MakeBackend& make);
 void expect_state_kept(const MakeBackend& make);
 /// Two runs, bit by bit; also one that was interrupted.
 void expect_same_bits_again(const MakeBackend& first, const MakeBackend& second);
+/// A training that goes on from a checkpoint's file against one that never stopped, bit by bit.
+void expect_same_end_after_a_break(const MakeBackend& make);
 /// What cannot be learned from is left out and counted.
 void expect_quarantine(const MakeBackend& make);
 /// PSNR after `steps`, on both.

@@ -39,6 +39,7 @@ TEST_F(Cuda, DoesTheSameStep) { expect_same_step(on_gpu); }
 TEST_F(Cuda, DoesTheSameStepInOddCases) { expect_same_step_in_odd_cases(on_gpu); }
 TEST_F(Cuda, KeepsTheState) { expect_state_kept(on_gpu); }
 TEST_F(Cuda, GivesTheSameBitsAgain) { expect_same_bits_again(on_gpu, on_gpu); }
+TEST_F(Cuda, EndsTheSameAfterABreak) { expect_same_end_after_a_break(on_gpu); }
 TEST_F(Cuda, QuarantinesWhatIsNotFinite) { expect_quarantine(on_gpu); }
 TEST_F(Cuda, TrainsAlike) { expect_same_training(on_gpu, 50); }
 

@@ -25,6 +25,7 @@ TEST(HostLauncher, GivesTheSameBitsInAnyOrder) {
   expect_same_bits_again(on_host<false>, on_host<true>);
 }
 
+TEST(HostLauncher, EndsTheSameAfterABreak) { expect_same_end_after_a_break(on_host<false>); }
 TEST(HostLauncher, QuarantinesWhatIsNotFinite) { expect_quarantine(on_host<false>); }
 TEST(HostLauncher, TrainsAlike) { expect_same_training(on_host<false>, 50); }
 

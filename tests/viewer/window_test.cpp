@@ -410,6 +410,16 @@ TEST_F(Window, WhatCannotBeIsSaid) {
   EXPECT_THAT(result.err, HasSubstr("tureen render"));
 }
 
+TEST_F(Window, ObeysTheLimitOfMemory) {
+  const ChildResult refused = replay(Person().wait(), {"soup.glb", "--max-memory", "64kB"});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err,
+              HasSubstr("would take more than the 64 kB of memory that reading may take; "
+                        "--max-memory changes that"));
+  const ChildResult read = replay(Person().wait(), {"soup.glb", "--max-memory", "1GB"});
+  EXPECT_EQ(read.exit_code, 0) << read.err;
+}
+
 // `tureen view` is the same program.
 TEST_F(Window, IsStartedByTureenView) {
   const ChildResult help = Child({"view", "--help"}, folder_, TUREEN_HEADLESS_PROGRAM).wait();

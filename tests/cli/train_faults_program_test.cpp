@@ -1,0 +1,228 @@
+// What `tureen train` leaves when it is ended at any moment, or the disk is full: the old soup or
+// the new one, whole, and a checkpoint from which it goes on as if nothing had happened.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <random>
+#include <thread>
+
+#include "cli/faults.hpp"
+#include "cli/train_fixture.hpp"
+#include "support/measured.hpp"
+
+namespace tureen {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+using test::ChildResult;
+using test::Moment;
+using test::SmallDisk;
+using testing::AnyOf;
+using testing::Each;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+
+class TrainFaults : public test::Train {
+ protected:
+  static constexpr const char* steps = "200";
+  const std::vector<std::string> often{"--checkpoint-every", "29"};
+
+  void SetUp() override {
+    Train::SetUp();
+    make_dataset();
+    // What was there before is of another seed. The name is in the file.
+    for (const char* name : {"old", "whole"}) fs::create_directory(folder / name);
+    for (const std::string name : {"old", "whole"}) {
+      const Clock::time_point begin = Clock::now();
+      std::vector<std::string> more = often;
+      if (name == "old") more.insert(more.end(), {"--seed", "1"});
+      ASSERT_EQ(train(name + "/ball.glb", more, steps).exit_code, 0);
+      run_time = std::min(
+          run_time, std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - begin));
+    }
+    before = bytes("old/ball.glb");
+    after = bytes("whole/ball.glb");
+    ASSERT_NE(before, after);
+  }
+
+  /// As if the run of "old" had just ended.
+  void put_old() const {
+    for (const std::string& name : test::names_in(folder))
+      if (name.rfind("ball.", 0) == 0) fs::remove_all(folder / name);
+    for (const char* name : {"ball.glb", "ball.svg", "ball.jsonl"})
+      fs::copy_file(folder / "old" / name, folder / name);
+  }
+
+  /// Trains on what is there to the end, which is that of the run that was left alone.
+  void expect_to_end_as_if_left_alone(std::vector<std::string> more = {}) const {
+    if (exists("ball.checkpoint")) more.emplace_back("--resume");
+    const ChildResult result = train("ball.glb", more, steps);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(bytes("ball.glb") == after) << "other bits than the run that was left alone";
+    EXPECT_FALSE(exists("ball.checkpoint"));
+    const std::string log = bytes("ball.jsonl"), whole = bytes("whole/ball.jsonl");
+    EXPECT_EQ(std::count(log.begin(), log.end(), '\n'),
+              std::count(whole.begin(), whole.end(), '\n'))
+        << "each step once";
+  }
+
+  std::string before, after;
+  std::chrono::microseconds run_time = std::chrono::microseconds::max();  // at least
+};
+
+/// Ends trainings at moments from their beginning to behind their end, also while they go on from a
+/// checkpoint: up to three times in a row, then lets them end.
+TEST_F(TrainFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewAndIsAsIfItHadNotBeen) {
+  constexpr unsigned seed = 11;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::minstd_rand random(seed);
+  int all = 0, went_on = 0, half_written = 0;
+  for (const int signal : {SIGKILL, SIGINT}) {
+    // While each file is written; after the soup took the old one's place; and at any time, early
+    // and late ones in any order, as a run that goes on has less to do than a whole one.
+    std::vector<Moment> moments;
+    for (const char* name : {"ball.checkpoint", "ball.checkpoint", "ball.glb", "ball.svg"})
+      moments.push_back({.after = run_time * (random() % 100) / 400,
+                         .until = Moment::Until::written,
+                         .path = name});
+    moments.push_back({.until = Moment::Until::replaced, .path = "ball.glb"});
+    std::vector<Moment> timed = test::moments_of(run_time, 16, random);
+    std::shuffle(timed.begin(), timed.end(), random);
+    moments.insert(moments.end(), timed.begin(), timed.end());
+
+    int cut_short = 0, replaced = 0, in_a_row = 0;
+    put_old();
+    for (const Moment& moment : moments) {
+      SCOPED_TRACE("signal " + std::to_string(signal) + " after " +
+                   std::to_string(moment.after.count()) + " us " + moment.path);
+      std::vector<std::string> more = often;
+      if (exists("ball.checkpoint")) {
+        more.emplace_back("--resume");
+        ++went_on;
+      }
+      const std::string plot = bytes("ball.svg");
+      test::Child child(arguments("ball.glb", more, steps), folder);
+      const bool came = test::wait_for(moment, child, folder);
+      test::end_by(signal, child);
+      const ChildResult result = child.wait();
+
+      const std::string now = bytes("ball.glb");
+      const bool is_new = now == after;
+      EXPECT_TRUE(is_new || now == before) << "the soup is neither the old nor the new";
+      EXPECT_TRUE(is_new || bytes("ball.svg") == plot) << "the plot of a soup that is not there";
+      EXPECT_THAT(bytes("ball.svg"), EndsWith("</svg>\n"));
+      if (moment.until == Moment::Until::replaced) {
+        EXPECT_TRUE(is_new);
+      }
+      replaced += is_new;
+      const int temporaries = test::remove_temporaries(folder);
+      if (signal == SIGKILL) {
+        if (came && moment.until == Moment::Until::written) {
+          EXPECT_EQ(temporaries, 1);
+        }
+        half_written += temporaries;
+        fs::remove(folder / "ball.lock");  // which nobody holds
+      } else {
+        EXPECT_EQ(temporaries, 0);
+        EXPECT_FALSE(exists("ball.lock"));
+      }
+      if (result.exit_code == 0) {
+        EXPECT_TRUE(is_new);
+        EXPECT_FALSE(exists("ball.checkpoint"));
+      } else {
+        ++cut_short;
+        // Ctrl-C ends a program that has not begun to listen for it as it ends any other.
+        EXPECT_THAT(result.exit_code, AnyOf(-1, signal == SIGINT ? 5 : -1)) << result.err;
+      }
+      if (result.exit_code == 5) {
+        EXPECT_THAT(result.err, HasSubstr("interrupted"));
+        EXPECT_TRUE(is_new || exists("ball.checkpoint") ||
+                    result.err.find("no step was done") != std::string::npos)
+            << result.err;
+      }
+      const bool done = is_new && !exists("ball.checkpoint");
+      if (!done && ++in_a_row < 3) continue;
+      if (!done) expect_to_end_as_if_left_alone();
+      put_old();
+      in_a_row = 0;
+    }
+    expect_to_end_as_if_left_alone();
+
+    const int sent = int(moments.size());
+    all += sent;
+    EXPECT_GT(cut_short, 0) << "no moment was early enough";
+    EXPECT_LT(replaced, sent) << "the old one was never left";
+    EXPECT_GT(replaced, 0) << "no moment was late enough";
+    const std::string name = signal == SIGKILL ? "SIGKILL" : "SIGINT";
+    test::leave_measured("signal-train-" + name, {{"what", "train over a file"},
+                                                  {"signal", name},
+                                                  {"sent", sent},
+                                                  {"cut_short", cut_short},
+                                                  {"old", sent - replaced},
+                                                  {"new", replaced}});
+  }
+  EXPECT_GT(went_on, 0) << "nothing went on from a checkpoint";
+  EXPECT_GT(half_written, 0) << "no file was being written when a run was killed";
+  test::leave_measured("resume", {{"signals", all},
+                                  {"went_on", went_on},
+                                  {"half_written", half_written},
+                                  {"steps", std::stoi(steps)}});
+}
+
+TEST_F(TrainFaults, AFullDiskLeavesTheOldSoupAndTheLastCheckpoint) {
+  // What is said and the log take less, a checkpoint, a picture and a soup more.
+  constexpr rlim_t little = 2000;
+  const auto expect_full = [&](const std::vector<std::string>& more, const std::string& file,
+                               rlim_t room) {
+    SCOPED_TRACE(file);
+    const std::string plot = bytes("ball.svg"), checkpoint = bytes("ball.checkpoint");
+    ChildResult result;
+    {
+      const SmallDisk small(room);
+      result = train("ball.glb", more, steps);
+    }
+    EXPECT_EQ(result.exit_code, 5);
+    EXPECT_THAT(result.err, HasSubstr(file + ": cannot be written: File too large"));
+    EXPECT_TRUE(bytes("ball.glb") == before) << "the old soup is not what it was";
+    EXPECT_TRUE(bytes("ball.svg") == plot);
+    EXPECT_TRUE(bytes("ball.checkpoint") == checkpoint) << "none, or the one that was there";
+    EXPECT_THAT(test::names_in(folder), Each(Not(AnyOf(HasSubstr(".tmp"), EndsWith(".lock")))));
+  };
+  put_old();
+  expect_full(often, "ball.checkpoint", little);
+
+  fs::create_directory(folder / "ball.previews");
+  const std::string picture = "ball.previews/step_010.png";
+  write(picture, "an older picture");
+  expect_full({"--preview-every", "10"}, picture, little);
+  EXPECT_EQ(bytes(picture), "an older picture");
+
+  ASSERT_GT(after.size(), 2 * little);
+  expect_full({}, "ball.glb", after.size() - 1);
+
+  // Over the checkpoint of a run that goes on: that stays, too, and the run after it ends as if
+  // the disk had never been full.
+  put_old();
+  {
+    test::Child child(arguments("ball.glb", often, steps), folder);
+    while (child.running() && !exists("ball.checkpoint")) std::this_thread::yield();
+    child.signal(SIGKILL);
+    child.wait();
+  }
+  test::remove_temporaries(folder);
+  fs::remove(folder / "ball.lock");
+  ASSERT_TRUE(exists("ball.checkpoint"));
+  std::vector<std::string> resume = often;
+  resume.emplace_back("--resume");
+  expect_full(resume, "ball.checkpoint", little);
+  expect_full({"--resume"}, "ball.glb", after.size() - 1);
+  expect_to_end_as_if_left_alone();
+}
+
+}  // namespace
+}  // namespace tureen

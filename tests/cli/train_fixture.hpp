@@ -1,0 +1,98 @@
+// `tureen train` on photographs of a coloured ball, 32 pixels a side.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "cli/program_fixture.hpp"
+#include "soup/camera.hpp"
+
+namespace tureen::test {
+
+class Train : public Program {
+ protected:
+  static constexpr int size = 32;
+
+  /// The unit ball, its colour the direction of its surface; one ray a pixel.
+  static Image8 picture(const Camera& camera, bool with_alpha) {
+    Image8 image(size, size, with_alpha ? glm::u8vec4(0) : glm::u8vec4(0, 0, 0, 255));
+    const glm::dmat3 axes = camera.world_from_view_rotation();
+    const glm::dvec3 eye = camera.eye();
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x) {
+        const glm::dvec3 ray =
+            glm::normalize(axes * glm::dvec3((x + 0.5 - camera.cx) / camera.fx,
+                                             (camera.cy - y - 0.5) / camera.fy, -1.0));
+        const double along = -glm::dot(eye, ray);
+        const double inside = 1 - glm::dot(eye, eye) + along * along;
+        if (inside < 0) continue;
+        const glm::dvec3 normal = eye + (along - std::sqrt(inside)) * ray;
+        image.at(x, y) = glm::u8vec4(glm::dvec4(127.5 * (normal + 1.0), 255));
+      }
+    return image;
+  }
+
+  void write_split(const std::string& split, int count, double turn, bool with_alpha) const {
+    std::filesystem::create_directories(folder / "ball" / split);
+    nlohmann::json frames = nlohmann::json::array();
+    nlohmann::json document;
+    for (int i = 0; i < count; ++i) {
+      const double angle = 2 * 3.14159265358979 * (i + turn) / count;
+      const Camera camera = look_at({4 * std::cos(angle), 4 * std::sin(angle), i % 2 ? 1.5 : -0.5},
+                                    {0, 0, 0}, {0, 0, 1}, 0.7, size, size);
+      const std::string name = split + "/r_" + std::to_string(i) + ".png";
+      write_png("ball/" + name, picture(camera, with_alpha));
+      const glm::dmat4 pose = glm::inverse(camera.view_from_world);
+      nlohmann::json rows = nlohmann::json::array();
+      for (int r = 0; r < 4; ++r) rows.push_back({pose[0][r], pose[1][r], pose[2][r], pose[3][r]});
+      frames.push_back({{"file_path", name}, {"transform_matrix", rows}});
+      document = {{"fl_x", camera.fx}, {"fl_y", camera.fy}, {"cx", camera.cx},
+                  {"cy", camera.cy},   {"w", size},         {"h", size}};
+    }
+    document["frames"] = frames;
+    write("ball/transforms_" + split + ".json", document.dump());
+  }
+
+  void make_dataset(bool with_alpha = true) const {
+    write_split("train", 8, 0, with_alpha);
+    write_split("test", 2, 0.25, with_alpha);
+  }
+
+  static std::vector<std::string> arguments(const std::string& output,
+                                            const std::vector<std::string>& more = {},
+                                            const std::string& steps = "40") {
+    // A GPU, where there is one, gives other bits.
+    std::vector<std::string> all{"train",   "ball", "-o",        output, "--triangles", "100",
+                                 "--steps", steps,  "--threads", "2",    "--device",    "cpu"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  ChildResult train(const std::string& output, const std::vector<std::string>& more = {},
+                    const std::string& steps = "40") const {
+    return run(arguments(output, more, steps));
+  }
+  std::string bytes(const std::string& name) const {
+    std::ifstream stream(folder / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  /// Every file in the test's folder but the dataset's and the streams.
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+      const std::string name = std::filesystem::relative(entry.path(), folder).string();
+      if (entry.is_regular_file() && name.rfind("ball/", 0) != 0 && name.rfind("std", 0) != 0)
+        names.push_back(name);
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+};
+
+}  // namespace tureen::test

@@ -1,0 +1,233 @@
+// JSON that means harm: nested, endless, with numbers that are none and lists of wrong lengths.
+// What is held against it is every reader of JSON.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "formats/dataset_fixture.hpp"
+#include "formats/hostile_bounds.hpp"
+#include "formats/json_file.hpp"
+#include "formats/json_view.hpp"
+#include "formats/scene_file.hpp"
+#include "fuzz/fixtures.hpp"
+#include "fuzz/folder_files.hpp"
+#include "fuzz/targets.hpp"
+
+namespace tureen {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::AnyOf;
+using testing::Bytes;
+using testing::bytes_of;
+using ::testing::HasSubstr;
+using testing::input_error;
+using testing::TemporaryFolder;
+using testing::text_of;
+using testing::within_bounds;
+
+struct JsonReader {
+  const char* name;
+  void (*read)(const std::string& text, const fs::path& folder);
+};
+
+void read_in_folder(const fs::path& folder, const fuzz::FolderFiles& files, const char* name,
+                    const std::string& text) {
+  for (const auto& [file, bytes] : files) testing::write_bytes(folder / file, bytes);
+  testing::write_text(folder / name, text);
+  read_scene(folder);
+}
+
+const std::array<JsonReader, 14> json_readers{{
+    {"cameras", [](const std::string& text, const fs::path&) { fuzz::cameras(bytes_of(text)); }},
+    {"path", [](const std::string& text, const fs::path&) { fuzz::camera_path(bytes_of(text)); }},
+    {"session", [](const std::string& text, const fs::path&) { fuzz::session(bytes_of(text)); }},
+    {"transforms",
+     [](const std::string& text, const fs::path&) { fuzz::transforms(bytes_of(text)); }},
+    {"bench.json",
+     [](const std::string& text, const fs::path&) { fuzz::bench_result(bytes_of(text)); }},
+    {"bench of a page",
+     [](const std::string& text, const fs::path&) { fuzz::web_bench(bytes_of(text)); }},
+    {"configuration",
+     [](const std::string& text, const fs::path&) { fuzz::training_config(bytes_of(text)); }},
+    {"log of a run",
+     [](const std::string& text, const fs::path&) { fuzz::training_log(bytes_of(text + "\n")); }},
+    {"gltf", [](const std::string& text, const fs::path&) { fuzz::gltf(bytes_of(text)); }},
+    {"glb",
+     [](const std::string& text, const fs::path&) {
+       std::string padded = text;
+       padded.append((4 - padded.size() % 4) % 4, ' ');
+       const std::uint32_t head[] = {0x46546C67, 2, std::uint32_t(20 + padded.size()),
+                                     std::uint32_t(padded.size()), 0x4E4F534A};
+       Bytes bytes(sizeof head + padded.size());
+       std::memcpy(bytes.data(), head, sizeof head);
+       std::memcpy(bytes.data() + sizeof head, padded.data(), padded.size());
+       fuzz::gltf(bytes);
+     }},
+    {"meta.json",
+     [](const std::string& text, const fs::path& folder) {
+       read_in_folder(folder, fuzz::diffsoup_files(), "meta.json", text);
+     }},
+    {"mlp_weights.json",
+     [](const std::string& text, const fs::path& folder) {
+       read_in_folder(folder, fuzz::diffsoup_files(), "mlp_weights.json", text);
+     }},
+    {"mlp.json",
+     [](const std::string& text, const fs::path& folder) {
+       read_in_folder(folder, fuzz::mobilenerf_files(), "mlp.json", text);
+     }},
+    {"small files",
+     [](const std::string& text, const fs::path&) {
+       Input input = testing::input_of(text, "a.json");
+       read_json(input, RepeatedKeys::refused);
+     }},
+}};
+
+/// {"asset": {"version": "2.0"}, "extras": [[[..]]]}, which any reader takes for what it reads.
+std::string nested(int depth, char open, char close) {
+  std::string text = R"({"asset": {"version": "2.0"}, "extras": )";
+  for (int i = 0; i < depth; ++i)
+    text += open == '{' ? std::string("{\"a\":") : std::string(1, open);
+  text += "1" + std::string(std::size_t(depth), close) + "}";
+  return text;
+}
+
+TEST(HostileJson, NestedDeeperThanOurLimitIsRefusedEverywhere) {
+  for (const JsonReader& reader : json_readers)
+    for (const std::pair<char, char>& ends : {std::pair('[', ']'), std::pair('{', '}')}) {
+      const TemporaryFolder folder;
+      SCOPED_TRACE(reader.name);
+      const auto read = [&](int depth) {
+        return input_error(
+            [&] { reader.read(nested(depth, ends.first, ends.second), folder / ""); });
+      };
+      for (const int depth : {64, 65, 1000, 1000000}) {
+        within_bounds(
+            default_max_memory,
+            [&] {
+              // With the place: a log of lines names the line.
+              EXPECT_THAT(read(depth), AllOf(HasSubstr("JSON nested deeper than 64 levels"),
+                                             AnyOf(HasSubstr("byte"), HasSubstr(".jsonl:1: "))));
+            },
+            "depth");
+      }
+      // One less is not refused for its depth.
+      EXPECT_THAT(read(63), ::testing::Not(HasSubstr("nested deeper")));
+    }
+}
+
+TEST(HostileJson, OfMoreValuesThanMemoryIsRefusedBeforeItIsParsed) {
+  std::string text = R"({"asset": {"version": "2.0"}, "materials": [)";
+  for (int i = 0; i < 1000000; ++i) text += i ? ",{}" : "{}";
+  text += "]}";
+  within_bounds(
+      64 << 20,
+      [&] {
+        EXPECT_THAT(input_error([&] { fuzz::gltf(bytes_of(text)); }),
+                    HasSubstr("the JSON would take more than the 64 MB"));
+      },
+      "materials");
+}
+
+TEST(HostileJson, NamesOfMembersMayBeAnythingAtAnyLength) {
+  const std::string head = R"({"asset": {"version": "2.0"}, "nodes": [{")";
+  const auto read = [&](const std::string& name, const std::string& value) {
+    return input_error([&] { fuzz::gltf(bytes_of(head + name + "\": " + value + "}]}")); });
+  };
+  // The letter 0 ends names in C.
+  EXPECT_THAT(read("a\\u0000b", "[4294967296]"), ::testing::Not(HasSubstr("beyond")));
+  const std::string named = input_error([&] {
+    fuzz::gltf(bytes_of(R"({"asset": {"version": "2.0\u0000\n", "minVersion": "a\u0000b\nc"}})"));
+  });
+  EXPECT_THAT(named, HasSubstr("a?b?c; 2.0 is read"));
+  EXPECT_THAT(read("mesh", "4294967296"), HasSubstr("nodes[0].mesh: is beyond 2147483647"));
+  EXPECT_THAT(read("mesh", "-4294967295"), HasSubstr("nodes[0].mesh: is beyond 2147483647"));
+  EXPECT_THAT(read("children", "[0, 4294967296]"), HasSubstr("nodes[0].children[1]: is beyond"));
+  // A long name above many values: what is put together for each of them would be terabytes.
+  std::string many = "[0";
+  for (int i = 0; i < 500000; ++i) many += ",0";
+  within_bounds(
+      default_max_memory, [&] { read(std::string(1 << 20, 'a'), many + "]"); }, "long name");
+}
+
+// Row X2 of the catalogue of numerical hazards: numbers that no double holds, lists of wrong
+// lengths.
+TEST(HostileJson, X2_NumbersThatNoDoubleHoldsAreRefused) {
+  for (const char* number : {"1e999", "-1e999"}) {
+    const std::string text =
+        R"({"asset": {"version": "2.0"}, "frames": [)" + std::string(number) + "]}";
+    EXPECT_THAT(input_error([&] { parse_json(text, "a.json"); }), HasSubstr(number));
+    for (const JsonReader& reader : json_readers) {
+      const TemporaryFolder folder;
+      EXPECT_THAT(input_error([&] { reader.read(text, folder / ""); }), HasSubstr(number))
+          << reader.name;
+    }
+  }
+}
+
+/// Lists of numbers of 16 at most, which have a length: a vector, a matrix, the bias of a layer.
+/// The nodes of a glTF's scene may be any.
+void find_lists(const nlohmann::json& json, const nlohmann::json::json_pointer& at,
+                std::vector<nlohmann::json::json_pointer>& found) {
+  const bool is_list = json.is_array() && !json.empty() && json.size() <= 16 &&
+                       std::all_of(json.begin(), json.end(),
+                                   [](const nlohmann::json& value) { return value.is_number(); });
+  if (is_list && at.back() != "nodes") found.push_back(at);
+  for (const auto& [key, value] : json.items())
+    if (value.is_structured())
+      find_lists(value, json.is_array() ? at / std::size_t(std::stoul(key)) : at / key, found);
+}
+
+TEST(HostileJson, X2_ListsOfWrongLengthsAreRefused) {
+  const auto file_of = [](const fuzz::FolderFiles& files, const char* name) {
+    for (const auto& [file, bytes] : files)
+      if (file == name) return text_of(bytes);
+    ADD_FAILURE() << "no " << name;
+    return std::string();
+  };
+  std::vector<std::pair<std::string, std::string>> documents;  // a reader and what it reads
+  const std::map<std::string, std::string> readers{
+      {"cameras", "cameras"},           {"camera_path", "path"},
+      {"session", "session"},           {"transforms", "transforms"},
+      {"web_bench", "bench of a page"}, {"training_config", "configuration"}};
+  for (const fuzz::Fixture& fixture : fuzz::fixtures()) {
+    if (const auto reader = readers.find(fixture.target); reader != readers.end())
+      documents.emplace_back(reader->second, text_of(fixture.bytes));
+    if (fixture.name == "foreign.gltf") documents.emplace_back("gltf", text_of(fixture.bytes));
+  }
+  for (const char* name : {"meta.json", "mlp_weights.json"})
+    documents.emplace_back(name, file_of(fuzz::diffsoup_files(), name));
+  documents.emplace_back("mlp.json", file_of(fuzz::mobilenerf_files(), "mlp.json"));
+  std::map<std::string, std::size_t> refused;
+  for (const auto& [name, text] : documents) {
+    const auto reader = std::find_if(
+        json_readers.begin(), json_readers.end(),
+        [&name = name](const JsonReader& candidate) { return candidate.name == name; });
+    ASSERT_NE(reader, json_readers.end()) << name;
+    const auto whole = nlohmann::json::parse(text);
+    std::vector<nlohmann::json::json_pointer> lists;
+    find_lists(whole, nlohmann::json::json_pointer(), lists);
+    for (const auto& list : lists)
+      for (const int change : {-1, 1}) {
+        nlohmann::json changed = whole;
+        if (change < 0)
+          changed[list].erase(changed[list].size() - 1);
+        else
+          changed[list].push_back(changed[list].front());
+        const TemporaryFolder folder;
+        const std::string error = input_error([&] { reader->read(changed.dump(), folder / ""); });
+        refused[name] += !error.empty();
+        EXPECT_NE(error, "") << name << list.to_string() << (change < 0 ? " shorter" : " longer");
+      }
+  }
+  for (const auto& [name, text] : documents) EXPECT_GT(refused[name], 0u) << name;
+}
+
+}  // namespace
+}  // namespace tureen

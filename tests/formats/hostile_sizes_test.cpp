@@ -1,0 +1,382 @@
+// Files that say sizes of themselves that are false, 2^31 and 2^63 among them: each is refused by
+// its number, before anything is allocated by it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "formats/checkpoint.hpp"
+#include "formats/dataset_fixture.hpp"
+#include "formats/hostile_bounds.hpp"
+#include "formats/off.hpp"
+#include "formats/ply.hpp"
+#include "formats/scene_file.hpp"
+#include "formats/slim_geometry.hpp"
+#include "formats/slim_texels.hpp"
+#include "formats/torch_fixture.hpp"
+#include "formats/tureen_glb_kinds.hpp"
+#include "formats/zip_archive.hpp"
+#include "fuzz/fixtures.hpp"
+#include "fuzz/folder_files.hpp"
+#include "fuzz/targets.hpp"
+
+namespace tureen {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::AnyOf;
+using testing::Bytes;
+using testing::bytes_of;
+using testing::expect_refused;
+using ::testing::HasSubstr;
+using testing::input_error;
+using testing::TemporaryFolder;
+using testing::text_of;
+
+constexpr std::array<std::uint64_t, 5> false_sizes{
+    std::uint64_t(1) << 31, (std::uint64_t(1) << 32) - 1, std::uint64_t(1) << 32,
+    std::uint64_t(1) << 63, ~std::uint64_t(0)};
+
+TEST(HostileSizes, InTexts) {
+  for (const std::uint64_t size : false_sizes) {
+    const std::string n = std::to_string(size);
+    for (const std::string& text : {"OFF\n" + n + " 1 0\n0 0 0\n", "OFF\n1 " + n + " 0\n0 0 0\n",
+                                    "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n" + n + " 0 1 2\n"})
+      expect_refused(
+          [&] {
+            Input input = testing::input_of(text, "a.off");
+            read_off(input);
+          },
+          text, AnyOf(HasSubstr(n), HasSubstr("a.off:6: the line ends")));
+    // Three of them, whatever the encoding.
+    const std::string vertices = "0 0 0 \n0 0 0 \n0 0 0 \n0 0 0 \n0 0 0 \n0 0 0 \n";
+    for (const char* encoding : {"ascii", "binary_little_endian", "binary_big_endian"})
+      for (const std::string& elements :
+           {"element vertex " + n +
+                "\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty "
+                "list uchar int vertex_indices\n",
+            "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement "
+            "face " +
+                n + "\nproperty list uchar int vertex_indices\n",
+            "element vertex 0\nproperty float x\nproperty float y\nproperty float z\nelement "
+            "other " +
+                n +
+                "\nproperty double a\nelement face 1\nproperty list uchar int vertex_indices\n"}) {
+        const std::string text = std::string("ply\nformat ") + encoding + " 1.0\n" + elements +
+                                 "end_header\n" + vertices;
+        expect_refused(
+            [&] {
+              Input input = testing::input_of(text, "a.ply");
+              read_ply(input);
+            },
+            text, HasSubstr(n));
+      }
+    const std::string obj = "v 0 0 0\nvt 0 0\nf " + n + "/1 1/1 1/1\n";
+    expect_refused([&] { fuzz::obj(bytes_of(obj)); }, obj, HasSubstr("fuzz.obj:3: "));
+  }
+}
+
+TEST(HostileSizes, InBinaryFiles) {
+  const auto put = [](Bytes& bytes, std::size_t at, auto value) {
+    std::memcpy(&bytes.at(at), &value, sizeof value);
+  };
+  std::set<std::string> tried;
+  for (const fuzz::Fixture& fixture : fuzz::fixtures()) {
+    tried.insert(fixture.target == "colmap_binary" ? fixture.target : fixture.name);
+    if (fixture.target == "colmap_binary") {
+      // The count of records.
+      for (const std::uint64_t size : false_sizes) {
+        Bytes bytes = fixture.bytes;
+        put(bytes, 1, size);
+        expect_refused([&] { fuzz::colmap_binary(bytes); }, fixture.name,
+                       HasSubstr("a count of " + std::to_string(size)));
+      }
+    } else if (fixture.name == "face_bytes.glb") {
+      // The file's length and the JSON chunk's.
+      for (const std::size_t at : {8, 12})
+        for (const std::uint32_t size : {0x80000000u, 0xfffffffcu}) {
+          Bytes bytes = fixture.bytes;
+          put(bytes, at, size);
+          expect_refused(
+              [&] { fuzz::gltf(bytes); }, fixture.name,
+              HasSubstr(std::to_string(size) + (at == 8 ? " bytes, it" : " bytes, but")));
+        }
+    } else if (fixture.name == "rgba.png") {
+      for (const std::size_t at : {16, 20})
+        for (const std::uint32_t size : {0x80u, 0xffffff7fu}) {  // big endian: 2^31, 2^31 - 1
+          Bytes bytes = fixture.bytes;
+          put(bytes, at, size);
+          expect_refused([&] { fuzz::image(bytes); }, fixture.name, HasSubstr("fuzz.png: "));
+        }
+    } else if (fixture.name == "run.checkpoint") {
+      for (const std::uint64_t size : false_sizes) {
+        // Behind the magic and the version: the length of the configuration.
+        Bytes bytes = fixture.bytes;
+        const std::string text = text_of(bytes);
+        const std::size_t at = text.find('{') - sizeof size;
+        put(bytes, at, size);
+        expect_refused([&] { fuzz::training_checkpoint(bytes); }, fixture.name,
+                       HasSubstr("cut short: " + std::to_string(size) + " bytes expected"));
+      }
+    }
+  }
+  for (const char* name : {"colmap_binary", "face_bytes.glb", "rgba.png", "run.checkpoint"})
+    EXPECT_TRUE(tried.contains(name)) << name;
+}
+
+TEST(HostileSizes, InTheJsonOfOurFile) {
+  std::set<std::string> tried;
+  using testing::glb_json;
+  using testing::with_glb_json;
+  for (const testing::GlbKind& kind : testing::glb_kinds()) {
+    const Bytes bytes = testing::glb_bytes(testing::random_scene(kind, 1, 2), kind.name);
+    const nlohmann::json whole = glb_json(bytes);
+    const auto refuse = [&](const std::string& pointer, std::uint64_t size) {
+      const nlohmann::json::json_pointer at(pointer);
+      if (!whole.contains(at)) return;
+      tried.insert(pointer);
+      nlohmann::json changed = whole;
+      changed[at] = size;
+      const Bytes damaged = with_glb_json(bytes, changed);
+      expect_refused([&] { fuzz::gltf(damaged); },
+                     std::string(kind.name) + pointer + " = " + std::to_string(size),
+                     // Elements; or what they are made of, three corners and eight bytes.
+                     AnyOf(HasSubstr(std::to_string(size)), HasSubstr(std::to_string(3 * size)),
+                           HasSubstr(std::to_string(8 * size))));
+    };
+    const std::string extension = "/extensions/TUREEN_triangle_soup";
+    for (const std::uint64_t size : false_sizes) {
+      for (const char* key : {"/vertex_count", "/face_count", "/appearance/texel_count",
+                              "/appearance/degree", "/appearance/strips/0/count"})
+        refuse(extension + key, size);
+      for (std::size_t i = 0; i < whole["accessors"].size(); ++i)
+        // Not those of the mesh that other viewers see, which we do not read.
+        if (whole["accessors"][i].value("name", "").empty() && i + 1 == whole["accessors"].size())
+          refuse("/accessors/" + std::to_string(i) + "/count", size);
+    }
+  }
+  // Each was there in one kind of file at least.
+  for (const char* key : {"/vertex_count", "/face_count", "/appearance/texel_count",
+                          "/appearance/degree", "/appearance/strips/0/count"})
+    EXPECT_TRUE(tried.contains(std::string("/extensions/TUREEN_triangle_soup") + key)) << key;
+  EXPECT_TRUE(std::any_of(tried.begin(), tried.end(),
+                          [](const std::string& at) { return at.rfind("/accessors/", 0) == 0; }));
+}
+
+TEST(HostileSizes, InTheJsonOfForeignFiles) {
+  for (const fuzz::Fixture& fixture : fuzz::fixtures()) {
+    if (fixture.name != "foreign.gltf") continue;
+    const auto whole = nlohmann::json::parse(text_of(fixture.bytes));
+    for (const char* pointer :
+         {"/accessors/1/count", "/accessors/3/count", "/accessors/0/sparse/count",
+          "/accessors/3/byteOffset", "/bufferViews/2/byteLength", "/bufferViews/2/byteOffset",
+          "/bufferViews/2/byteStride", "/buffers/0/byteLength", "/nodes/0/mesh",
+          "/meshes/0/primitives/0/indices", "/textures/0/source"})
+      for (const std::uint64_t size : false_sizes) {
+        nlohmann::json changed = whole;
+        changed[nlohmann::json::json_pointer(pointer)] = size;
+        const std::string text = changed.dump();
+        expect_refused([&] { fuzz::gltf(bytes_of(text)); },
+                       std::string(pointer) + " = " + std::to_string(size),
+                       AnyOf(HasSubstr(std::to_string(size)), HasSubstr("is beyond 2147483647")));
+      }
+    return;
+  }
+  FAIL() << "there is no foreign.gltf";
+}
+
+TEST(HostileSizes, OfTensors) {
+  using testing::TensorFixture;
+  std::vector<std::uint64_t> sizes{std::uint64_t(1) << 30, 0x7fffffff,
+                                   (std::uint64_t(1) << 63) - 1};
+  sizes.insert(sizes.end(), false_sizes.begin(), false_sizes.end());
+  const auto points = [] { return TensorFixture::floats({2, 3, 3}, std::vector<float>(18)); };
+  for (const std::uint64_t size : sizes) {
+    std::vector<TensorFixture> damaged;
+    for (const std::vector<std::uint64_t>& shape :
+         {std::vector<std::uint64_t>{size, 3, 3}, {size, size, size}, {2, 3, size}}) {
+      damaged.push_back(points());
+      damaged.back().shape = shape;
+      damaged.back().strides = {9, 3, 1};
+      damaged.push_back(points());
+      damaged.back().strides = shape;
+    }
+    damaged.push_back(points());
+    damaged.back().offset = size;
+    damaged.push_back(points());
+    damaged.back().stored = size;
+    for (std::size_t i = 0; i < damaged.size(); ++i) {
+      testing::TorchFixture torch;
+      torch.add("triangles_points", damaged[i]);
+      const std::string bytes = torch.bytes();
+      expect_refused([&] { read_checkpoint(Input::memory("a.pt", testing::as_bytes(bytes))); },
+                     "tensor " + std::to_string(i) + " of " + std::to_string(size),
+                     // Beyond 63 bits there is no such integer in a pickle that we read.
+                     HasSubstr(size >> 63 ? "LONG1 of 9 bytes" : "\"triangles_points\""));
+    }
+  }
+}
+
+/// Sizes of 64 bits stand in the directory's extra field and in the record behind the directory.
+TEST(HostileSizes, OfArchives) {
+  const auto damaged = [](bool deflate, const char* signature, std::size_t at, std::uint64_t size) {
+    testing::ZipFixture zip;
+    zip.zip64 = true;
+    zip.entries.push_back({"a/data.pkl", std::string(300, 'x'), deflate});
+    std::string bytes = zip.bytes();
+    std::memcpy(&bytes.at(bytes.rfind(signature) + at), &size, sizeof size);
+    return bytes;
+  };
+  // Behind the directory's record, the name and the field's own head.
+  constexpr std::size_t extra = 46 + 10 + 4;
+  const struct {
+    const char* signature;
+    std::size_t at;
+    bool deflate;
+    const char* says;
+  } fields[] = {
+      {"PK\1\2", extra, false, "is stored, yet its two sizes differ"},
+      {"PK\1\2", extra, true, "inflate to"},
+      {"PK\1\2", extra + 8, false, "does not lie before the zip directory"},
+      {"PK\1\2", extra + 16, false, "does not lie before the zip directory"},
+      {"PK\6\6", 32, false, " bytes cannot hold "},
+      {"PK\6\6", 40, false, "the zip directory does not lie within the file"},
+      {"PK\6\6", 48, false, "the zip directory does not lie within the file"},
+      {"PK\6\7", 8, false, "a.pt: byte "},
+  };
+  for (const auto& field : fields)
+    for (const std::uint64_t size : false_sizes) {
+      const std::string bytes = damaged(field.deflate, field.signature, field.at, size);
+      expect_refused([&] { ZipArchive(Input::memory("a.pt", testing::as_bytes(bytes))); },
+                     field.says + std::to_string(size), HasSubstr(field.says));
+    }
+  EXPECT_EQ(input_error([&] {
+              const std::string bytes = damaged(false, "PK\1\2", extra, 300);
+              ZipArchive(Input::memory("a.pt", testing::as_bytes(bytes)));
+            }),
+            "")
+      << "without damage it is read";
+}
+
+/// Where members of these names stand, at any depth.
+void find_members(const nlohmann::json& json, const std::set<std::string>& names,
+                  const nlohmann::json::json_pointer& at,
+                  std::vector<nlohmann::json::json_pointer>& found) {
+  for (const auto& [key, value] : json.items()) {
+    const auto here = json.is_array() ? at / std::size_t(std::stoul(key)) : at / key;
+    if (json.is_object() && names.contains(key)) found.push_back(here);
+    if (value.is_structured()) find_members(value, names, here, found);
+  }
+}
+
+TEST(HostileSizes, OfCameras) {
+  std::set<std::string> tried;
+  for (const fuzz::Fixture& fixture : fuzz::fixtures()) {
+    const auto* target = std::find_if(
+        std::begin(fuzz::targets), std::end(fuzz::targets),
+        [&](const fuzz::Target& candidate) { return candidate.name == fixture.target; });
+    if (fixture.target == "cameras" || fixture.target == "transforms" ||
+        fixture.target == "camera_path") {
+      const auto whole = nlohmann::json::parse(text_of(fixture.bytes));
+      std::vector<nlohmann::json::json_pointer> sides;
+      find_members(whole, {"width", "height", "w", "h"}, nlohmann::json::json_pointer(), sides);
+      for (const auto& side : sides)
+        for (const std::uint64_t size : false_sizes) {
+          tried.insert(fixture.target + "/" + side.back());
+          nlohmann::json changed = whole;
+          changed[side] = size;
+          const Bytes bytes = bytes_of(changed.dump());
+          expect_refused([&] { target->read(bytes); },
+                         fixture.name + side.to_string() + " = " + std::to_string(size),
+                         HasSubstr(side.back() + " is no whole number from 1 to 65536"));
+        }
+    } else if (fixture.target == "colmap_binary" && fixture.name == "cameras") {
+      // Behind the file's kind and the count: number, model, width and height.
+      for (const std::size_t at : {1 + 8 + 8, 1 + 8 + 16})
+        for (const std::uint64_t size : false_sizes) {
+          tried.insert(fixture.target);
+          Bytes bytes = fixture.bytes;
+          std::memcpy(&bytes.at(at), &size, sizeof size);
+          expect_refused([&] { target->read(bytes); }, fixture.name,
+                         HasSubstr("an image side of " + std::to_string(size) + " pixels"));
+        }
+    } else if (fixture.target == "colmap_text" && fixture.name == "cameras") {
+      for (const std::string side : {" 8 ", " 6 "})
+        for (const std::uint64_t size : false_sizes) {
+          tried.insert(fixture.target);
+          std::string text = text_of(fixture.bytes);
+          const std::size_t at = text.find(side);
+          ASSERT_NE(at, std::string::npos);
+          text.replace(at, side.size(), " " + std::to_string(size) + " ");
+          expect_refused([&] { target->read(bytes_of(text)); }, text,
+                         HasSubstr(std::to_string(size)));
+        }
+    }
+  }
+  EXPECT_THAT(tried,
+              ::testing::IsSupersetOf({"cameras/width", "cameras/height", "cameras/w", "cameras/h",
+                                       "transforms/w", "transforms/h", "camera_path/width",
+                                       "camera_path/height", "colmap_binary", "colmap_text"}));
+}
+
+TEST(HostileSizes, InTheFilesOfAFolder) {
+  const TemporaryFolder folder;
+  for (const auto& [name, bytes] : fuzz::diffsoup_files())
+    testing::write_bytes(folder / name, bytes);
+  const auto whole = nlohmann::json::parse(text_of(Input::open(folder / "meta.json").read_rest()));
+  for (const char* key : {"num_faces", "num_verts", "level"}) {
+    ASSERT_TRUE(whole.contains(key));
+    for (const std::uint64_t size : false_sizes) {
+      nlohmann::json changed = whole;
+      changed[key] = size;
+      testing::write_text(folder / "meta.json", changed.dump());
+      expect_refused([&] { read_scene(folder / ""); }, key + std::to_string(size),
+                     AllOf(HasSubstr("meta.json"),
+                           AnyOf(HasSubstr(std::to_string(size)),
+                                 HasSubstr("\"level\" is not an integer from 0 to 7"))));
+    }
+  }
+}
+
+/// The numbers of faces and vertices lie beside what is coded: the decoders are told them.
+TEST(HostileSizes, OfSlimFiles) {
+  std::set<std::string> tried;
+  for (const fuzz::Fixture& fixture : fuzz::fixtures()) {
+    if (fixture.name == "slim.glb") {
+      const nlohmann::json whole = testing::glb_json(fixture.bytes);
+      for (const char* key : {"vertex_count", "face_count"})
+        for (const std::uint64_t size : false_sizes) {
+          tried.insert(key);
+          nlohmann::json changed = whole;
+          changed["extensions"]["TUREEN_triangle_soup"][key] = size;
+          const Bytes damaged = testing::with_glb_json(fixture.bytes, changed);
+          expect_refused([&] { fuzz::gltf(damaged); }, key + std::to_string(size),
+                         AnyOf(HasSubstr("the slim geometry is cut short or damaged"),
+                               HasSubstr(std::to_string(size))));
+        }
+    }
+    const auto rest = [&](std::size_t head) { return std::span(fixture.bytes).subspan(head); };
+    for (const std::uint64_t size : false_sizes) {
+      if (fixture.target == "slim_geometry") {
+        tried.insert(fixture.target);
+        const auto says = HasSubstr("a.glb: the slim geometry is cut short or damaged");
+        expect_refused([&] { decode_slim_geometry(rest(2), size, 3, "a.glb"); }, "vertices", says);
+        expect_refused([&] { decode_slim_geometry(rest(2), 3, size, "a.glb"); }, "faces", says);
+        expect_refused([&] { decode_slim_geometry(rest(2), size, size, "a.glb"); }, "both", says);
+      } else if (fixture.target == "slim_texels") {
+        tried.insert(fixture.target);
+        expect_refused([&] { decode_slim_texels(rest(1), size, "a.glb"); }, "texels",
+                       HasSubstr("a.glb: the slim texels are cut short or damaged"));
+      }
+    }
+  }
+  EXPECT_THAT(tried, ::testing::UnorderedElementsAre("vertex_count", "face_count", "slim_geometry",
+                                                     "slim_texels"));
+}
+
+}  // namespace
+}  // namespace tureen
