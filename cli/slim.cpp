@@ -26,7 +26,7 @@ constexpr double least_step = 0.5, largest_step = 64;
 /// Halves the ratio of the two to 1.02: a step's bytes and loss follow within about as much.
 constexpr int bisections = 8;
 /// Alpha is seen only by where it reaches 1/2: 0, 85, 170, 255 do for trained soups. Where alpha is
-/// about 1/2 everywhere, as before training, its edges take more; 1 keeps them as they are.
+/// about 1/2 everywhere, as before training, its edges take more; 1 keeps every alpha near one.
 constexpr std::array<std::uint8_t, 3> alpha_steps = {85, 17, 1};
 /// A dead zone: misses below two thirds of a step become none. Between 0.25 and 0.4 the bytes at
 /// the same loss differ by 1 % (15,000 triangles of lego).
@@ -109,9 +109,7 @@ Kept seen_faces(const gl::Context& context, const Scene& scene, bool all) {
                      hemisphere(subject_of(scene), views_around, {.width = 800, .height = 600}));
     for (std::size_t t = 0; t < seen.size(); ++t) seen[t] = pixels[t] + around[t] > 0;
   }
-  Kept kept = keep_seen(soup, pixels, seen);
-  lower_levels(kept.soup);
-  return kept;
+  return keep_seen(soup, pixels, seen);
 }
 
 /// What does not change while the step does.
@@ -180,6 +178,7 @@ class Search {
     result.model_db = judge_.model_db();
     result.views = judge_.views();
     find_bits(result);
+    lower_levels(kept_.soup);
     const bool found = std::any_of(alpha_steps.begin(), alpha_steps.end(),
                                    [&](std::uint8_t alpha) { return find_step(result, alpha); });
     if (!found)
@@ -195,26 +194,24 @@ class Search {
  private:
   /// The largest step of colour that keeps within the bound; whether there is one.
   bool find_step(SlimResult& result, std::uint8_t alpha_step) {
-    double low = least_step, high = largest_step;
-    bool found = false;
-    for (int i = 0; i < bisections; ++i) {
+    const auto fits = [&](double step) {
       progress();
-      // The finest is tried alone where everything else failed.
-      const double step = i + 1 == bisections && !found ? least_step : std::sqrt(low * high);
       SlimSoup slim = encode_slim(soup_, {.position_bits = result.position_bits,
                                           .texels = coarseness_.options(step, alpha_step)});
       const SlimLoss loss = judge_.loss(decode_slim(slim, soup_));
-      if (loss.db > request_.max_loss_db) {
-        high = step;
-        continue;
-      }
-      low = step;
-      found = true;
+      if (loss.db > request_.max_loss_db) return false;
       result.color_step = step;
       result.loss = loss;
       result.soup = std::move(slim);
+      return true;
+    };
+    if (!fits(least_step)) return false;
+    double low = least_step, high = largest_step;
+    for (int i = 0; i < bisections; ++i) {
+      const double step = std::sqrt(low * high);
+      (fits(step) ? low : high) = step;
     }
-    return found;
+    return true;
   }
 
   /// The texels as they are, on positions of so many bits.
@@ -238,8 +235,8 @@ class Search {
   }
 
   void progress() {
-    // Most scenes take about five tries for the positions.
-    if (request_.progress) request_.progress(std::min(0.99, double(tries_++) / (bisections + 5.0)));
+    // Most scenes take about five tries for the positions, and the finest colours at once.
+    if (request_.progress) request_.progress(std::min(0.99, double(tries_++) / (bisections + 6.0)));
   }
 
   const SlimRequest& request_;

@@ -1,7 +1,6 @@
 // How much of real scenes the entries of docs/leaving-out.md would touch that plans do not leave
 // out: docs/leaving-out.md gives these counts as the reason.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <set>
 #include <string>
@@ -38,7 +37,8 @@ std::size_t distinct_lattices(const LatticeTexture& texture) {
   return known.size();
 }
 
-/// Faces that a lower level says to half a step of each channel.
+/// Faces that a lower level says: what shows of their features to half a step of 8 bits, their
+/// cut-out exactly; and those that are transparent throughout.
 std::size_t faces_that_fit_lower(const LatticeTexture& texture) {
   const std::vector<std::uint8_t> levels = smallest_levels(texture);
   std::size_t count = 0;

@@ -179,7 +179,7 @@ part_leave_out() {
   done
   [[ -z $quick ]] || options=(--rounds 1 --width 160 --height 90)
   measure leave_out "$bin/leave_out_benchmark" "${scenes[@]}" "${options[@]}"
-  [[ ! -e $out/training/lego.glb ]] || scenes+=("$out/training/lego.glb")
+  [[ ! -e $training/lego.glb ]] || scenes+=("$training/lego.glb")
   measure leave_out_counts "$bin/leave_out_audit" "${scenes[@]}"
 }
 
@@ -206,7 +206,7 @@ part_tradeoff() {
   measure tradeoff-scenes "$bin/tureen" tradeoff "${imports[@]}" -o "$out/tradeoff-scenes"
 }
 
-# slim NAME SOUP OPTION..: a slim file of it.
+# slim NAME SOUP OPTION..: a slim file of it. As quick as ever: it takes half a minute.
 slim() {
   local name=$1 soup=$2
   shift 2
@@ -215,13 +215,13 @@ slim() {
 
 part_slim() {
   mkdir -p "$out/slim"
-  local lego_soup=$out/training/lego.glb
+  local lego_soup=$training/lego.glb
   slim example examples/soup.glb
   make_example_photographs && slim example-photographs examples/soup.glb --photographs "$example_photographs"
-  if [[ -z $fox ]]; then
-    skip "slim: the fox soup"
-  elif [[ $photographs ]]; then
+  if [[ -n $fox && -n $photographs ]]; then
     slim fox-photographs "$fox" --photographs "$photographs" --scale 0.25
+  else
+    skip "slim: the fox soup, or its photographs"
   fi
   if [[ ! -e $lego_soup ]]; then
     skip "slim: the lego soup, which the part training leaves"
@@ -267,14 +267,16 @@ part_browser() {
   measure browser-tables "$bin/tureen" bench "${imports[@]}" -o "$out/browser/tables"
 }
 
-# Of what the example was trained on, from another renderer; once.
+# Of what the example was trained on, from another renderer; once a commit.
 make_example_photographs() {
   local views=(--views 90 --test-views 10 --strata 4)
   [[ -z $quick ]] || views=(--views 9 --test-views 1 --strata 1)
-  [[ -e $example_photographs.made ]] && return
-  rm -rf "$example_photographs"
+  local made_by=$example_photographs.commit commit
+  commit=$(git describe --always --dirty 2>/dev/null || echo unknown)
+  [[ -e $made_by && $(<"$made_by") == "$commit" ]] && return
+  rm -rf "$example_photographs" "$made_by"
   measure example-photographs "$bin/make_photographs" "$example_photographs" "${views[@]}" &&
-    touch "$example_photographs.made"
+    echo "$commit" >"$made_by"
 }
 
 # steps N: so many, or few.
@@ -282,7 +284,7 @@ steps() { if [[ $quick ]]; then echo 20; else echo "$1"; fi; }
 
 # train NAME DATASET OPTION..: a soup, its log and the log's plot. Fails where there is none.
 train() {
-  local name=$1 dataset=$2 soup=$out/training/$1.glb
+  local name=$1 dataset=$2 soup=$training/$1.glb
   shift 2
   [[ -n $dataset ]] || { skip "training on the $name: its photographs are not here"; return 1; }
   rm -f "${soup%.glb}.checkpoint" # of a run that was broken off
@@ -293,7 +295,7 @@ train() {
 evaluate() {
   local name=$1
   shift
-  measure "train-$name-eval" "$bin/tureen" eval "$out/training/$name.glb" "$@"
+  measure "train-$name-eval" "$bin/tureen" eval "$training/$name.glb" "$@"
 }
 
 # One constant changed at a time: a name, and what changes it.
@@ -305,8 +307,8 @@ train_ablations() {
   train ablation-compat-level-3 "$lego" "${small[@]}" --compat --level 3
   train ablation-compat "$lego" "${small[@]}" --compat
   while read -r name constants; do
-    echo "$constants" >"$out/training/$name.json"
-    train "ablation-$name" "$lego" "${small[@]}" --config "$out/training/$name.json"
+    echo "$constants" >"$training/$name.json"
+    train "ablation-$name" "$lego" "${small[@]}" --config "$training/$name.json"
   done <<'END'
 no-baseline {"baseline": false}
 copied-texels {"resample_textures": false}
@@ -317,10 +319,10 @@ END
 }
 
 part_training() {
-  mkdir -p "$out/training"
+  mkdir -p "$training"
   if train fox "$photographs" --scale 0.25 --steps "$(steps 10000)"; then
     evaluate fox "$photographs" --scale 0.25
-    [[ -n $fox ]] || fox=$out/training/fox.glb
+    [[ -n $fox ]] || fox=$training/fox.glb
   fi
   train bottle "$bottle" --scale 0.5 --steps "$(steps 1500)"
   train lego "$lego" --scale 0.5 --steps "$(steps 10000)" && evaluate lego "$lego" --scale 0.5
@@ -331,7 +333,7 @@ part_training() {
 }
 
 mkdir -p "$out/scenes"
-example_photographs=$out/photographs${quick:+-quick}
+example_photographs=$out/photographs${quick:+-quick} training=$out/training${quick:+-quick}
 [[ " ${parts[*]} " != *" training "* ]] || part_training
 case " ${parts[*]} " in
   *" frames "* | *" leave_out "* | *" tradeoff "*) find_scenes ;;

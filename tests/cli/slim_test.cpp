@@ -112,14 +112,18 @@ TEST(Slim, FacesOfOneColorHaveOneTexelACorner) {
   EXPECT_LE(result.loss.db, 0.1);
 }
 
-// As before training: edges lie anywhere, and coarse alphas would move them all.
-TEST(Slim, AlphasAroundTheThresholdAreKept) {
+// As before training: edges lie anywhere, and coarse alphas move them all.
+TEST(Slim, AlphasAroundTheThresholdHaveFinerSteps) {
   Scene scene = part_of_the_example(200);
   auto& texture = std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance);
   auto& texels = std::get<std::vector<std::uint8_t>>(texture.texels);
   test::Random random(5);
   for (std::size_t i = LatticeTexture::features; i < texels.size(); i += LatticeTexture::channels)
     texels[i] = std::uint8_t(118 + random.below(20));
+  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  const gl::Context context = gl::Context::create({});
+  const SlimSoup coarse = encode_slim(soup, {.position_bits = 20, .texels = {.alpha_step = 85}});
+  EXPECT_GT(SlimJudge(context, scene, {}).loss(decode_slim(coarse, soup)).db, 0.1);
   EXPECT_LE(slim(scene, {.max_loss_db = 0.1}).loss.db, 0.1);
 }
 
