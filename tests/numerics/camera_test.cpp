@@ -20,7 +20,7 @@ struct Mismatch {
 };
 
 /// Pixels that device and oracle cover or name differently, and how many that may be: the
-/// catalogue's 1e-4 of the picture, and of the pixels at edges those that a rounding of
+/// 1e-4 of the picture that H10 has, and of the pixels at edges those that a rounding of
 /// `moved` pixels may move an edge across, to either side.
 Mismatch mismatch(const TriangleSoup& soup, const Camera& camera, double moved) {
   const OracleImage expected = snapped_oracle(soup, glm::dvec3(0), camera);
