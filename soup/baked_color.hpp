@@ -1,6 +1,5 @@
 // Colour without the network: what the color MLP of a lattice texture says is fitted, texel by
-// texel, by harmonics of the direction. Specs 06, section 4: a knob, its error depends on the
-// scene.
+// texel, by harmonics of the direction. A knob: its error depends on the scene.
 //
 // Convention: harmonics take the unit direction from the surface to the eye, and the colour at a
 // point is what the interpolated coefficients say for the pixel's own direction, clamped to [0, 1]

@@ -1,5 +1,5 @@
 // The color MLP with fewer bits, emulated: what it would show on a device that computes so. For
-// reports of error alone; nothing draws with it. Specs 06, section 4, and 05, T4.
+// reports of error alone; nothing draws with it.
 #pragma once
 
 #include <glm/vec3.hpp>

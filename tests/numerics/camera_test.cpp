@@ -20,9 +20,9 @@ struct Mismatch {
 };
 
 /// Pixels that device and oracle cover or name differently, and how many that may be: the
-/// catalogue's 1e-4 of the picture, and of the pixels at edges those that a rounding of
-/// `vertex_rounding` pixels may move an edge across, to either side.
-Mismatch mismatch(const TriangleSoup& soup, const Camera& camera, double vertex_rounding) {
+/// 1e-4 of the picture that H10 has, and of the pixels at edges those that a rounding of
+/// `moved` pixels may move an edge across, to either side.
+Mismatch mismatch(const TriangleSoup& soup, const Camera& camera, double moved) {
   const OracleImage expected = snapped_oracle(soup, glm::dvec3(0), camera);
   const Agreement found = agreement(expected, draw(shared_context(), soup, glm::dvec3(0), camera));
   std::size_t edges = 0;
@@ -33,12 +33,8 @@ Mismatch mismatch(const TriangleSoup& soup, const Camera& camera, double vertex_
                (y > 0 && expected.face[i] != expected.face[i - std::size_t(camera.width)]);
     }
   const double pixels = double(camera.width) * camera.height;
-  return {found.coverage_mismatch + found.face_mismatch,
-          1e-4 + 2 * vertex_rounding * double(edges) / pixels};
+  return {found.coverage_mismatch + found.face_mismatch, 1e-4 + 2 * moved * double(edges) / pixels};
 }
-
-/// Roundings of a vertex on its way to the picture (G3), for an image coordinate of that size.
-double rounding_of(double pixels) { return (5 + 5 + std::sqrt(3.0)) * epsilon * pixels; }
 
 TEST(Numerics, C1_FieldsOfViewFromATenthTo179Degrees) {
   Recorder recorder({.stressed = "fields of view: device against oracle",
@@ -55,7 +51,7 @@ TEST(Numerics, C1_FieldsOfViewFromATenthTo179Degrees) {
     const TriangleSoup soup = random_soup(71, {.kind = Kind::lattice, .size = 0.2});
     // A corner less the eye is rounded as the distance is large, and seen at that distance.
     const double in_pixels = camera.fy * std::max(1.0, std::tan(half));
-    const Mismatch found = mismatch(soup, camera, rounding_of(in_pixels));
+    const Mismatch found = mismatch(soup, camera, vertex_rounding(in_pixels));
     recorder.add({.at = degrees, .ours = found.fraction, .tolerance = found.allowed});
   }
 }
@@ -72,7 +68,7 @@ TEST(Numerics, C2_PrincipalPointsOutsideThePicture) {
     const double shift = widths * width;
     camera.cx += shift;
     camera.view_from_world[3] += glm::dvec4(-shift / camera.fx * 4, 0, 0, 0);
-    const Mismatch found = mismatch(soup, camera, rounding_of(shift + width));
+    const Mismatch found = mismatch(soup, camera, vertex_rounding(shift + width));
     recorder.add({.at = widths, .ours = found.fraction, .tolerance = found.allowed});
   }
 }
@@ -102,7 +98,7 @@ TEST(Numerics, C2b_WhatLiesFarOffTheAxisIsNotClipped) {
       const double clipped = shown_pixels(faces_of_trainer(soup, camera, by_distance, 1e5));
       // Corners are floats of `off` and the principal point is as far away: their roundings move
       // the borders of the plate, two of 32 pixels each.
-      const double moved = rounding_of(camera.fx * off / 5) + camera.fx / 5 * off * epsilon;
+      const double moved = vertex_rounding(camera.fx * off / 5) + camera.fx / 5 * off * epsilon;
       recorder.add({.at = degrees,
                     .naive = std::abs(clipped - 1024),
                     .ours = std::abs(device - 1024) + std::abs(in_oracle - 1024),
@@ -125,7 +121,7 @@ TEST(Numerics, C3_PicturesOfOnePixelAndOfOneRow) {
     const Camera camera = resampled(narrow, width, height);
     const TriangleSoup soup = random_soup(73, {.kind = Kind::lattice, .size = 0.3});
     const Mismatch found =
-        mismatch(soup, camera, rounding_of(std::max(camera.width, camera.height)));
+        mismatch(soup, camera, vertex_rounding(std::max(camera.width, camera.height)));
     recorder.add(
         {.at = double(width) * height, .ours = found.fraction, .tolerance = found.allowed});
   }

@@ -7,6 +7,7 @@
 
 #include "numerics/recorder.hpp"
 #include "numerics/scenes.hpp"
+#include "runtime/clip_range.hpp"
 #include "runtime/renderer.hpp"
 #include "trainer/kernels/fragments.hpp"
 #include "trainer/stages.hpp"
@@ -32,49 +33,63 @@ TriangleSoup two_walls(float apart, bool rear_first) {
   return soup_of(corners);
 }
 
-constexpr double distances[] = {1, 2, 5, 10, 20, 50};
-constexpr double nudges[] = {1.0, 1.037, 1.1, 1.21, 1.33};  // of each of them
+/// Of the eye from the wall in front. Of five to each, most are held by no float.
+std::vector<double> distances() {
+  std::vector<double> all;
+  for (const double distance : {1, 2, 5, 10, 20, 50})
+    for (const double nudge : {1.0, 1.037, 1.1, 1.21, 1.33}) all.push_back(distance * nudge);
+  return all;
+}
 
-/// For each of the distances the least gap, in steps of a factor sqrt(2), from which on no pixel
-/// shows the rear wall, whichever comes first and wherever exactly the eye is.
+constexpr int steps_per_octave = 4;  // of the gaps that are tried
+
+/// For each of the distances the least gap of those that are tried from which on no pixel shows the
+/// rear wall, whichever comes first.
 std::vector<double> least_gaps(bool reversed) {
-  std::vector<double> gaps(std::size(distances));
-  for (int k = -54; k <= 2; ++k) {
-    const auto apart = float(std::exp2(0.5 * k));
-    std::vector<bool> wrong(std::size(distances));
+  const std::vector<double> from = distances();
+  std::vector<double> gaps(from.size());
+  // From 4 units down to 2^-27, which no float tells from 0 beside 1.
+  for (int k = 2 * steps_per_octave; k >= -27 * steps_per_octave; --k) {
+    const auto apart = float(std::exp2(double(k) / steps_per_octave));
     for (const bool rear_first : {false, true}) {
       Renderer renderer(shared_context(), two_walls(apart, rear_first), glm::dvec3(0),
                         {.plan = {.reversed_depth = reversed, .site = ShadingSite::deferred}});
-      for (std::size_t i = 0; i < std::size(distances); ++i)
-        for (const double nudge : nudges) {
-          Camera camera = straight_camera(side, side, side);
-          camera.view_from_world[3] = glm::dvec4(0, 0, -distances[i] * nudge, 1);
-          renderer.draw(camera);
-          for (const std::uint32_t face : renderer.read_faces())
-            if ((face < 2) == rear_first) wrong[i] = true;
-        }
+      for (std::size_t i = 0; i < from.size(); ++i) {
+        if (gaps[i] > 0) continue;
+        Camera camera = straight_camera(side, side, side);
+        camera.view_from_world[3] = glm::dvec4(0, 0, -from[i], 1);
+        renderer.draw(camera);
+        for (const std::uint32_t face : renderer.read_faces())
+          if ((face < 2) == rear_first) gaps[i] = std::exp2(double(k + 1) / steps_per_octave);
+      }
     }
-    for (std::size_t i = 0; i < std::size(distances); ++i)
-      if (wrong[i]) gaps[i] = std::exp2(0.5 * (k + 1));
+    if (*std::min_element(gaps.begin(), gaps.end()) > 0) break;
   }
   return gaps;
 }
 
-/// The catalogue's table of what one unit of depth is in the world, reversed with the far plane far
-/// beyond (its row for 0.01 and 1e5): 9e-8 at 1, 1e-6 at 10, 4e-6 at 50, and between them a power
-/// of the distance.
-double catalogued_unit(double distance) {
-  struct Entry {
-    double distance, unit;
-  };
-  constexpr Entry table[] = {{1, 9e-8}, {10, 1e-6}, {50, 4e-6}};
-  const Entry& a = table[distance > 10 ? 1 : 0];
-  const Entry& b = table[distance > 10 ? 2 : 1];
-  const double t = std::log(distance / a.distance) / std::log(b.distance / a.distance);
-  return a.unit * std::pow(b.unit / a.unit, t);
+/// Half a unit in the last place of a float, which rounding to it may be off by.
+double half_unit(double x) {
+  const auto held = float(x);
+  return (double(std::nextafter(held, INFINITY)) - double(held)) / 2;
 }
 
-/// One unit of 24 bits, as the table has it for other near planes and a far plane far beyond.
+/// By how much roundings may bring two walls nearer to each other that are seen from so far away,
+/// in reversed depth with its far plane at infinity: near * (1 / w).
+double rounding_of_reversed(double distance, double near) {
+  // The corner less the high half of the eye, less its low half; the first is exact for the wall at
+  // 0. w is that: with the walls across the axis nothing is added to it.
+  const double of_corners = 3 * half_unit(distance);
+  // The inverse and its product with near, of both walls. What is 1 / w, and near / w, changes by
+  // so much where the distance changes by 1.
+  const double inverse_per_unit = 1 / (distance * distance);
+  const double of_inverses = 2 * half_unit(1 / distance) / inverse_per_unit;
+  const double of_depths = 2 * half_unit(near / distance) / (near * inverse_per_unit);
+  return of_corners + of_inverses + of_depths;
+}
+
+/// What a unit of 24 bits is in the world with the far plane far beyond: of depth that is
+/// 1 - near / distance, which changes by near / distance^2 a unit.
 double unit_of_fixed(double distance, double near) { return distance * distance / near * epsilon; }
 
 TEST(Numerics, D1_TwoWallsAreToldApart) {
@@ -87,19 +102,26 @@ TEST(Numerics, D1_TwoWallsAreToldApart) {
   Recorder elsewhere({.stressed = "the same without clip control: 24 bits, as documented",
                       .parameter = "distance / units",
                       .unit = "least gap / units"});
-  const double documented_near = 1e-3 * bounds(two_walls(0, false)).radius();
-  for (std::size_t i = 0; i < std::size(distances); ++i) {
-    // Four units of depth, of which one lets two values differ at all and the others are roundings
-    // of half a unit for each wall: of the corner less the eye, of the product, of the quotient.
-    recorder.add({.at = distances[i],
+  const Bounds scene = bounds(two_walls(0, false));
+  const double documented_near = 1e-3 * scene.radius();
+  const double step = std::exp2(1.0 / steps_per_octave);
+  const std::vector<double> from = distances();
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    ASSERT_GT(reversed[i], 0) << "no gap is too small";
+    ASSERT_GT(fixed[i], 0) << "no gap is too small";
+    const double near =
+        clip_range(scene, {0, 0, from[i]}, {0, 0, -1}, DepthStorage::reversed_float).near;
+    // What is more than the roundings is told apart; the first gap that is tried beyond them may be
+    // a step larger.
+    recorder.add({.at = from[i],
                   .naive = fixed[i],
                   .ours = reversed[i],
-                  .tolerance = 4 * catalogued_unit(distances[i])});
-    // Those of 24 bits grow with the square of the distance: they are taken where the eye is
-    // furthest.
-    elsewhere.add({.at = distances[i],
+                  .tolerance = step * rounding_of_reversed(from[i], near)});
+    // Four units of depth, of which one lets two values differ at all and the others are roundings
+    // of half a unit for each wall: of the corner less the eye, of the product, of the quotient.
+    elsewhere.add({.at = from[i],
                    .ours = fixed[i],
-                   .tolerance = 4 * unit_of_fixed(nudges[4] * distances[i], documented_near)});
+                   .tolerance = 4 * unit_of_fixed(from[i], documented_near)});
   }
 }
 

@@ -112,8 +112,8 @@ class Comparison {
     const AgreementLimits limits;
     const Agreement found = agreement(expected, drawn);
     ASSERT_GE(found.compared, limits.least_compared) << seed << ": there is hardly anything";
-    // The catalogue's 1e-4, four pixels here. Roundings of a corner, (5 + 5 + sqrt(3)) epsilon of
-    // 240 pixels (G3), may move an edge across 3e-4 of the pixels at edges, which are up to a
+    // The catalogue's 1e-4, four pixels here. Roundings of a corner, vertex_rounding of
+    // 240 pixels, may move an edge across 3e-4 of the pixels at edges, which are up to a
     // quarter of the picture: three. A needle's are an edge on both sides, and some alphas and
     // depths floats cannot tell apart.
     faces_.add({.at = double(seed),

@@ -7,8 +7,10 @@
 //
 // `./dev numerics` sets TUREEN_MEASURED to a folder, into which every case writes a file, named
 // after its test; numerics_report makes the page of them. Without it nothing is written.
-// "The catalogue" in these tests is the list of hazards, with what was measured of each, that rows
-// are named by; docs/numerics.md has it as far as it concerns us.
+// "The catalogue" in these tests is the list of hazards that rows are named by, which
+// docs/numerics.md tells of: its table has those that are measured, its "Files" the rows X1 to X5.
+// Where a bound is called the catalogue's, it was set before this code was written, by what the
+// test says beside it.
 #pragma once
 
 #include <algorithm>

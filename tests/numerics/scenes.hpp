@@ -1,6 +1,7 @@
 // What tests of numerics draw, and who draws it: the oracle, the device, the trainer.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -14,6 +15,11 @@ namespace tureen::test {
 
 /// The unit roundoff of floats: half the distance from 1 to the next.
 inline constexpr double epsilon = 0x1p-24;
+
+/// How far roundings move a vertex in the picture, in pixels, of an image coordinate of that size:
+/// x and w of its clip position are five roundings each, and the three coordinates of what it is
+/// less the eye are rounded before (G3).
+inline double vertex_rounding(double pixels) { return (5 + 5 + std::sqrt(3.0)) * epsilon * pixels; }
 
 /// One for all tests of the program, current: OSMesa, desktop OpenGL with clip control.
 gl::Context& shared_context();

@@ -192,7 +192,7 @@ TEST(Numerics, T4_ThePrecisionOfTheColourChain) {
   Random random(4);
   const Camera camera = random_camera(random, 320, 240);
   struct Row {
-    double gain, forward_db;  // of the catalogue: rounded texels, shaded in floats
+    double gain, forward_db;  // as emulated before: rounded texels, shaded in floats
   };
   for (const auto& [gain, forward_db] : {Row{1, 66.1}, Row{2, 63.6}, Row{4, 59.4}}) {
     TriangleSoup soup = random_soup(

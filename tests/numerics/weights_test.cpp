@@ -187,11 +187,14 @@ std::vector<std::string> shaders_with_a_network(bool specialise, gl::Api to) {
           .appearance;
   std::vector<std::string> shaders;
   for (const char* file : {"forward.frag", "visibility.frag", "shading.frag", "shading.comp",
-                           "features.frag", "feature_shading.frag"}) {
+                           "features.frag", "feature_shading.frag", "inspection.frag"}) {
+    // Which constants they have else changes nothing: what #if leaves out is in the text, too.
     ShaderSource source{
         .file = file,
         .constants = appearance.constants,
-        .generated = {{"appearance.glsl", appearance.glsl}, {"network.glsl", appearance.mlp.text}}};
+        .generated = {{"appearance.glsl", appearance.glsl},
+                      {"network.glsl", appearance.mlp.text},
+                      {"inspected_appearance.glsl", "#include \"inspection_lattice.glsl\"\n"}}};
     shaders.push_back(assemble(source, to));
   }
   return shaders;

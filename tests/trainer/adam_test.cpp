@@ -73,8 +73,8 @@ TEST(Adam, TheFirstStepIsTheRateWhateverTheGradient) {
 }
 
 TEST(Adam, RestartedMomentsKick) {
-  // Specs 05, O1: the mean step in rates after a restart, for gradients that are noise. Exactly 1
-  // at first; at t = 2 and later the published measurements, to their last digit.
+  // docs/numerics.md, O1: the mean step in rates after a restart, for gradients that are noise.
+  // Exactly 1 at first; at t = 2 and later the published measurements, to their last digit.
   Random random(2);
   constexpr int trials = 1000;
   std::vector<double> mean(1001);
@@ -130,7 +130,7 @@ TEST(VectorAdam, FollowsTheDefinitionInDouble) {
 }
 
 TEST(VectorAdam, TurnsWithTheAxes) {
-  // Specs 05, O4: the trajectory of a rotated problem is the rotated trajectory.
+  // docs/numerics.md, O4: the trajectory of a rotated problem is the rotated trajectory.
   const glm::dmat3 turn(
       glm::rotate(glm::dmat4(1.0), glm::radians(37.0), glm::normalize(glm::dvec3(1, 2, -3))));
   Random random(4);

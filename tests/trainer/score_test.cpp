@@ -250,8 +250,8 @@ std::string case_name(const testing::TestParamInfo<int>& tested) {
 INSTANTIATE_TEST_SUITE_P(, ScoreThroughTheStep, testing::Range(0, 6), case_name);
 
 TEST(ScoreOfCoincidentFaces, TheOneBehindByItsNumberGetsNothing) {
-  // Specs 05, G9. Both cover all; the lower one shows wherever it is accepted, and then the other
-  // has no part in the pixel. Its score is that of a fragment that is reached only where the
+  // docs/numerics.md, G9. Both cover all; the lower one shows wherever it is accepted, and then the
+  // other has no part in the pixel. Its score is that of a fragment that is reached only where the
   // lower one is rejected.
   constexpr int side = 32, steps = 200;
   std::vector<glm::vec3> positions{{-9, -8, -2}, {9, -7, -2}, {0.5f, 12, -2}};

@@ -310,7 +310,7 @@ void expect_finite(const TrainingState& state, std::size_t skipped_face) {
 class ATexelThatIsNoNumber : public testing::TestWithParam<int> {};  // the channel
 
 TEST_P(ATexelThatIsNoNumber, IsCountedAndHurtsNobodyElse) {
-  // Specs 05, O5. A wall that much is seen of, before which and beside which others are.
+  // docs/numerics.md, O5. A wall that much is seen of, before which and beside which others are.
   constexpr std::size_t bad_face = 40;
   TrainingState state = random_state(41, 80, 0, 1);
   const auto views = random_views(42, 4, state.model.origin);

@@ -219,7 +219,7 @@ TEST(StochasticVisibility, DoesNotDependOnTheOrderOfTiles) {
 }
 
 TEST(Visibility, OfEqualDepthsTheLowerFaceShows) {
-  // Specs 05, G9: coincident faces, in tiles of their own order.
+  // docs/numerics.md, G9: coincident faces, in tiles of their own order.
   std::vector<glm::vec3> positions = stack(1);
   for (int copy = 0; copy < 2; ++copy)
     for (int k = 0; k < 3; ++k) positions.push_back(positions[std::size_t(k)]);

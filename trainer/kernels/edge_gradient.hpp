@@ -75,9 +75,10 @@ TUREEN_HOST_DEVICE PointGradient edge_gradient(const ProjectedFace& face,
       down += face.dy[k] - other->dy[k];
     }
     const float squared = across * across + down * down;
-    // `slope` is one component of that gradient. Where it is longer than the whole, two faces of
-    // one plane cover each other: which of them is in front is a matter of rounding, and no line
-    // moves.
+    // `slope` is one component of that gradient, and where faces meet its square exceeds that of
+    // the whole by roundings at most, for which twice as much is more than enough room. Where it is
+    // larger still it is nothing but roundings: two faces of one plane cover each other, which of
+    // them is in front is a matter of chance, and no line moves.
     if (!(slope * slope < 2 * squared)) return result;
     result.kind = EdgeCase::intersection;
     t = ahead / slope;
