@@ -7,19 +7,12 @@
 
 #include <cerrno>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 #include <stdexcept>
 
 namespace tureen::test {
 
 namespace {
-
-std::string contents(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 /// In the child: file descriptor `target` is this file from now on.
 void redirect(const char* path, int flags, int target) {
@@ -29,6 +22,11 @@ void redirect(const char* path, int flags, int target) {
 }
 
 }  // namespace
+
+std::string bytes_of_file(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
 
 Child::Child(const std::vector<std::string>& arguments, std::filesystem::path folder,
              const std::string& program)
@@ -43,6 +41,7 @@ Child::Child(const std::vector<std::string>& arguments, std::filesystem::path fo
   if (pid_ > 0) return;
   // Nothing but system calls from here on: the test may have other threads.
   if (::chdir(folder_.c_str()) != 0) ::_exit(126);
+  ::signal(SIGINT, SIG_DFL);  // which shells ignore in tests that they run in the background
   redirect("/dev/null", O_RDONLY, STDIN_FILENO);
   redirect("stdout.txt", O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
   redirect("stderr.txt", O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
@@ -76,8 +75,8 @@ bool Child::running() {
 ChildResult Child::wait() {
   while (pid_ > 0)
     if (::waitpid(pid_, &status_, 0) == pid_ || errno != EINTR) pid_ = -1;
-  return {WIFEXITED(status_) ? WEXITSTATUS(status_) : -1, contents(folder_ / "stdout.txt"),
-          contents(folder_ / "stderr.txt")};
+  return {WIFEXITED(status_) ? WEXITSTATUS(status_) : -1, bytes_of_file(folder_ / "stdout.txt"),
+          bytes_of_file(folder_ / "stderr.txt")};
 }
 
 ChildResult run_tureen(const std::vector<std::string>& arguments,

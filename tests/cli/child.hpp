@@ -15,6 +15,9 @@ struct ChildResult {
   std::string err;     // standard error
 };
 
+/// What a file holds: nothing where there is none.
+std::string bytes_of_file(const std::filesystem::path& path);
+
 /// A program that runs beside the test. Ended hard where the test forgets it.
 class Child {
  public:

@@ -2,6 +2,7 @@
 // afterwards.
 #pragma once
 
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/inotify.h>
 #include <sys/resource.h>
@@ -13,12 +14,11 @@
 #include <csignal>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <random>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "cli/child.hpp"
@@ -41,11 +41,6 @@ class SmallDisk {
  private:
   rlimit before_{};
 };
-
-inline std::string bytes_of_file(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// A file's bytes by "", or those of a folder's files by their names.
 inline std::map<std::string, std::string> contents_of(const std::filesystem::path& path) {
@@ -105,65 +100,79 @@ inline ino_t identity_of(const std::filesystem::path& path) {
   return ::stat(path.c_str(), &status) == 0 ? status.st_ino : 0;
 }
 
-/// Whether something is being written that will have this name.
-inline bool is_being_written(const std::filesystem::path& path) {
-  const std::string beginning = path.filename().string() + ".tmp";
-  std::error_code vanished;  // while it is looked at
-  std::filesystem::directory_iterator entry(path.parent_path(), vanished);
-  for (; !vanished && entry != std::filesystem::directory_iterator(); entry.increment(vanished))
-    if (entry->path().filename().string().rfind(beginning, 0) == 0) return true;
-  return false;
-}
-
-/// Wakes whoever waits for a name to be made in a folder, sooner than looking again and again does.
-class NewNames {
+/// Looks out for a moment of a child; made before the child starts, so that nothing it does passes
+/// unseen.
+class Lookout {
  public:
-  explicit NewNames(const std::filesystem::path& folder)
-      : queue_(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC)) {
-    ::inotify_add_watch(queue_, folder.c_str(), IN_CREATE);
+  Lookout(Moment moment, const std::filesystem::path& folder)
+      : moment_(std::move(moment)),
+        path_(folder / moment_.path),
+        old_(::open(path_.c_str(), O_PATH | O_CLOEXEC)),
+        before_(identity_of(path_)),
+        names_(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC)) {
+    ::inotify_add_watch(names_, folder.c_str(), IN_CREATE);
   }
-  NewNames(const NewNames&) = delete;
-  NewNames& operator=(const NewNames&) = delete;
-  ~NewNames() { ::close(queue_); }
+  Lookout(const Lookout&) = delete;
+  Lookout& operator=(const Lookout&) = delete;
+  ~Lookout() {
+    ::close(names_);
+    if (old_ >= 0) ::close(old_);
+  }
 
-  /// Returns once one was made, or after a hundredth of a second.
-  void wait() const {
-    pollfd ready{.fd = queue_, .events = POLLIN, .revents = 0};
-    ::poll(&ready, 1, 10);
-    char events[4096];
-    while (::read(queue_, events, sizeof events) > 0) continue;
+  /// Waits for the moment, or for the child's end. A child that writes stands still then, with what
+  /// it writes begun and not yet in its place. Tells whether the moment came.
+  bool wait_for(Child& child) const {
+    std::this_thread::sleep_for(moment_.after);
+    while (child.running()) {
+      switch (moment_.until) {
+        case Moment::Until::nothing:
+          return true;
+        case Moment::Until::replaced:
+          if (identity_of(path_) != before_) return true;
+          std::this_thread::yield();
+          break;
+        case Moment::Until::written:
+          wait_for_a_name();
+          if (!is_being_written()) break;
+          child.stop();
+          // Until it stood still it may have come to the end of that.
+          if (is_being_written()) return true;
+          child.signal(SIGCONT);
+      }
+    }
+    return false;
   }
 
  private:
-  int queue_;
-};
-
-/// Waits for a moment of the child, or for its end. A child that writes stands still then, with
-/// what it writes begun and not yet in its place. Tells whether the moment came.
-inline bool wait_for(const Moment& moment, Child& child, const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / moment.path;
-  const ino_t before = identity_of(path);
-  const NewNames names(folder);
-  std::this_thread::sleep_for(moment.after);
-  while (child.running()) {
-    switch (moment.until) {
-      case Moment::Until::nothing:
-        return true;
-      case Moment::Until::replaced:
-        if (identity_of(path) != before) return true;
-        std::this_thread::yield();
-        break;
-      case Moment::Until::written:
-        names.wait();
-        if (!is_being_written(path)) break;
-        child.stop();
-        // Until it stood still it may have come to the end of that.
-        if (is_being_written(path)) return true;
-        child.signal(SIGCONT);
-    }
+  /// Returns once a name was made in the folder, sooner than looking again and again does, or after
+  /// a hundredth of a second.
+  void wait_for_a_name() const {
+    pollfd ready{.fd = names_, .events = POLLIN, .revents = 0};
+    ::poll(&ready, 1, 10);
+    char events[4096];
+    while (::read(names_, events, sizeof events) > 0) continue;
   }
-  return false;
-}
+
+  /// Whether something stands beside the path that will have its name. A new folder swaps names
+  /// with the old one, which has the temporary name then until all in it is removed.
+  bool is_being_written() const {
+    const std::string beginning = path_.filename().string() + ".tmp";
+    std::error_code vanished;  // while it is looked at
+    std::filesystem::directory_iterator entry(path_.parent_path(), vanished);
+    for (; !vanished && entry != std::filesystem::directory_iterator(); entry.increment(vanished)) {
+      if (entry->path().filename().string().rfind(beginning, 0) != 0) continue;
+      const ino_t identity = identity_of(entry->path());
+      if (identity != 0 && identity != before_) return true;
+    }
+    return false;
+  }
+
+  Moment moment_;
+  std::filesystem::path path_;
+  int old_;  // held open: while it is, no newer file is given its identity
+  ino_t before_;
+  int names_;
+};
 
 /// As `kill` does, also to a child that stands still.
 inline void end_by(int number, Child& child) {

@@ -163,8 +163,9 @@ TEST_F(Faults, ASignalAtAnyMomentLeavesTheOldOrTheNewWhole) {
       int cut_short = 0, replaced = 0;
       for (const Moment& moment : moments) {
         put("a/" + output, output);
+        const test::Lookout lookout(moment, folder);
         test::Child child({"convert", "new.off", target(output), "--force"}, folder);
-        const bool came = test::wait_for(moment, child, folder);
+        const bool came = lookout.wait_for(child);
         test::end_by(signal, child);
         const ChildResult result = child.wait();
         const auto now = contents(output);

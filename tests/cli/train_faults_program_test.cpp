@@ -7,7 +7,6 @@
 #include <chrono>
 #include <csignal>
 #include <random>
-#include <thread>
 
 #include "cli/faults.hpp"
 #include "cli/train_fixture.hpp"
@@ -82,6 +81,9 @@ TEST_F(TrainFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewAndIsAsIfItHadNotBeen)
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::minstd_rand random(seed);
   int all = 0, went_on = 0, half_written = 0;
+  // A file may be whole before the test sees that it is written: up to every second one where six
+  // programs share two cores. That moment is tried again; that all of these pass is beyond chance.
+  int tries_left = 40;
   for (const int signal : {SIGKILL, SIGINT}) {
     // While each file is written; after the soup took the old one's place; and at any time, early
     // and late ones in any order, as a run that goes on has less to do than a whole one.
@@ -97,7 +99,8 @@ TEST_F(TrainFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewAndIsAsIfItHadNotBeen)
 
     int cut_short = 0, replaced = 0, in_a_row = 0;
     put_old();
-    for (const Moment& moment : moments) {
+    for (std::size_t i = 0; i < moments.size(); ++i) {
+      const Moment moment = moments[i];
       SCOPED_TRACE("signal " + std::to_string(signal) + " after " +
                    std::to_string(moment.after.count()) + " us " + moment.path);
       std::vector<std::string> more = often;
@@ -106,8 +109,11 @@ TEST_F(TrainFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewAndIsAsIfItHadNotBeen)
         ++went_on;
       }
       const std::string plot = bytes("ball.svg");
+      const test::Lookout lookout(moment, folder);
       test::Child child(arguments("ball.glb", more, steps), folder);
-      const bool came = test::wait_for(moment, child, folder);
+      const bool came = lookout.wait_for(child);
+      if (!came && moment.until == Moment::Until::written && tries_left-- > 0)
+        moments.push_back(moment);
       test::end_by(signal, child);
       const ChildResult result = child.wait();
 
@@ -208,14 +214,13 @@ TEST_F(TrainFaults, AFullDiskLeavesTheOldSoupAndTheLastCheckpoint) {
   // Over the checkpoint of a run that goes on: that stays, too, and the run after it ends as if
   // the disk had never been full.
   put_old();
-  {
-    test::Child child(arguments("ball.glb", often, steps), folder);
-    while (child.running() && !exists("ball.checkpoint")) std::this_thread::yield();
-    child.signal(SIGKILL);
-    child.wait();
-  }
-  test::remove_temporaries(folder);
-  fs::remove(folder / "ball.lock");
+  // This one ends behind the third of six: where its picture of step 100 should be is a folder.
+  fs::create_directories(folder / "ball.previews/step_100.png");
+  std::vector<std::string> until_100 = often;
+  until_100.insert(until_100.end(), {"--preview-every", "100"});
+  const ChildResult ended = train("ball.glb", until_100, steps);
+  EXPECT_EQ(ended.exit_code, 5);
+  EXPECT_THAT(ended.err, HasSubstr("step_100.png: cannot be written: it is a folder"));
   ASSERT_TRUE(exists("ball.checkpoint"));
   std::vector<std::string> resume = often;
   resume.emplace_back("--resume");

@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "cli/program_fixture.hpp"
+#include "cli/transforms.hpp"
 #include "soup/camera.hpp"
 
 namespace tureen::test {
@@ -41,7 +39,6 @@ class Train : public Program {
 
   void write_split(const std::string& split, int count, double turn, bool with_alpha) const {
     std::filesystem::create_directories(folder / "ball" / split);
-    nlohmann::json frames = nlohmann::json::array();
     nlohmann::json document;
     for (int i = 0; i < count; ++i) {
       const double angle = 2 * 3.14159265358979 * (i + turn) / count;
@@ -49,14 +46,9 @@ class Train : public Program {
                                     {0, 0, 0}, {0, 0, 1}, 0.7, size, size);
       const std::string name = split + "/r_" + std::to_string(i) + ".png";
       write_png("ball/" + name, picture(camera, with_alpha));
-      const glm::dmat4 pose = glm::inverse(camera.view_from_world);
-      nlohmann::json rows = nlohmann::json::array();
-      for (int r = 0; r < 4; ++r) rows.push_back({pose[0][r], pose[1][r], pose[2][r], pose[3][r]});
-      frames.push_back({{"file_path", name}, {"transform_matrix", rows}});
-      document = {{"fl_x", camera.fx}, {"fl_y", camera.fy}, {"cx", camera.cx},
-                  {"cy", camera.cy},   {"w", size},         {"h", size}};
+      if (i == 0) document = transforms_of(camera);
+      document["frames"].push_back(frame_of(name, camera));
     }
-    document["frames"] = frames;
     write("ball/transforms_" + split + ".json", document.dump());
   }
 
@@ -78,10 +70,7 @@ class Train : public Program {
                     const std::string& steps = "40") const {
     return run(arguments(output, more, steps));
   }
-  std::string bytes(const std::string& name) const {
-    std::ifstream stream(folder / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
+  std::string bytes(const std::string& name) const { return bytes_of_file(folder / name); }
   /// Every file in the test's folder but the dataset's and the streams.
   std::vector<std::string> files() const {
     std::vector<std::string> names;

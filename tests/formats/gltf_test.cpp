@@ -464,6 +464,18 @@ TEST_F(Gltf, RefusesRequiredExtensionsByName) {
   }
 }
 
+// tinygltf leaves such a material out and reads on, without its texture.
+TEST_F(Gltf, RefusesAColourOfThreeNumbers) {
+  GlbBuilder b;
+  const int texture = b.texture(Image8(1, 1), {});
+  b.triangle()["material"] = b.material(
+      {{"pbrMetallicRoughness",
+        {{"baseColorFactor", {1, 0.5, 1}}, {"baseColorTexture", {{"index", texture}}}}}});
+  EXPECT_EQ(refusal(b),
+            "not valid glTF: Array length of `baseColorFactor` parameter in pbrMetallicRoughness "
+            "must be 4, but got 3");
+}
+
 TEST_F(Gltf, SaysWhereTheFileIsWrong) {
   const auto changed = [&](const std::function<void(GlbBuilder&)>& change) {
     GlbBuilder b;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -184,6 +185,13 @@ void find_lists(const nlohmann::json& json, const nlohmann::json::json_pointer& 
       find_lists(value, json.is_array() ? at / std::size_t(std::stoul(key)) : at / key, found);
 }
 
+/// The member that a list is, or is a part of.
+std::string named(nlohmann::json::json_pointer list) {
+  const auto is_digit = [](unsigned char letter) { return std::isdigit(letter) != 0; };
+  while (std::all_of(list.back().begin(), list.back().end(), is_digit)) list.pop_back();
+  return list.back();
+}
+
 TEST(HostileJson, X2_ListsOfWrongLengthsAreRefused) {
   const auto file_of = [](const fuzz::FolderFiles& files, const char* name) {
     for (const auto& [file, bytes] : files)
@@ -223,7 +231,10 @@ TEST(HostileJson, X2_ListsOfWrongLengthsAreRefused) {
         const TemporaryFolder folder;
         const std::string error = input_error([&] { reader->read(changed.dump(), folder / ""); });
         refused[name] += !error.empty();
-        EXPECT_NE(error, "") << name << list.to_string() << (change < 0 ? " shorter" : " longer");
+        // A time of a view more or less: it is the other lists of views that disagree.
+        EXPECT_THAT(error, AnyOf(HasSubstr(named(list)),
+                                 HasSubstr(".self_test_ms[1][0]: has 3 views, expected ")))
+            << name << list.to_string() << (change < 0 ? " shorter" : " longer");
       }
   }
   for (const auto& [name, text] : documents) EXPECT_GT(refused[name], 0u) << name;

@@ -2,8 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <filesystem>
-
 #include "formats/format_testing.hpp"
 #include "formats/torch_fixture.hpp"
 #include "formats/truncation.hpp"
@@ -14,7 +12,6 @@ namespace {
 using testing::as_bytes;
 using ::testing::HasSubstr;
 using testing::PickleFixture;
-using testing::TemporaryFolder;
 using Kind = Pickle::Kind;
 
 constexpr std::string_view allowed[] = {"torch.FloatStorage"};
@@ -134,16 +131,9 @@ TEST(Pickle, X4_EveryOtherGlobalIsRefusedByNameAndNothingIsExecuted) {
   };
   EXPECT_THAT(refusal(calling("posix", "system")),
               HasSubstr("byte 2: the pickle wants the global posix.system"));
-  // Python would make the file while it loads this.
-  const TemporaryFolder folder;
-  const std::filesystem::path trace = folder / "trace";
-  EXPECT_THAT(refusal(PickleFixture()
-                          .global("os", "system")
-                          .text("touch '" + trace.string() + "'")
-                          .op("\x85R")
-                          .done()),
-              HasSubstr("global os.system"));
-  EXPECT_FALSE(std::filesystem::exists(trace));
+  EXPECT_EQ(refusal(calling("os", "system")),
+            "data.pkl: byte 2: the pickle wants the global os.system, which is not on the list of "
+            "harmless ones: refused, nothing was executed");
   EXPECT_THAT(refusal(calling("builtins", "eval")), HasSubstr("global builtins.eval"));
   EXPECT_THAT(refusal(calling("torch", "load")), HasSubstr("global torch.load"));
   EXPECT_THAT(refusal(calling("torch.FloatStorage", "x")), HasSubstr("torch.FloatStorage.x"));

@@ -20,6 +20,7 @@ namespace tureen {
 namespace {
 
 using namespace testing;
+using ::testing::AnyOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -356,7 +357,9 @@ TEST(Ply, X1_BodiesThatEndEarlyAreRefusedAtEveryLength) {
     // A text without its last line break is whole.
     const std::size_t whole = encoding == "ascii" ? text.size() - 1 : text.size();
     for (std::size_t size = body; size < whole; ++size)
-      EXPECT_THAT(message_of(text.substr(0, size)), HasSubstr("folder/plant.ply"))
+      EXPECT_THAT(message_of(text.substr(0, size)),
+                  AnyOf(HasSubstr("the file ends "), HasSubstr(" bytes, but only "),
+                        HasSubstr(" bytes of the file")))
           << encoding << ' ' << size;
   }
 }
