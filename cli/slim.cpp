@@ -1,5 +1,7 @@
 #include "cli/slim.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -182,9 +184,10 @@ class Search {
     const bool found = std::any_of(alpha_steps.begin(), alpha_steps.end(),
                                    [&](std::uint8_t alpha) { return find_step(result, alpha); });
     if (!found)
-      throw UsageError("a slim file of this scene loses more than the " +
-                       std::to_string(request_.max_loss_db) +
-                       " dB that are allowed, however fine its steps");
+      throw UsageError(fmt::format(
+          "a slim file of this scene loses more than the {:g} dB that are allowed, however fine "
+          "its steps",
+          request_.max_loss_db));
     result.unseen = unseen_;
     result.seeing_views = views_.size() + views_around;
     result.kept = std::move(kept_.soup);

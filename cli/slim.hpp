@@ -40,11 +40,12 @@ struct SlimResult {
 
 /// Where the scene has recorded cameras, faces that neither they (200 at most) nor 64 views from
 /// the upper half of a sphere around it show in any pixel are left out; without them nobody knows
-/// where the scene is looked at from, and all faces stay. Faces that a lower level says to half a
-/// step of 8 bits get it. Positions may take a quarter of the loss: they get the fewest bits that
-/// keep within it. Then the largest step of colour that keeps all of it within the bound is found
-/// by bisection. Faces that cover few pixels of the recorded views, or whose features hardly move
-/// the colour, get larger steps than others.
+/// where the scene is looked at from, and all faces stay. Positions may take a quarter of the loss:
+/// they get the fewest bits that keep within it. Faces that a lower level says to half a step of 8
+/// bits get that level. Then the largest step of colour that keeps all of it within the bound is
+/// found by bisection, with finer alphas where the coarse ones alone lose more. Faces that cover
+/// few pixels of the recorded views, or whose features hardly move the colour, get larger steps
+/// than others.
 ///
 /// Throws UsageError where the scene has no lattice texture or nothing keeps within the bound, and
 /// what drawing throws.
