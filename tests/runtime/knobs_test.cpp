@@ -83,10 +83,12 @@ class Knob : public ::testing::TestWithParam<std::tuple<Case, bool, bool>> {
   const RenderPreset& preset() const { return std::get<0>(GetParam()).preset; }
   TriangleSoup soup(std::uint64_t seed) const {
     const bool mlp = std::get<2>(GetParam());
-    // Baking runs the network 32 times a texel: half an hour under the thread sanitizer for 200.
+    // Baking runs the network 32 times a texel: half an hour under the thread sanitizer for 200
+    // faces. Fewer have to be larger to cover as much.
     const bool bakes = mlp && preset().color == Preset::Color::harmonics;
     return test::random_soup(seed, {.kind = mlp ? test::Kind::lattice_mlp : test::Kind::lattice,
                                     .faces = bakes ? 24 : 200,
+                                    .size = bakes ? 0.45 : 0.15,
                                     .level = -1,
                                     .float_texels = std::get<1>(GetParam())});
   }
