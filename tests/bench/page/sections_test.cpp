@@ -28,8 +28,8 @@ using tureen::testing::TemporaryFolder;
 class BenchPage : public ::testing::Test {
  protected:
   void write(const std::string& path, const std::string& text) const {
-    fs::create_directories((folder_.path() / path).parent_path());
-    std::ofstream(folder_.path() / path) << text;
+    fs::create_directories((folder() / path).parent_path());
+    std::ofstream(folder() / path) << text;
   }
   void measure(const std::string& name, const std::string& printed) const {
     const Json run{{"command", "tureen " + name},
@@ -41,12 +41,12 @@ class BenchPage : public ::testing::Test {
     write(name + ".txt", printed);
   }
   Section section(const std::string& name) const {
-    for (const Section& each : sections_of(Measurements(folder_.path())))
+    for (const Section& each : sections_of(Measurements(folder())))
       if (each.name == name) return each;
     ADD_FAILURE() << "there is no section " << name;
     return {};
   }
-  fs::path folder() const { return folder_.path(); }
+  fs::path folder() const { return folder_ / "measured"; }
 
  private:
   TemporaryFolder folder_;
@@ -120,8 +120,9 @@ TEST_F(BenchPage, AStudyTellsTheChoiceAndEveryKnobAlone) {
   EXPECT_THAT(text, HasSubstr("decade dB"));
   for (const char* panel : {"drawing", "antialiasing"})
     for (const Json& each : tradeoff.at(panel).at("configurations"))
-      if (each.at("method") != "tureen --no-specialise")
+      if (each.at("method") != "tureen --no-specialise") {
         EXPECT_THAT(text, HasSubstr("| " + each.at("name").get<std::string>())) << panel;
+      }
   EXPECT_THAT(text, HasSubstr("(emulated) | – | – | – |")) << "it has no time";
 }
 
@@ -143,7 +144,11 @@ TEST_F(BenchPage, JoinedScenesTellMeansAndWhereTheyAreWorst) {
 }
 
 TEST_F(BenchPage, GrowthTellsTimesAndFits) {
-  Growth growth{.commit = "abc1234", .renderer = "llvmpipe", .software = true};
+  Growth growth{.commit = "abc1234",
+                .cpu = "a CPU",
+                .context = "EGL",
+                .renderer = "llvmpipe",
+                .software = true};
   for (const char* kind : {"opaque", "cut-out"})
     for (const char* series : {"triangles", "pixels", "overdraw"})
       for (int i = 1; i <= 8; ++i) {
