@@ -91,15 +91,16 @@ done
 commit=$(git describe --always --dirty 2>/dev/null || echo unknown)
 cpu=$(awk -F ': ' '/^model name/ { print $2; exit }' /proc/cpuinfo 2>/dev/null)
 
-# json_text TEXT..: as one text of JSON.
-json_text() { printf '"%s"' "$(sed 's/[\\"]/\\&/g' <<<"$*")"; }
+json_text() { printf '"%s"' "$(sed 's/[\\"]/\\&/g' <<<"$1")"; }
 
 # measure NAME COMMAND..: its output goes to NAME.txt, and its end is shown where it fails. NAME.run.json, by which
 # bench_report knows it, says when, where and how it was done.
 measure() {
-  local name=$1 status=0
+  local name=$1 status=0 command
   shift
-  say "$name: $*"
+  command=$(printf '%q ' "$@") # as a shell takes it
+  command=${command% }
+  say "$name: $command"
   rm -f "$out/$name.run.json"
   "$@" >"$out/$name.txt" 2>"$out/$name.log" </dev/null || status=$?
   if ((status)); then
@@ -107,7 +108,7 @@ measure() {
     failed+=("$name (all it said: $out/$name.log)")
   else
     done_parts+=("$name")
-    printf '{"command": %s, "date": "%s", "commit": %s, "cpu": %s, "cores": %d}\n' "$(json_text "$@")" \
+    printf '{"command": %s, "date": "%s", "commit": %s, "cpu": %s, "cores": %d}\n' "$(json_text "$command")" \
       "$(date -u +%Y-%m-%dT%H:%M:%SZ)" "$(json_text "$commit")" "$(json_text "${cpu:-unknown}")" "$(nproc)" \
       >"$out/$name.run.json"
   fi

@@ -77,9 +77,8 @@ std::string bench_table(const Json& bench) {
 
 std::string bench_device(const Json& bench) {
   const Json& device = bench.at("device");
-  return fmt::format("{}{}; {} triangles; {}.", device.at("renderer").get<std::string>(),
+  return fmt::format("{}{}; {}.", device.at("renderer").get<std::string>(),
                      device.at("software").get<bool>() ? ", software" : "",
-                     bench.at("scene").at("triangles").get<std::uint64_t>(),
                      bench.at("protocol").at("clock").get<std::string>());
 }
 
@@ -88,18 +87,20 @@ std::string bench_device(const Json& bench) {
 Section bench_section(const Measurements& measurements, const std::string& name) {
   const Json bench = measurements.json(name, "bench.json");
   Section section{.name = name, .text = head(measurements, {name}), .plots = {}};
-  section.text += bench_device(bench) +
-                  " Times are the smallest of the rounds' medians; in brackets how many times as "
-                  "long as the first.\n\n" +
-                  bench_table(bench);
-  std::vector<std::string> drawn;
-  for (const Place& place : places_of(bench)) {
-    if (std::find(drawn.begin(), drawn.end(), place.cameras) != drawn.end()) continue;
-    drawn.push_back(place.cameras);
-    std::string file = "pixels-" + place.cameras + ".svg";
+  section.text +=
+      fmt::format("{} triangles; ", bench.at("scene").at("triangles").get<std::uint64_t>()) +
+      bench_device(bench) +
+      " Times are the smallest of the rounds' medians; in brackets how many times as "
+      "long as the first.\n\n" +
+      bench_table(bench);
+  std::map<std::string, int> sizes;
+  for (const Place& place : places_of(bench)) ++sizes[place.cameras];
+  for (const auto& [cameras, count] : sizes) {
+    if (count < 2) continue;  // a plot of a single point
+    std::string file = "pixels-" + cameras + ".svg";
     std::replace(file.begin(), file.end(), ':', '-');
     add_plot(section, measurements.file(name, file),
-             "Frame time against pixels, cameras " + place.cameras);
+             "Frame time against pixels, cameras " + cameras);
   }
   add_plot(section, measurements.file(name, "ratios.svg"), "Times as fast");
   return section;
