@@ -2,6 +2,7 @@
 // out: docs/leaving-out.md gives these counts as the reason.
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
@@ -69,15 +70,16 @@ std::size_t view_independent_texels(const LatticeTexture& texture, std::size_t s
   return count;
 }
 
-void audit(const char* path) {
+void audit(const std::filesystem::path& path) {
   Scene scene = read_scene(path);
+  const std::string name = path.stem().string();
   const auto* texture = std::get_if<LatticeTexture>(&opaque_soup(scene).appearance);
   if (!texture) {
-    std::printf("| %s | no lattice texture | | | | |\n", path);
+    std::printf("| %s | no lattice texture | | | | |\n", name.c_str());
     return;
   }
   const std::size_t faces = texture->patches.size();
-  std::printf("| %s | %zu | %zu | %zu |", path, faces, distinct_lattices(*texture),
+  std::printf("| %s | %zu | %zu | %zu |", name.c_str(), faces, distinct_lattices(*texture),
               faces_that_fit_lower(*texture));
   if (texture->mlp && texture->texel_count() > 0) {
     constexpr std::size_t samples = 4000;

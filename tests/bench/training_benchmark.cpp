@@ -92,9 +92,9 @@ int run(int width, int height, int steps, int level) {
     }
 
   const StageTimes& last = contenders[0].steps.back();
-  std::printf("%zu triangles, level %d, 4 pictures of %d x %d, %d steps\n", state.model.faces(),
+  std::printf("%zu triangles, level %d, 4 pictures of %d x %d, %d steps.\n", state.model.faces(),
               level, width, height, steps);
-  std::printf("%.1f fragments and %.2f shaded pixels for each of %llu pixels\n\n",
+  std::printf("%.1f fragments and %.2f shaded pixels for each of %llu pixels.\n\n",
               double(last.fragments) / double(last.pixels),
               double(last.shaded_pixels) / double(last.pixels),
               static_cast<unsigned long long>(last.pixels));

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdlib>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -52,7 +53,12 @@ using testing::within_bounds;
 /// kinds. TUREEN_FLIPS asks for another number, for sanitizers, under which each takes long.
 int flips() {
   const char* asked = std::getenv("TUREEN_FLIPS");
-  return asked ? std::max(1, std::atoi(asked)) : 10000;
+  if (!asked) return 10000;
+  int number = 0;
+  const auto [end, error] = std::from_chars(asked, asked + std::strlen(asked), number);
+  if (error != std::errc() || *end != '\0' || number < 1)
+    ADD_FAILURE() << "TUREEN_FLIPS is no number of flips: " << asked;
+  return number;
 }
 
 class Hostile : public ::testing::TestWithParam<fuzz::Target> {};

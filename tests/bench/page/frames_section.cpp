@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "cli/gnuplot.hpp"
 #include "runtime/frame_statistics.hpp"
 
 namespace tureen::test {
@@ -97,8 +98,7 @@ Section bench_section(const Measurements& measurements, const std::string& name)
   for (const Place& place : places_of(bench)) ++sizes[place.cameras];
   for (const auto& [cameras, count] : sizes) {
     if (count < 2) continue;  // a plot of a single point
-    std::string file = "pixels-" + cameras + ".svg";
-    std::replace(file.begin(), file.end(), ':', '-');
+    const std::string file = cli::plot_identifier("pixels " + cameras) + ".svg";
     add_plot(section, measurements.file(name, file),
              "Frame time against pixels, cameras " + cameras);
   }
@@ -115,9 +115,11 @@ Section stages_section(const Measurements& measurements, const std::vector<std::
     const std::vector<std::string> stages = configurations(bench);
     if (stages.size() < 2) continue;
     for (const Place& place : places_of(bench))
-      table.line({name.substr(std::string("stages-").size()), place.cameras, place.size,
-                  percent(place.aa_spread), ms_text(best_ms(place.by_configuration.at(stages[0]))),
-                  against_first(place, stages[1], stages[0])});
+      if (const auto fragment = place.by_configuration.find(stages[0]);
+          fragment != place.by_configuration.end())
+        table.line({name.substr(std::string("stages-").size()), place.cameras, place.size,
+                    percent(place.aa_spread), ms_text(best_ms(fragment->second)),
+                    against_first(place, stages[1], stages[0])});
   }
   section.text += table.text();
   return section;

@@ -67,12 +67,12 @@ Section growth_section(const Measurements& measurements, const std::string& name
   }
   section.text += "The fits, with their standard errors:\n\n" + fits_table(growth);
   add_plot(section, measurements.file(name, "growth-fit.svg"), "The model against measurements");
-  // What growth_benchmark says of them.
+  // What growth_benchmark says of them; costs stand above.
   std::string line;
   for (const char c : measurements.text(name)) {
     line += c;
     if (c != '\n') continue;
-    if (line.size() > 1) section.text += "- " + line;
+    if (line.find("the model") != std::string::npos) section.text += "- " + line;
     line.clear();
   }
   section.text += "\n";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "soup/error.hpp"
 
@@ -11,8 +12,6 @@ namespace tureen::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* run_ending = ".run.json";
 
 std::string contents(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -28,20 +27,9 @@ Json parsed(const fs::path& path) {
 
 }  // namespace
 
-Measurements::Measurements(fs::path folder) : folder_(std::move(folder)) {
-  if (fs::is_directory(folder_))
-    for (const auto& entry : fs::directory_iterator(folder_)) {
-      const std::string name = entry.path().filename().string();
-      if (name.ends_with(run_ending))
-        names_.push_back(name.substr(0, name.size() - std::string(run_ending).size()));
-    }
-  if (names_.empty())
-    throw InputError({folder_.string(), {}, {}}, "nothing that was measured lies there");
+Measurements::Measurements(fs::path folder, std::vector<std::string> names)
+    : folder_(std::move(folder)), names_(std::move(names)) {
   std::sort(names_.begin(), names_.end());
-}
-
-bool Measurements::has(const std::string& name) const {
-  return std::binary_search(names_.begin(), names_.end(), name);
 }
 
 std::vector<std::string> Measurements::beginning_with(const std::string& prefix) const {
@@ -52,7 +40,7 @@ std::vector<std::string> Measurements::beginning_with(const std::string& prefix)
 }
 
 Measurements::Run Measurements::run(const std::string& name) const {
-  const Json json = parsed(folder_ / (name + run_ending));
+  const Json json = parsed(folder_ / (name + ".run.json"));
   return {.command = json.at("command"),
           .date = json.at("date"),
           .commit = json.at("commit"),

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+// Files that are not there, or no JSON, are thrown as InputError.
+
 namespace tureen::test {
 
 /// Keys in the order in which they were written.
@@ -16,12 +18,11 @@ using Json = nlohmann::ordered_json;
 
 class Measurements {
  public:
-  /// All of a folder, by name. Throws InputError where there are none.
-  explicit Measurements(std::filesystem::path folder);
+  /// Those of a folder that are named; an older run may have left others.
+  Measurements(std::filesystem::path folder, std::vector<std::string> names);
 
   /// In alphabetical order.
   const std::vector<std::string>& names() const { return names_; }
-  bool has(const std::string& name) const;
   /// Those whose name begins so.
   std::vector<std::string> beginning_with(const std::string& prefix) const;
 

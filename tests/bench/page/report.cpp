@@ -1,9 +1,10 @@
 // Puts what `./dev bench` measured into the pages of docs/: each section between the two marks that
 // bear its name, wherever a page has them; everything else stays as people wrote it.
 //
-//   bench_report MEASURED DOCS
+//   bench_report MEASURED DOCS NAME..
 //
-// MEASURED is the folder that reproduce.sh writes; plots go into DOCS/images.
+// MEASURED is the folder that reproduce.sh writes, NAME what it has just measured; plots go into
+// DOCS/images.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -61,15 +62,15 @@ void write_section(const Section& section, const std::vector<fs::path>& pages,
 
 int main(int argc, char** argv) {
   using namespace tureen::test;
-  if (argc != 3) {
-    std::fprintf(stderr, "usage: bench_report MEASURED DOCS\n");
+  if (argc < 4) {
+    std::fprintf(stderr, "usage: bench_report MEASURED DOCS NAME..\n");
     return 2;
   }
   try {
     const std::filesystem::path docs = argv[2];
     const auto pages = pages_in(docs);
     std::filesystem::create_directories(docs / "images");
-    for (const Section& section : sections_of(Measurements(argv[1])))
+    for (const Section& section : sections_of(Measurements(argv[1], {argv + 3, argv + argc})))
       write_section(section, pages, docs / "images");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_report: %s\n", error.what());

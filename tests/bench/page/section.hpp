@@ -38,7 +38,7 @@ class Table {
   std::string text_;
 };
 
-/// Three digits that count.
+/// Three digits that count, between a tenth of a millisecond and a second.
 std::string ms_text(double ms);
 
 /// "1.3 %" of 0.013.

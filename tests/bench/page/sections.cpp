@@ -8,6 +8,7 @@
 #include "bench/page/frames_section.hpp"
 #include "bench/page/growth_section.hpp"
 #include "bench/page/tradeoff_section.hpp"
+#include "soup/error.hpp"
 
 namespace tureen::test {
 
@@ -96,16 +97,23 @@ Section section_of(const Measurements& measurements, const std::string& name) {
 
 std::vector<Section> sections_of(const Measurements& measurements) {
   std::vector<Section> sections;
+  const auto add = [&](const std::string& name, auto&& make) {
+    try {
+      sections.push_back(make());
+    } catch (const nlohmann::json::exception& error) {
+      throw InputError({name, {}, {}}, error.what());
+    }
+  };
   std::vector<std::string> told;
   for (const Kind& kind : kinds) {
     const auto names = measurements.beginning_with(std::string(kind.name) + "-");
     if (names.empty()) continue;
-    sections.push_back(kind.section(measurements, names));
+    add(kind.name, [&] { return kind.section(measurements, names); });
     told.insert(told.end(), names.begin(), names.end());
   }
   for (const std::string& name : measurements.names())
     if (std::find(told.begin(), told.end(), name) == told.end())
-      sections.push_back(section_of(measurements, name));
+      add(name, [&] { return section_of(measurements, name); });
   return sections;
 }
 

@@ -8,7 +8,7 @@
 namespace tureen::test {
 
 /// A section for each measurement that has tables of its own, and one for each kind that stands in
-/// one table. Throws InputError, and what nlohmann::json throws where a result lacks something.
+/// one table. Throws InputError with the name of the section whose result lacks something.
 std::vector<Section> sections_of(const Measurements& measurements);
 
 }  // namespace tureen::test

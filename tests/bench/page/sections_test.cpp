@@ -1,10 +1,12 @@
 // What the pages of docs/ say of what was measured.
 #include "bench/page/sections.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <iterator>
 #include <span>
 
 #include "bench/growth_report.hpp"
@@ -14,6 +16,7 @@
 #include "cli/tradeoff_scenes_report.hpp"
 #include "formats/format_testing.hpp"
 #include "soup/error.hpp"
+#include "support/measured.hpp"
 
 namespace tureen::test {
 namespace {
@@ -22,6 +25,7 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 using tureen::testing::TemporaryFolder;
 
 /// A folder as reproduce.sh leaves it.
@@ -31,7 +35,8 @@ class BenchPage : public ::testing::Test {
     fs::create_directories((folder() / path).parent_path());
     std::ofstream(folder() / path) << text;
   }
-  void measure(const std::string& name, const std::string& printed) const {
+  void measure(const std::string& name, const std::string& printed) {
+    names_.push_back(name);
     const Json run{{"command", "tureen " + name},
                    {"date", "2026-01-02T03:04:05Z"},
                    {"commit", "abc1234"},
@@ -40,8 +45,9 @@ class BenchPage : public ::testing::Test {
     write(name + ".run.json", run.dump());
     write(name + ".txt", printed);
   }
+  Measurements measurements() const { return {folder(), names_}; }
   Section section(const std::string& name) const {
-    for (const Section& each : sections_of(Measurements(folder())))
+    for (const Section& each : sections_of(measurements()))
       if (each.name == name) return each;
     ADD_FAILURE() << "there is no section " << name;
     return {};
@@ -50,6 +56,7 @@ class BenchPage : public ::testing::Test {
 
  private:
   TemporaryFolder folder_;
+  std::vector<std::string> names_;
 };
 
 cli::BenchMeasurement timed(const char* configuration, const char* size, double ms) {
@@ -110,20 +117,45 @@ TEST_F(BenchPage, StagesOfAllScenesStandInOneTable) {
 }
 
 TEST_F(BenchPage, AStudyTellsTheChoiceAndEveryKnobAlone) {
+  nlohmann::json study = lego();
+  auto& drawing = study["drawing"]["configurations"];
+  nlohmann::json both = drawing[2];  // lattice level 2
+  ASSERT_EQ(both["name"], "lattice level 2");
+  for (auto& [key, setting] : both["knobs"].items())
+    for (const auto& knob : study["drawing"]["knobs"])
+      if (knob["key"] == key) setting = knob["settings"].back();
+  ASSERT_GE(both["knobs"].size(), 2u);
+  both["name"] = "a combination";
+  both["on_front"] = false;
+  drawing.push_back(both);
+  study["e_model"] = {
+      {"dataset", "lego"}, {"split", "test"}, {"photographs", 25}, {"ssim_border", "valid"}};
+  drawing[0]["e_model"] = {{"psnr_db", 29.5}, {"ssim", 0.96}, {"flip", nullptr}};
   measure("tradeoff-lego", "");
-  fs::create_directories(folder() / "tradeoff-lego");
-  fs::copy_file(fs::path(TUREEN_SOURCE_DIR) / "tests/cli/tradeoff.json",
-                folder() / "tradeoff-lego/tradeoff.json");
-  const Json tradeoff = Measurements(folder()).json("tradeoff-lego", "tradeoff.json");
+  write("tradeoff-lego/tradeoff.json", study.dump());
   const std::string text = section("tradeoff-lego").text;
-  EXPECT_THAT(text, HasSubstr("The choice"));
-  EXPECT_THAT(text, HasSubstr("decade dB"));
-  for (const char* panel : {"drawing", "antialiasing"})
-    for (const Json& each : tradeoff.at(panel).at("configurations"))
-      if (each.at("method") != "tureen --no-specialise") {
-        EXPECT_THAT(text, HasSubstr("| " + each.at("name").get<std::string>())) << panel;
+  EXPECT_THAT(text, HasSubstr("The choice, the cheapest with at least"));
+  for (const char* panel : {"drawing", "antialiasing"}) {
+    SCOPED_TRACE(panel);
+    EXPECT_THAT(text, HasSubstr(fmt::format("{} configurations were measured",
+                                            study[panel]["configurations"].size())));
+    for (const auto& each : study[panel]["configurations"])
+      if (each["method"] == "tureen" && each["name"] != "a combination") {
+        EXPECT_THAT(text, HasSubstr("| " + each["name"].get<std::string>() + " | "));
       }
+  }
+  EXPECT_THAT(text, Not(HasSubstr("a combination"))) << "it is not on the front";
   EXPECT_THAT(text, HasSubstr("(emulated) | – | – | – |")) << "it has no time";
+  EXPECT_THAT(text, HasSubstr("E_model, against 25 photographs (test):"));
+  EXPECT_THAT(text, HasSubstr("| defaults | 29.50 | 0.9600 |\n"));
+  std::size_t defaults = 0;
+  for (std::size_t at = 0; (at = text.find("\n| defaults |", at)) != std::string::npos; ++at)
+    ++defaults;
+  EXPECT_EQ(defaults, 3u) << "of each panel's, and what photographs say; none of generic plans";
+
+  study["choice"] = nullptr;
+  write("tradeoff-lego/tradeoff.json", study.dump());
+  EXPECT_THAT(section("tradeoff-lego").text, HasSubstr("none keeps to the limits"));
 }
 
 TEST_F(BenchPage, JoinedScenesTellMeansAndWhereTheyAreWorst) {
@@ -222,11 +254,40 @@ TEST_F(BenchPage, TablesThatProgramsPrintStayAsTheyAre) {
                     Not(HasSubstr("PASSED"))));
 }
 
+TEST_F(BenchPage, ResultsOfOtherRunsStayOut) {
+  measure("load", "| now |\n");
+  write("growth.run.json", "{}");  // an earlier run's
+  ASSERT_EQ(sections_of(measurements()).size(), 1u);
+}
+
+TEST_F(BenchPage, SaysWhoseResultLacksSomething) {
+  measure("slim-lego", R"({"scene_bytes": null})");
+  EXPECT_THAT(tureen::testing::input_error([&] { sections_of(measurements()); }),
+              StartsWith("slim: "));
+}
+
 TEST_F(BenchPage, RefusesWhatNoRunLeft) {
-  EXPECT_THROW(Measurements(folder() / "nowhere"), InputError);
-  EXPECT_THROW(Measurements{folder()}, InputError) << "nothing was measured";
+  EXPECT_THROW(sections_of({folder(), {"load"}}), InputError);
+  measure("load", "");
   write("load.run.json", "{");
-  EXPECT_THROW(sections_of(Measurements(folder())), InputError);
+  EXPECT_THROW(sections_of(measurements()), InputError);
+}
+
+TEST_F(BenchPage, IsWrittenBetweenItsMarksAlone) {
+  const Marks load("./dev bench, load"), growth("./dev bench, growth");
+  const auto page = [&](const std::string& end) {
+    return "before\n" + load.begin + "old\n" + end + "between\n" + growth.begin + "as it is\n" +
+           growth.end + "after\n";
+  };
+  write("page.md", page(load.end));
+  write_between(folder() / "page.md", load, "new\n");
+  std::ifstream file(folder() / "page.md");
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}),
+            "before\n" + load.begin + "new\n" + load.end + "between\n" + growth.begin +
+                "as it is\n" + growth.end + "after\n");
+  write("page.md", page(""));
+  EXPECT_THROW(write_between(folder() / "page.md", load, "new\n"), InputError)
+      << "the next end is another section's";
 }
 
 }  // namespace
