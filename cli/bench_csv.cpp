@@ -32,6 +32,16 @@ Column of_all(const char* name, Get get) {
   return {name, [get](const BenchResult& r, const BenchMeasurement&) { return get(r); }};
 }
 
+/// The sentences of the configuration's plan; of ceilings, which have none, empty.
+std::string plan_of(const BenchResult& result, const BenchMeasurement& measurement) {
+  const BenchConfiguration* configuration = find_configuration(result, measurement.configuration);
+  std::string text;
+  if (configuration)
+    for (const std::string& sentence : configuration->plan)
+      text += (text.empty() ? "" : "; ") + sentence;
+  return text;
+}
+
 const std::vector<Column>& columns() {
   using M = const BenchMeasurement&;
   using R = const BenchResult&;
@@ -62,6 +72,8 @@ const std::vector<Column>& columns() {
       of_all("cpu", [](R r) { return r.machine.cpu; }),
       of_all("commit", [](R r) { return r.program.commit; }),
       of_all("date", [](R r) { return r.date; }),
+      of_all("driver", [](R r) { return r.device.version; }),
+      {"plan", plan_of},
   };
   return all;
 }

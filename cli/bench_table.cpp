@@ -41,17 +41,18 @@ void add_heading(std::vector<std::string>& lines, const BenchMeasurement& first)
     heading += fmt::format(" of {} frames a view", first.frames_per_sample);
   lines.push_back("");
   lines.push_back(heading + fmt::format(", A/A spread {:.1f} %", 100 * first.aa_spread));
-  lines.push_back(fmt::format("  {:<13} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7}", "configuration",
-                              "best ms", "mean ms", "p95", "p99", "FPS", "1 % low", "ratio"));
+  lines.push_back(fmt::format("  {:<13} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7}",
+                              "configuration", "best ms", "mean ms", "p50", "p95", "p99", "FPS",
+                              "1 % low", "ratio"));
 }
 
 void add_row(std::vector<std::string>& lines, const BenchMeasurement& each,
              const BenchMeasurement& first) {
   const FrameStatistics& ms = each.frame_ms;
-  lines.push_back(fmt::format("  {:<13} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7}",
-                              each.configuration, ms_text(ms.min_of_medians), ms_text(ms.mean),
-                              ms_text(ms.p95), ms_text(ms.p99), fps_text(each.fps),
-                              fps_text(ms.low_1_percent_fps), compared(each, first)));
+  lines.push_back(fmt::format(
+      "  {:<13} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7}", each.configuration,
+      ms_text(ms.min_of_medians), ms_text(ms.mean), ms_text(ms.median), ms_text(ms.p95),
+      ms_text(ms.p99), fps_text(each.fps), fps_text(ms.low_1_percent_fps), compared(each, first)));
   if (!each.passes_ms.empty())
     lines.push_back(fmt::format("  {:<13} {}", "", "by the device's clock: " + passes_text(each)));
   if (!each.stable)

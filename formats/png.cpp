@@ -8,6 +8,7 @@
 
 #include "formats/decoder_memory.hpp"
 #include "formats/jpeg_tables.hpp"
+#include "formats/png_chunks.hpp"
 
 #ifndef __EMSCRIPTEN__
 #include <zlib.h>
@@ -108,6 +109,9 @@ Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
   if (width < 1 || height < 1 || width > max_image_side || height > max_image_side ||
       std::size_t(width) * height > max_image_pixels)
     fail(beyond(width, height));
+  if (const auto byte = damaged_png_chunk(bytes))
+    throw InputError({name, byte, {}},
+                     "the image is damaged: a chunk's checksum is not that of its bytes");
   PassingMemory passing(budget);
   const std::string what = "an image of " + std::to_string(width) + " x " + std::to_string(height);
   const std::uint64_t result_bytes = std::uint64_t(width) * std::uint64_t(height) * 4;

@@ -36,7 +36,7 @@ void take(const Json& object, const char* key, T& value, const std::string& file
 }
 
 /// A window that can be seen and that every screen can hold.
-constexpr glm::ivec2 least_window{320, 240}, most_window{16384, 16384};
+constexpr glm::vec2 least_window{320, 240}, most_window{16384, 16384};
 
 }  // namespace
 
@@ -65,10 +65,11 @@ Settings read_settings(const fs::path& file) {
   const Json json = read_json(input);
   const std::string name = file.string();
   if (!json.is_object()) throw InputError({name, {}, {}}, "not an object of settings");
-  std::vector<int> window{settings.window.x, settings.window.y};
-  take(json, "window", window, name);
-  if (window.size() == 2)
-    settings.window = glm::clamp(glm::ivec2(window[0], window[1]), least_window, most_window);
+  if (const auto window = json.find("window"); window != json.end()) {
+    // Clamped as they are: no int holds every number.
+    const std::vector<float> sides = json_floats(*window, 2, name, "window");
+    settings.window = glm::clamp(glm::vec2(sides[0], sides[1]), least_window, most_window);
+  }
   take(json, "vsync", settings.vsync, name);
   take(json, "smooth_motion", settings.smooth_motion, name);
   take(json, "recent", settings.recent, name);

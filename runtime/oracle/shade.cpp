@@ -34,9 +34,9 @@ glm::dvec4 interpolated_rgba(const TriangleSoup& soup, const std::vector<glm::ve
 // -- lattices ----------------------------------------------------------------------------------
 
 lattice::Footprint<double> footprint_at(const LatticePatch& patch, const SurfacePoint& p) {
-  const double b0 = std::clamp(p.b0, 0.0, 1.0);
-  const double b1 = std::clamp(p.b1, 0.0, 1.0 - b0);
-  return lattice::footprint(int(patch.level), b0, b1);
+  // As simplex.glsl has it.
+  const double b0 = std::max(p.b0, 0.0), b1 = std::max(p.b1, 0.0), sum = std::max(b0 + b1, 1.0);
+  return lattice::footprint(int(patch.level), b0 / sum, b1 / sum);
 }
 
 double texel(const LatticeTexture& texture, std::size_t index, int channel) {

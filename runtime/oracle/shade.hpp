@@ -11,7 +11,8 @@
 namespace tureen::oracle {
 
 /// A point of a face. The barycentrics may leave [0, 1] a little: lattices are then sampled at the
-/// nearest point of the face, everything else is extrapolated as GL's interpolators do.
+/// point of the face that simplex.glsl has for them, everything else is extrapolated as GL's
+/// interpolators do.
 struct SurfacePoint {
   std::uint32_t face = 0;
   double b0 = 0, b1 = 0;  // weights of vertices 0 and 1

@@ -2,6 +2,7 @@
 // out: docs/leaving-out.md gives these counts as the reason.
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
@@ -69,25 +70,27 @@ std::size_t view_independent_texels(const LatticeTexture& texture, std::size_t s
   return count;
 }
 
-void audit(const char* path) {
+void audit(const std::filesystem::path& path) {
   Scene scene = read_scene(path);
+  const std::string name = path.stem().string();
   const auto* texture = std::get_if<LatticeTexture>(&opaque_soup(scene).appearance);
   if (!texture) {
-    std::printf("%s: no lattice texture\n", path);
+    std::printf("| %s | no lattice texture | | | | |\n", name.c_str());
     return;
   }
   const std::size_t faces = texture->patches.size();
-  std::printf(
-      "%s: %zu faces, %zu of them with a lattice of their own (L4), %zu fit a lower level "
-      "(L3)",
-      path, faces, distinct_lattices(*texture), faces_that_fit_lower(*texture));
+  std::printf("| %s | %zu | %zu | %zu |", name.c_str(), faces, distinct_lattices(*texture),
+              faces_that_fit_lower(*texture));
   if (texture->mlp && texture->texel_count() > 0) {
     constexpr std::size_t samples = 4000;
-    std::printf("; %zu of %zu texels view-independent (M3)",
-                view_independent_texels(*texture, samples), samples);
+    std::printf(" %zu of %zu |", view_independent_texels(*texture, samples), samples);
     if (texture->mlp->blend_channel)
-      std::printf("; %zu of %zu texels without the network (M6)",
-                  unblended_texels(*texture, *texture->mlp->blend_channel), texture->texel_count());
+      std::printf(" %zu of %zu |", unblended_texels(*texture, *texture->mlp->blend_channel),
+                  texture->texel_count());
+    else
+      std::printf(" |");
+  } else {
+    std::printf(" | |");
   }
   std::puts("");
 }
@@ -97,6 +100,10 @@ void audit(const char* path) {
 
 int main(int argc, char** argv) {
   try {
+    std::puts(
+        "| soup | faces | with a lattice of their own (L4) | said to half a step by a lower level "
+        "(L3) | of random texels: colour within a step over 256 directions (M3) | texels with a "
+        "blend of at most 1/510 (M6) |\n|---|---|---|---|---|---|");
     for (int i = 1; i < argc; ++i) tureen::test::audit(argv[i]);
   } catch (const tureen::Error& error) {
     std::fprintf(stderr, "leave_out_audit: %s\n", error.what());

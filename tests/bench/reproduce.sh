@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Measures what docs/benchmarks.md holds. `./dev bench` builds what this needs and calls it, from the
-# repository's root.
+# Measures what docs/benchmarks.md, leaving-out.md and slim.md hold, and writes it there. `./dev bench`
+# builds what this needs and calls it, from the repository's root.
 set -uo pipefail
 
-bin=build/release/bin out=build/bench data=../shared/data
+bin=build/release/bin data=../shared/data
 usual_parts=(load frames leave_out growth tradeoff slim agreement step browser)
 all_parts=("${usual_parts[@]}" training)
 quick='' processor='' check='' ficus='' fox='' photographs='' lego='' bottle=''
@@ -14,7 +14,8 @@ usage() {
 usage: ./dev bench [--quick] [--processor-time] [--ficus SOUP] [--fox SOUP]
                    [--photographs DATASET] [--lego DATASET] [--bottle DATASET] [PART..]
 
-Measures and writes tables, plots and pages into build/bench; without a PART all but training:
+Measures, leaves tables, plots and pages in build/bench, and writes what pages of docs/ hold of them between
+their marks; without a PART all but training:
   load        how long a soup of 2,000,000 triangles takes to load from each format, and its memory
   frames      tureen bench: frame times across sizes, on every scene there is
   leave_out   what each thing that a plan leaves out gains
@@ -24,14 +25,15 @@ Measures and writes tables, plots and pages into build/bench; without a PART all
   agreement   how well GL agrees with the oracle
   step        what a training step costs
   browser     bench.html in Chromium on two rasterisers, memory, and how long the first picture takes
-  training    the training runs: hours; the others then draw the fox soup that it trained
+  training    the training runs: hours; the others draw the soups that it left in build/bench/training
 
-  --quick        everything small: whether it works, not a measurement
+  --quick        everything small, in build/bench-quick, with copies of the pages there: whether it works, not a
+                 measurement
   --processor-time
                  frames, leave_out, growth and tradeoff by the processor time of all threads instead of the time
                  that passed: ratios on a busy machine, without a GPU (leave_out does so by itself there)
   --ficus SOUP   a soup of 2D Triangle Splatting; ../shared/data/soups/ficus_2dts.off where it is there
-  --fox SOUP     a soup trained from photographs (docs/benchmarks.md, Photographs)
+  --fox SOUP     a soup trained from photographs; what the part training left
   --photographs  what it was trained from; ../shared/data/photos/fox where it is there
   --lego, --bottle DATASET
                  what else training learns from; ../shared/data/rendered/lego and ../shared/data/photos/bottle
@@ -74,6 +76,8 @@ while (($#)); do
   shift
 done
 ((${#parts[@]})) || parts=("${usual_parts[@]}")
+out=build/bench${quick:+-quick}
+training=$out/training example_photographs=$out/photographs
 for given in "$ficus" "$fox" "$photographs" "$lego" "$bottle"; do
   [[ -z $given || -e $given ]] || die "there is no $given"
 done
@@ -84,17 +88,31 @@ done
 
 [[ -z $check ]] || exit 0
 
-# measure NAME COMMAND..: its output goes to NAME.txt, and its end is shown where it fails.
+# What an earlier run wrote into the pages makes no other program.
+commit=$(git describe --always 2>/dev/null || echo unknown)
+git diff --quiet HEAD -- . ':!docs' 2>/dev/null || commit+=-dirty
+cpu=$(awk -F ': ' '/^model name/ { print $2; exit }' /proc/cpuinfo 2>/dev/null)
+
+json_text() { printf '"%s"' "$(sed 's/[\\"]/\\&/g' <<<"$1")"; }
+
+# measure NAME COMMAND..: its output goes to NAME.txt, and its end is shown where it fails. NAME.run.json, by which
+# bench_report knows it, says when, where and how it was done.
 measure() {
-  local name=$1 status=0
+  local name=$1 status=0 command
   shift
-  say "$name: $*"
+  command=$(printf '%q ' "$@") # as a shell takes it
+  command=${command% }
+  say "$name: $command"
+  rm -f "$out/$name.run.json"
   "$@" >"$out/$name.txt" 2>"$out/$name.log" </dev/null || status=$?
   if ((status)); then
     tail -n 15 "$out/$name.log" >&2
     failed+=("$name (all it said: $out/$name.log)")
   else
     done_parts+=("$name")
+    printf '{"command": %s, "date": "%s", "commit": %s, "cpu": %s, "cores": %d}\n' "$(json_text "$command")" \
+      "$(date -u +%Y-%m-%dT%H:%M:%SZ)" "$(json_text "$commit")" "$(json_text "${cpu:-unknown}")" "$(nproc)" \
+      >"$out/$name.run.json"
   fi
   return "$status"
 }
@@ -120,7 +138,8 @@ find_scenes() {
 
 part_load() {
   local base=${ficus:-examples/soup.glb} options=(--formats '.glb,.off,.ply')
-  [[ -n $ficus ]] || say "load: made of the example, as there is no ficus"
+  # Made of the example it would be another soup than the page says.
+  [[ -n $ficus || -n $quick ]] || { skip "load: the ficus soup is not here, give it with --ficus"; return; }
   [[ -z $quick ]] || options+=(--triangles 50000 --repeats 1)
   measure load "$bin/load_benchmark" "$base" "$out/load" "${options[@]}"
 }
@@ -147,6 +166,7 @@ part_frames() {
   done
   measure_stages
   options=()
+  [[ -n $ficus || -n $quick ]] || { skip "frames-dense: the ficus soup is not here, give it with --ficus"; return; }
   [[ -z $quick ]] || options=(--triangles 50000 --rounds 1 --width 160 --height 90)
   [[ -z $processor ]] || options+=(--processor-time)
   measure frames-dense "$bin/dense_benchmark" "${ficus:-examples/soup.glb}" "${options[@]}"
@@ -210,7 +230,7 @@ part_tradeoff() {
 slim() {
   local name=$1 soup=$2
   shift 2
-  measure "slim-$name" "$bin/tureen" convert "$soup" "$out/slim/$name.glb" --slim --force "$@"
+  measure "slim-$name" "$bin/tureen" convert "$soup" "$out/slim/$name.glb" --slim --force --json "$@"
 }
 
 part_slim() {
@@ -234,19 +254,25 @@ part_slim() {
 # Properties that tests recorded, from GoogleTest's XML: a table's row for each.
 properties() {
   printf '| test | property | value |\n|---|---|---|\n'
-  awk -F'"' '/<testcase / { test = $2 } /<property / { print "| " test " | " $2 " | " $4 " |" }' "$1"
+  awk -F'"' '
+    /<testsuite / { suite = $2 }
+    /<testcase / { test = suite "." $2 }
+    /<property / { print "| " test " | " $2 " | " $4 " |" }' "$1"
+}
+
+# tested NAME PROGRAM FILTER: the properties that these tests record, as a table.
+tested() {
+  mkdir -p "$out/$1"
+  measure "$1" "$bin/$2" --gtest_filter="$3" --gtest_output="xml:$out/$1/tests.xml" &&
+    properties "$out/$1/tests.xml" >"$out/$1/table.md"
 }
 
 part_agreement() {
-  local program filter
-  for program in agreement_tests gl_oracle_tests; do
-    filter='*'
-    [[ -z $quick || $program == agreement_tests ]] || filter='GlOracleSingle.*'
-    measure "agreement-$program" "$bin/$program" --gtest_filter="$filter" \
-      --gtest_output="xml:$out/$program.xml"
-    [[ ! -e $out/$program.xml ]] || properties "$out/$program.xml" >"$out/agreement-$program.md"
-  done
-  [[ -e $data ]] || skip "agreement on real soups, which lie in ../shared/data"
+  local filter='-*PublishedError*' # which stands by itself
+  [[ -z $quick ]] || filter='GlOracleSingle.*'
+  if [[ -e $data ]]; then tested agreement-real agreement_tests '*'; else skip "agreement on real soups, which lie in $data"; fi
+  tested agreement-random gl_oracle_tests "$filter"
+  tested error gl_oracle_tests '*PublishedError*'
 }
 
 part_step() {
@@ -262,17 +288,18 @@ part_browser() {
   # The cloud covers a third of the picture, like the soup that the authors' page was timed with.
   local cloud=$out/scenes/cloud_third.glb imports=() file
   "$bin/make_cutout_cloud" "$cloud" --coverage third || { skip "browser: its scene could not be written"; return; }
-  measure browser node tests/bench/browser_benchmark.mjs "$out/browser" "$cloud" examples/soup.glb ${quick:+--quick}
+  rm -f "$out"/browser/*.json # of an earlier run
+  measure browser node tests/bench/browser_benchmark.mjs "$out/browser" "$cloud" examples/soup.glb ${quick:+--quick} || return
   for file in "$out"/browser/*.json; do imports+=(--import "$file"); done
-  measure browser-tables "$bin/tureen" bench "${imports[@]}" -o "$out/browser/tables"
+  measure browser-devices "$bin/tureen" bench "${imports[@]}" -o "$out/browser-devices" &&
+    cp "$out/browser-devices/devices.md" "$out/browser-devices/table.md"
 }
 
 # Of what the example was trained on, from another renderer; once a commit.
 make_example_photographs() {
   local views=(--views 90 --test-views 10 --strata 4)
   [[ -z $quick ]] || views=(--views 9 --test-views 1 --strata 1)
-  local made_by=$example_photographs.commit commit
-  commit=$(git describe --always --dirty 2>/dev/null || echo unknown)
+  local made_by=$example_photographs.commit
   [[ -e $made_by && $(<"$made_by") == "$commit" ]] && return
   rm -rf "$example_photographs" "$made_by"
   measure example-photographs "$bin/make_photographs" "$example_photographs" "${views[@]}" &&
@@ -284,18 +311,13 @@ steps() { if [[ $quick ]]; then echo 20; else echo "$1"; fi; }
 
 # train NAME DATASET OPTION..: a soup, its log and the log's plot. Fails where there is none.
 train() {
-  local name=$1 dataset=$2 soup=$training/$1.glb
+  local name=$1 dataset=$2 soup=$training/${1#train-}.glb
   shift 2
-  [[ -n $dataset ]] || { skip "training on the $name: its photographs are not here"; return 1; }
+  [[ -n $dataset ]] || { skip "$name: its photographs are not here"; return 1; }
   rm -f "${soup%.glb}.checkpoint" # of a run that was broken off
-  measure "train-$name" "$bin/tureen" train "$dataset" "$@" -o "$soup" --json
-}
-
-# evaluate NAME DATASET OPTION..: what photographs say of a soup that was trained.
-evaluate() {
-  local name=$1
-  shift
-  measure "train-$name-eval" "$bin/tureen" eval "$training/$name.glb" "$@"
+  measure "$name" "$bin/tureen" train "$dataset" "$@" -o "$soup" --json || return 1
+  mkdir -p "$out/$name"
+  cp "${soup%.glb}.svg" "$out/$name/log.svg" || say "$name: there is no plot of its log"
 }
 
 # One constant changed at a time: a name, and what changes it.
@@ -319,36 +341,42 @@ END
 }
 
 part_training() {
-  mkdir -p "$training"
-  if train fox "$photographs" --scale 0.25 --steps "$(steps 10000)"; then
-    evaluate fox "$photographs" --scale 0.25
-    [[ -n $fox ]] || fox=$training/fox.glb
-  fi
-  train bottle "$bottle" --scale 0.5 --steps "$(steps 1500)"
-  train lego "$lego" --scale 0.5 --steps "$(steps 10000)" && evaluate lego "$lego" --scale 0.5
+  train train-fox "$photographs" --scale 0.25 --steps "$(steps 10000)"
+  train train-bottle "$bottle" --scale 0.5 --steps "$(steps 1500)"
+  train train-lego "$lego" --scale 0.5 --steps "$(steps 10000)"
   make_example_photographs &&
-    train example "$example_photographs" --config examples/training.json --steps "$(steps 3000)" &&
-    evaluate example "$example_photographs"
+    train train-example "$example_photographs" --config examples/training.json --steps "$(steps 3000)"
   train_ablations
 }
 
-mkdir -p "$out/scenes"
-example_photographs=$out/photographs${quick:+-quick} training=$out/training${quick:+-quick}
+mkdir -p "$out/scenes" "$training"
 [[ " ${parts[*]} " != *" training "* ]] || part_training
+[[ -n $fox || ! -e $training/fox.glb ]] || fox=$training/fox.glb
 case " ${parts[*]} " in
   *" frames "* | *" leave_out "* | *" tradeoff "*) find_scenes ;;
 esac
 for part in "${parts[@]}"; do [[ $part == training ]] || "part_$part"; done
 
+# What is only tried leaves the pages as they are.
+pages=docs
+if [[ $quick ]]; then
+  pages=$out/docs
+  rm -rf "$pages"
+  cp -r docs "$pages"
+fi
+if ((${#done_parts[@]})); then
+  "$bin/bench_report" "$out" "$pages" "${done_parts[@]}" || failed+=("bench_report: $pages is not whole")
+fi
+
 {
   echo "# Measured $(date -u +%Y-%m-%dT%H:%MZ)${quick:+, --quick: whether it works, not a measurement}${processor:+, by processor time}"
   echo
-  echo "Commit $(git describe --always --dirty 2>/dev/null || echo unknown), $(nproc) cores."
+  echo "Commit $commit, $(nproc) cores."
   for name in "${done_parts[@]}"; do echo "- $name: $name.txt, $name.log"; done
   for name in "${skipped[@]}"; do echo "- skipped: $name"; done
   for name in "${failed[@]}"; do echo "- FAILED: $name"; done
   for page in "$out"/*/*.html; do [[ ! -e $page ]] || echo "- page: ${page#"$out"/}"; done
 } >"$out/summary.md"
 cat "$out/summary.md" >&2
-say "All of it is in $PWD/$out"
+say "All of it is in $PWD/$out, the pages in $pages"
 ((${#failed[@]} == 0))

@@ -92,23 +92,23 @@ int run(int width, int height, int steps, int level) {
     }
 
   const StageTimes& last = contenders[0].steps.back();
-  std::printf("%zu triangles, level %d, 4 pictures of %d x %d, %d steps\n", state.model.faces(),
+  std::printf("%zu triangles, level %d, 4 pictures of %d x %d, %d steps.\n", state.model.faces(),
               level, width, height, steps);
-  std::printf("%.1f fragments and %.2f shaded pixels for each of %llu pixels\n\n",
+  std::printf("%.1f fragments and %.2f shaded pixels for each of %llu pixels.\n\n",
               double(last.fragments) / double(last.pixels),
               double(last.shaded_pixels) / double(last.pixels),
               static_cast<unsigned long long>(last.pixels));
-  std::printf("%-12s %28s   %s\n", "", "1 thread", contenders[1].backend->description().c_str());
+  std::printf("| stage | 1 thread | a unit of work | %s | times as fast |\n|---|---|---|---|---|\n",
+              contenders[1].backend->description().c_str());
   double sums[2] = {};
   for (const Stage& stage : stages) {
     const double one = contenders[0].ms(stage.seconds), all = contenders[1].ms(stage.seconds);
     sums[0] += one;
     sums[1] += all;
-    std::printf("%-12s %7.2f ms %6.1f ns a %-13s %7.2f ms   %.2f times as fast\n", stage.name, one,
+    std::printf("| %s | %.2f ms | %.1f ns a %s | %.2f ms | %.2f |\n", stage.name, one,
                 one * 1e6 / double(last.*stage.work), stage.unit, all, one / all);
   }
-  std::printf("%-12s %7.2f ms %32.2f ms   %.2f times as fast\n", "all", sums[0], sums[1],
-              sums[0] / sums[1]);
+  std::printf("| all | %.2f ms | | %.2f ms | %.2f |\n", sums[0], sums[1], sums[0] / sums[1]);
   return 0;
 }
 

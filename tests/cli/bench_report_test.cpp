@@ -108,15 +108,19 @@ std::vector<std::vector<std::string>> parse_csv(const std::string& text) {
 
 TEST(BenchCsv, HasTheseColumns) {
   const auto lines = parse_csv(bench_csv(result()));
-  EXPECT_THAT(lines[0], ElementsAre("configuration", "camera_set", "size", "width", "height",
-                                    "views", "rounds", "frames", "mean_ms", "median_ms", "p95_ms",
-                                    "p99_ms", "min_of_medians_ms", "spread", "aa_spread", "fps",
-                                    "low_1_percent_fps", "stable", "gpu_ms", "pixels_hash", "scene",
-                                    "triangles", "renderer", "cpu", "commit", "date"));
+  EXPECT_THAT(lines[0],
+              ElementsAre("configuration", "camera_set", "size", "width", "height", "views",
+                          "rounds", "frames", "mean_ms", "median_ms", "p95_ms", "p99_ms",
+                          "min_of_medians_ms", "spread", "aa_spread", "fps", "low_1_percent_fps",
+                          "stable", "gpu_ms", "pixels_hash", "scene", "triangles", "renderer",
+                          "cpu", "commit", "date", "driver", "plan"));
   ASSERT_EQ(lines.size(), 9u);
   for (const auto& line : lines) EXPECT_EQ(line.size(), lines[0].size());
   EXPECT_THAT(std::vector(lines[1].begin(), lines[1].begin() + 8),
               ElementsAre("tureen", "hemisphere:3", "640x360", "640", "360", "3", "5", "15"));
+  EXPECT_EQ(lines[1][26], "4.5 driver 9");
+  EXPECT_EQ(lines[1][27], "M1: no <network>");
+  EXPECT_EQ(lines[2][27], "") << "the plan is the configuration's own";
 }
 
 TEST(BenchCsv, KeepsDigitsAndAwkwardNames) {

@@ -1,4 +1,4 @@
-// What tests of faults share: a disk that is full, moments of a run, and what is on the disk
+// What tests of faults share: disks that are full, moments of a run, and what is on the disk
 // afterwards.
 #pragma once
 
@@ -41,6 +41,31 @@ class SmallDisk {
  private:
   rlimit before_{};
 };
+
+/// `tureen` in `folder`, where what is in its folder `disk` lies on a disk of `kilobytes`
+/// meanwhile: a file system of its own, which only the program sees. Its files as they are
+/// afterwards come into the folder `after`; those in `disk` stay. Where the system does not let
+/// people mount, as in many a container, the exit code is no_disk.
+inline constexpr int no_disk = 77;
+inline ChildResult run_on_disk(int kilobytes, const std::vector<std::string>& arguments,
+                               const std::filesystem::path& folder) {
+  const std::string mount = R"(
+    cp -a disk before || exit 1
+    mount -t tmpfs -o size="$1" tmpfs disk || exit )" +
+                            std::to_string(no_disk) + R"(
+    cp -a before/. disk && rm -r before || exit 1
+    shift
+    "$@"
+    code=$?
+    rm -rf after
+    cp -a disk after && exit $code)";
+  std::vector<std::string> words{"-c",
+                                 "unshare -rm true || exit " + std::to_string(no_disk) +
+                                     R"(; exec unshare -rm sh -c "$0" sh "$@")",
+                                 mount, std::to_string(kilobytes) + "k", TUREEN_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return Child(words, folder, "/bin/sh").wait();
+}
 
 /// A file's bytes by "", or those of a folder's files by their names.
 inline std::map<std::string, std::string> contents_of(const std::filesystem::path& path) {

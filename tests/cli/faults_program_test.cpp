@@ -105,6 +105,25 @@ TEST_F(Faults, AFullDiskLeavesWhatWasThere) {
   EXPECT_EQ(views(), before) << "the same pictures again, whole";
 }
 
+TEST_F(Faults, ADiskWithoutSpaceLeavesWhatWasThere) {
+  write_hills("large.off", 100, 0);
+  write_scene();
+  fs::create_directory(folder / "disk");
+  for (const std::string output : {"disk/out.glb", "disk/out.ply", "disk/export/"})
+    ASSERT_EQ(run({"convert", "scene.off", output}).exit_code, 0);
+  for (const std::string output : {"disk/out.glb", "disk/out.ply", "disk/export/"}) {
+    const ChildResult result =
+        test::run_on_disk(80, {"convert", "large.off", output, "--force"}, folder);
+    if (result.exit_code == test::no_disk) GTEST_SKIP() << "no disk to fill: " << result.err;
+    EXPECT_EQ(result.exit_code, 5);
+    EXPECT_THAT(result.err, HasSubstr("cannot be written: No space left on device"));
+    EXPECT_EQ(test::names_in(folder / "after"), test::names_in(folder / "disk")) << output;
+    for (const char* file : {"out.glb", "out.ply", "export"})
+      EXPECT_EQ(contents("after/" + std::string(file)), contents("disk/" + std::string(file)))
+          << output;
+  }
+}
+
 TEST_F(Faults, WhereNothingMayBeWrittenNothingIs) {
   write_scene();
   fs::create_directory(folder / "locked");

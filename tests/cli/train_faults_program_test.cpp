@@ -2,6 +2,7 @@
 // the new one, whole, and a checkpoint from which it goes on as if nothing had happened.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -9,6 +10,7 @@
 #include <random>
 
 #include "cli/faults.hpp"
+#include "cli/nobody.hpp"
 #include "cli/train_fixture.hpp"
 #include "support/measured.hpp"
 
@@ -58,11 +60,16 @@ class TrainFaults : public test::Train {
   }
 
   /// Trains on what is there to the end, which is that of the run that was left alone.
-  void expect_to_end_as_if_left_alone(std::vector<std::string> more = {}) const {
-    if (exists("ball.checkpoint")) more.emplace_back("--resume");
+  void expect_to_end_as_if_left_alone() {
+    std::vector<std::string> more;
+    const bool resumes = exists("ball.checkpoint");
+    if (resumes) more.emplace_back("--resume");
     const ChildResult result = train("ball.glb", more, steps);
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_TRUE(bytes("ball.glb") == after) << "other bits than the run that was left alone";
+    const bool is_same = bytes("ball.glb") == after;
+    EXPECT_TRUE(is_same) << "other bits than the run that was left alone";
+    resumed += resumes;
+    resumed_to_end += resumes && is_same;
     EXPECT_FALSE(exists("ball.checkpoint"));
     const std::string log = bytes("ball.jsonl"), whole = bytes("whole/ball.jsonl");
     EXPECT_EQ(std::count(log.begin(), log.end(), '\n'),
@@ -72,6 +79,8 @@ class TrainFaults : public test::Train {
 
   std::string before, after;
   std::chrono::microseconds run_time = std::chrono::microseconds::max();  // at least
+  // Runs with --resume, and those of them that came to their end, in the very same file.
+  int resumed = 0, resumed_to_end = 0;
 };
 
 /// Ends trainings at moments from their beginning to behind their end, also while they go on from a
@@ -80,7 +89,7 @@ TEST_F(TrainFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewAndIsAsIfItHadNotBeen)
   constexpr unsigned seed = 11;
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::minstd_rand random(seed);
-  int all = 0, went_on = 0, half_written = 0;
+  int all = 0, all_cut_short = 0, half_written = 0;
   // A file may be whole before the test sees that it is written: up to every second one where six
   // programs share two cores. That moment is tried again; that all of these pass is beyond chance.
   int tries_left = 40;
@@ -104,10 +113,9 @@ TEST_F(TrainFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewAndIsAsIfItHadNotBeen)
       SCOPED_TRACE("signal " + std::to_string(signal) + " after " +
                    std::to_string(moment.after.count()) + " us " + moment.path);
       std::vector<std::string> more = often;
-      if (exists("ball.checkpoint")) {
-        more.emplace_back("--resume");
-        ++went_on;
-      }
+      const bool resumes = exists("ball.checkpoint");
+      if (resumes) more.emplace_back("--resume");
+      resumed += resumes;
       const std::string plot = bytes("ball.svg");
       const test::Lookout lookout(moment, folder);
       test::Child child(arguments("ball.glb", more, steps), folder);
@@ -140,6 +148,7 @@ TEST_F(TrainFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewAndIsAsIfItHadNotBeen)
       if (result.exit_code == 0) {
         EXPECT_TRUE(is_new);
         EXPECT_FALSE(exists("ball.checkpoint"));
+        resumed_to_end += resumes && is_new;
       } else {
         ++cut_short;
         // Ctrl-C ends a program that has not begun to listen for it as it ends any other.
@@ -161,6 +170,7 @@ TEST_F(TrainFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewAndIsAsIfItHadNotBeen)
 
     const int sent = int(moments.size());
     all += sent;
+    all_cut_short += cut_short;
     EXPECT_GT(cut_short, 0) << "no moment was early enough";
     EXPECT_LT(replaced, sent) << "the old one was never left";
     EXPECT_GT(replaced, 0) << "no moment was late enough";
@@ -172,10 +182,13 @@ TEST_F(TrainFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewAndIsAsIfItHadNotBeen)
                                                   {"old", sent - replaced},
                                                   {"new", replaced}});
   }
-  EXPECT_GT(went_on, 0) << "nothing went on from a checkpoint";
+  EXPECT_GT(resumed, 0) << "nothing went on from a checkpoint";
+  EXPECT_GT(resumed_to_end, 0) << "nothing that went on came to its end";
   EXPECT_GT(half_written, 0) << "no file was being written when a run was killed";
-  test::leave_measured("resume", {{"signals", all},
-                                  {"went_on", went_on},
+  test::leave_measured("resume", {{"sent", all},
+                                  {"cut_short", all_cut_short},
+                                  {"resumed", resumed},
+                                  {"resumed_to_end", resumed_to_end},
                                   {"half_written", half_written},
                                   {"steps", std::stoi(steps)}});
 }
@@ -227,6 +240,43 @@ TEST_F(TrainFaults, AFullDiskLeavesTheOldSoupAndTheLastCheckpoint) {
   expect_full(resume, "ball.checkpoint", little);
   expect_full({"--resume"}, "ball.glb", after.size() - 1);
   expect_to_end_as_if_left_alone();
+}
+
+TEST_F(TrainFaults, ADiskWithoutSpaceLeavesTheOldSoup) {
+  fs::copy(folder / "old", folder / "disk");
+  // What is there, and less than a checkpoint takes.
+  int kilobytes = 16;
+  for (const std::string& name : test::names_in(folder / "disk"))
+    kilobytes += int(fs::file_size(folder / "disk" / name) / 4096 + 1) * 4;
+  const ChildResult result =
+      test::run_on_disk(kilobytes, arguments("disk/ball.glb", often, steps), folder);
+  if (result.exit_code == test::no_disk) GTEST_SKIP() << "no disk to fill: " << result.err;
+  EXPECT_EQ(result.exit_code, 5);
+  EXPECT_THAT(result.err, HasSubstr("ball.checkpoint: cannot be written: No space left on device"));
+  EXPECT_EQ(test::names_in(folder / "after"), test::names_in(folder / "disk"));
+  EXPECT_TRUE(bytes("after/ball.glb") == before);
+  EXPECT_TRUE(bytes("after/ball.svg") == bytes("old/ball.svg"));
+}
+
+TEST_F(TrainFaults, WhereNothingMayBeWrittenNothingIs) {
+  fs::copy(folder / "old", folder / "locked");
+  const auto files = test::contents_of(folder / "locked");
+  fs::permissions(folder, fs::perms::all);
+  test::make_streams_for_all(folder);
+  for (const auto& [name, content] : files)  // it is the folder that forbids
+    fs::permissions(folder / "locked" / name, fs::perms(0666));
+  fs::permissions(folder / "locked", fs::perms(0555));
+  ChildResult result;
+  {
+    const test::Nobody nobody;
+    if (::eaccess(TUREEN_PROGRAM, X_OK) != 0)
+      GTEST_SKIP() << TUREEN_PROGRAM << " is not for everybody";
+    result = train("locked/ball.glb", often, steps);
+  }
+  fs::permissions(folder / "locked", fs::perms::owner_all);
+  EXPECT_EQ(result.exit_code, 5);
+  EXPECT_THAT(result.err, HasSubstr("Permission denied"));
+  EXPECT_TRUE(test::contents_of(folder / "locked") == files);
 }
 
 }  // namespace

@@ -6,11 +6,13 @@
 #include <cstring>
 #include <fstream>
 #include <random>
+#include <span>
 
 #include "formats/diffsoup_mesh.hpp"
 #include "formats/format_testing.hpp"
 #include "formats/output.hpp"
 #include "formats/png.hpp"
+#include "formats/png_sums.hpp"
 #include "formats/truncation.hpp"
 #include "soup/lattice.hpp"
 
@@ -395,8 +397,10 @@ TEST(DiffSoupExport, AHeaderThatOnlyLooksLikeOneIsRefused) {
   const std::size_t data = small.find("IDAT");
   small[data - 1] = char(small[data - 1] - 2);
   small.erase(data + 4, 2);
-  write_text(path, small.substr(0, 8) + std::string("\0\0\0\012CgBI", 8) + promised + "CRC." +
-                       small.substr(8));
+  const std::string odd =
+      small.substr(0, 8) + std::string("\0\0\0\012CgBI", 8) + promised + "CRC." + small.substr(8);
+  const auto odd_bytes = std::as_bytes(std::span(odd));
+  write_file(path, testing::with_png_sums({odd_bytes.begin(), odd_bytes.end()}));
   Input input = Input::open(path);
   ASSERT_EQ(read_image(input).width, 1) << "the decoder no longer passes over the chunk";
   EXPECT_THAT(refusal(folder / "a"), HasSubstr("the first chunk of the PNG is not its header"));

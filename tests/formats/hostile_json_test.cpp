@@ -45,32 +45,59 @@ void read_in_folder(const fs::path& folder, const fuzz::FolderFiles& files, cons
   read_scene(folder);
 }
 
-const std::array<JsonReader, 14> json_readers{{
+/// A GLB of this JSON alone.
+Bytes glb_of(const std::string& text) {
+  std::string padded = text;
+  padded.append((4 - padded.size() % 4) % 4, ' ');
+  const std::uint32_t head[] = {0x46546C67, 2, std::uint32_t(20 + padded.size()),
+                                std::uint32_t(padded.size()), 0x4E4F534A};
+  Bytes bytes(sizeof head + padded.size());
+  std::memcpy(bytes.data(), head, sizeof head);
+  std::memcpy(bytes.data() + sizeof head, padded.data(), padded.size());
+  return bytes;
+}
+
+/// A checkpoint of a training whose configuration is this.
+Bytes checkpoint_of(const std::string& text) {
+  static const std::vector<fuzz::Fixture> fixtures = fuzz::fixtures();
+  const auto whole =
+      std::find_if(fixtures.begin(), fixtures.end(),
+                   [](const fuzz::Fixture& fixture) { return fixture.name == "run.checkpoint"; });
+  constexpr std::size_t head = 8 + 4;  // the magic and the version
+  std::uint64_t size = 0;
+  std::memcpy(&size, &whole->bytes[head], sizeof size);
+  const auto behind = whole->bytes.begin() + std::ptrdiff_t(head + sizeof size + size);
+  Bytes bytes(whole->bytes.begin(), whole->bytes.begin() + head + sizeof size);
+  size = text.size();
+  std::memcpy(&bytes[head], &size, sizeof size);
+  const Bytes configuration = bytes_of(text);
+  bytes.insert(bytes.end(), configuration.begin(), configuration.end());
+  bytes.insert(bytes.end(), behind, whole->bytes.end());
+  return bytes;
+}
+
+const std::array<JsonReader, 18> json_readers{{
     {"cameras", [](const std::string& text, const fs::path&) { fuzz::cameras(bytes_of(text)); }},
     {"path", [](const std::string& text, const fs::path&) { fuzz::camera_path(bytes_of(text)); }},
     {"session", [](const std::string& text, const fs::path&) { fuzz::session(bytes_of(text)); }},
+    {"settings", [](const std::string& text, const fs::path&) { fuzz::settings(bytes_of(text)); }},
     {"transforms",
      [](const std::string& text, const fs::path&) { fuzz::transforms(bytes_of(text)); }},
     {"bench.json",
      [](const std::string& text, const fs::path&) { fuzz::bench_result(bytes_of(text)); }},
     {"bench of a page",
      [](const std::string& text, const fs::path&) { fuzz::web_bench(bytes_of(text)); }},
+    {"tradeoff.json",
+     [](const std::string& text, const fs::path&) { fuzz::tradeoff_result(bytes_of(text)); }},
+    {"checkpoint", [](const std::string& text,
+                      const fs::path&) { fuzz::training_checkpoint(checkpoint_of(text)); }},
     {"configuration",
      [](const std::string& text, const fs::path&) { fuzz::training_config(bytes_of(text)); }},
     {"log of a run",
      [](const std::string& text, const fs::path&) { fuzz::training_log(bytes_of(text + "\n")); }},
     {"gltf", [](const std::string& text, const fs::path&) { fuzz::gltf(bytes_of(text)); }},
-    {"glb",
-     [](const std::string& text, const fs::path&) {
-       std::string padded = text;
-       padded.append((4 - padded.size() % 4) % 4, ' ');
-       const std::uint32_t head[] = {0x46546C67, 2, std::uint32_t(20 + padded.size()),
-                                     std::uint32_t(padded.size()), 0x4E4F534A};
-       Bytes bytes(sizeof head + padded.size());
-       std::memcpy(bytes.data(), head, sizeof head);
-       std::memcpy(bytes.data() + sizeof head, padded.data(), padded.size());
-       fuzz::gltf(bytes);
-     }},
+    {"glb", [](const std::string& text, const fs::path&) { fuzz::gltf(glb_of(text)); }},
+    {"preview", [](const std::string& text, const fs::path&) { fuzz::preview(glb_of(text)); }},
     {"meta.json",
      [](const std::string& text, const fs::path& folder) {
        read_in_folder(folder, fuzz::diffsoup_files(), "meta.json", text);
@@ -112,9 +139,10 @@ TEST(HostileJson, NestedDeeperThanOurLimitIsRefusedEverywhere) {
         within_bounds(
             default_max_memory,
             [&] {
-              // With the place: a log of lines names the line.
+              // With the place: a log of lines names the line, a checkpoint what holds the JSON.
               EXPECT_THAT(read(depth), AllOf(HasSubstr("JSON nested deeper than 64 levels"),
-                                             AnyOf(HasSubstr("byte"), HasSubstr(".jsonl:1: "))));
+                                             AnyOf(HasSubstr("byte"), HasSubstr(".jsonl:1: "),
+                                                   HasSubstr("its configuration cannot be used"))));
             },
             "depth");
       }
@@ -200,10 +228,13 @@ TEST(HostileJson, X2_ListsOfWrongLengthsAreRefused) {
     return std::string();
   };
   std::vector<std::pair<std::string, std::string>> documents;  // a reader and what it reads
-  const std::map<std::string, std::string> readers{
-      {"cameras", "cameras"},           {"camera_path", "path"},
-      {"session", "session"},           {"transforms", "transforms"},
-      {"web_bench", "bench of a page"}, {"training_config", "configuration"}};
+  const std::map<std::string, std::string> readers{{"cameras", "cameras"},
+                                                   {"camera_path", "path"},
+                                                   {"session", "session"},
+                                                   {"settings", "settings"},
+                                                   {"transforms", "transforms"},
+                                                   {"web_bench", "bench of a page"},
+                                                   {"training_config", "configuration"}};
   for (const fuzz::Fixture& fixture : fuzz::fixtures()) {
     if (const auto reader = readers.find(fixture.target); reader != readers.end())
       documents.emplace_back(reader->second, text_of(fixture.bytes));

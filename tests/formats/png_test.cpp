@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "soup/error.hpp"
+
 namespace tureen {
 namespace {
 
@@ -47,23 +49,71 @@ TEST(Png, EveryKindOfPictureComesBack) {
   }
 }
 
+std::uint32_t big_endian(const Bytes& bytes, std::size_t place) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i) value = value << 8 | unsigned(bytes.at(place + i));
+  return value;
+}
+
+/// What decoding says, or "" where there is a picture.
+std::string refusal(const Bytes& png) {
+  try {
+    decode_image(png, "test.png");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 /// stb does not check them; other readers do.
 TEST(Png, ChunksCarryTheirSums) {
   const Bytes png = encode_png(picture(9, 9, [](int x, int y, int c) { return x * y + c; }));
-  const auto big_endian = [&](std::size_t place) {
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < 4; ++i) value = value << 8 | unsigned(png.at(place + i));
-    return value;
-  };
   std::string types;
   for (std::size_t place = 8; place < png.size();) {
-    const std::size_t size = big_endian(place);
+    const std::size_t size = big_endian(png, place);
     types += std::string(reinterpret_cast<const char*>(&png.at(place + 4)), 4) + ' ';
-    EXPECT_EQ(big_endian(place + 8 + size),
+    EXPECT_EQ(big_endian(png, place + 8 + size),
               crc32(0, reinterpret_cast<const Bytef*>(&png.at(place + 4)), uInt(size + 4)));
     place += 12 + size;
   }
   EXPECT_EQ(types, "IHDR IDAT IEND ");
+}
+
+TEST(Png, NoBitOfAPictureIsReadAsAnotherOne) {
+  const Bytes png = encode_png(picture(9, 9, [](int x, int y, int c) { return x * y + c; }));
+  ASSERT_EQ(refusal(png), "");
+  // The last chunk ends the file whatever length it claims.
+  const std::size_t end = png.size() - 12;
+  for (std::size_t place = 0; place < png.size(); ++place)
+    for (unsigned bit = 0; bit < 8 && (place < end || place >= end + 4); ++bit) {
+      Bytes damaged = png;
+      damaged[place] ^= static_cast<std::byte>(1u << bit);
+      EXPECT_NE(refusal(damaged), "") << "bit " << bit << " of byte " << place;
+    }
+  Bytes damaged = png;
+  damaged.at(50) ^= std::byte{1};
+  EXPECT_EQ(refusal(damaged),
+            "test.png: byte 33: the image is damaged: a chunk's checksum is not that of its bytes");
+}
+
+/// Others do not care for the sums of what is no part of a picture; transparency is one.
+TEST(Png, OnlyChunksOfThePictureCount) {
+  const Bytes png = encode_png(picture(9, 9, [](int x, int y, int c) { return x * y + c; }));
+  const auto with_chunk = [&](const char* type, std::uint32_t sum) {
+    Bytes longer = png;
+    Bytes chunk(12);  // without content
+    for (std::size_t i = 0; i < 4; ++i) {
+      chunk[4 + i] = static_cast<std::byte>(type[i]);
+      chunk[8 + i] = static_cast<std::byte>(sum >> (24 - 8 * i) & 0xff);
+    }
+    longer.insert(longer.begin() + 8 + 25, chunk.begin(), chunk.end());  // behind the header
+    return refusal(longer);
+  };
+  EXPECT_EQ(with_chunk("tEXt", 0), "");
+  EXPECT_THAT(with_chunk("PLTE", 0),
+              testing::HasSubstr("byte 33: the image is damaged: a chunk's"));
+  EXPECT_THAT(with_chunk("tRNS", 0),
+              testing::HasSubstr("byte 33: the image is damaged: a chunk's"));
 }
 
 TEST(Png, SmoothPicturesShrink) {

@@ -367,6 +367,10 @@ constexpr char session_text[] = R"({ "tureen_session": 1, "window": [640, 480], 
   { "at": 0.5, "resize": [800, 600] }, { "at": 0.6, "focus": true }, { "at": 0.7, "await": true },
   { "at": 0.8, "picture": "end" }, { "at": 1, "close": true } ] })";
 
+constexpr char settings_text[] =
+    R"({ "window": [1280, 800], "vsync": true, "smooth_motion": false,
+  "recent": ["/scenes/soup.glb", "/scenes/\u00e4.ply"], "pictures": "/pictures" })";
+
 // ---- Benchmarks
 
 void add_benchmarks(Collection& all) {
@@ -426,6 +430,7 @@ std::vector<Fixture> fixtures() {
   for (std::size_t i = 0; i < mobilenerf.size(); ++i)
     all.add("mobilenerf", mobilenerf[i].first, with_first_byte(i, mobilenerf[i].second));
   all.add("session", "events.json", session_text);
+  all.add("settings", "viewer.json", settings_text);
   all.add("training_config", "config.json", training_config_text);
   all.add("training_log", "run.jsonl", training_log_text);
   const Scratch scratch("training");

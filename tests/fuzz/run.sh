@@ -1,7 +1,8 @@
 #!/bin/sh
-# run.sh SOURCE SEEDS BUILD TARGET SECONDS [CORPUS]: replays what is known of a target, then fuzzes it. What
-# it finds on the way is kept in the folder CORPUS, where one is given; a crash is left in
-# BUILD/crashes/TARGET. 77, which ctest takes for skipped, where the fuzzer was not built.
+# run.sh SOURCE SEEDS BUILD TARGET SECONDS [CORPUS]: replays what is known of a target (seeds, crashes, and
+# what ./dev fuzz has collected in BUILD/corpus), then fuzzes it. What it finds on the way is kept in the
+# folder CORPUS, where one is given; a crash is left in BUILD/crashes/TARGET. 77, which ctest takes for
+# skipped, where the fuzzer was not built.
 set -eu
 source=$1 seeds=$2 build=$3 target=$4 seconds=$5
 here=$source/tests/fuzz
@@ -17,15 +18,15 @@ fi
 known=$here/crashes/$target
 mkdir -p "$corpus" "$crashes"
 [ -d "$known" ] || known=$seeds/$target
-dictionary=
-[ ! -e "$here/dictionaries/$target.dict" ] || dictionary=-dict=$here/dictionaries/$target.dict
+collected=$build/corpus/$target
+[ -d "$collected" ] || collected=$seeds/$target
 
 # Readers may take 32 MB here (entry.cpp); sanitizers take several times that. A read of kilobytes
 # takes milliseconds.
 limits="-malloc_limit_mb=100 -rss_limit_mb=1024 -timeout=20 -print_final_stats=1"
 export ASAN_OPTIONS="allocator_may_return_null=1:detect_leaks=1"
 # shellcheck disable=SC2086 -- options without blanks
-"$program" $limits -artifact_prefix="$crashes/" -runs=0 "$seeds/$target" "$known"
+"$program" $limits -artifact_prefix="$crashes/" -runs=0 "$seeds/$target" "$known" "$collected"
 # shellcheck disable=SC2086
-"$program" $limits -artifact_prefix="$crashes/" $dictionary -max_len=16384 \
-  -max_total_time="$seconds" "$corpus" "$seeds/$target" "$known"
+"$program" $limits -artifact_prefix="$crashes/" -dict="$here/dictionaries/$target.dict" \
+  -max_len=16384 -max_total_time="$seconds" "$corpus" "$seeds/$target" "$known"

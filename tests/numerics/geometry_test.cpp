@@ -209,7 +209,10 @@ TEST(Numerics, G3_VerticesFarFromTheOriginStayInPlace) {
   Recorder recorder({.stressed = "soup and camera far from the origin, 1920x1080: geometry.vert",
                      .parameter = "offset / units",
                      .unit = "pixels",
-                     .naive = "one matrix in floats, translation and all"});
+                     .naive = "one matrix in floats, translation and all",
+                     // The catalogue measured 6e-3 pixels here, and ten times as many for every
+                     // ten times the offset.
+                     .naive_fails_from = 100});
   Random random(3);
   for (int k = 0; k <= 20; ++k) {
     const double offset = std::ldexp(1.0, k);
@@ -314,6 +317,10 @@ TEST(Numerics, G5_CornersInTheEyesPlaneKeepTheirPixels) {
   constexpr int side = 64;
   const Camera camera = straight_camera(side, side, 64);
   const trainer::kernels::View view = trainer::view_of(camera, glm::dvec3(0), 1e-3, 100);
+  // Where edges cross the near plane is worked out in doubles, by a quotient and a sum of depths of
+  // at most 2, in four roundings; the oracle's depth has as many. What is nearer than so is neither
+  // before the plane nor behind it.
+  const double near = view.near + 2 * 4 * 2 * 0x1p-53;
   Random random(5);
   for (const float w : {0.0f, 1e-30f, 1e-7f, 1e-3f, 1.0f}) {
     double ours = 0, naive = 0;
@@ -335,7 +342,7 @@ TEST(Numerics, G5_CornersInTheEyesPlaneKeepTheirPixels) {
       const TriangleSoup soup = soup_of(corners);
       oracle::Rays(soup, glm::dvec3(0), camera)
           .visit_faces(0, side, [&](int x, int y, const oracle::Hit& hit) {
-            if (hit.depth < view.near * 1.001) return;
+            if (hit.depth < near) return;
             ++covered;
             ours += x < face.x0 || x >= face.x1 || y < face.y0 || y >= face.y1;
             naive += float(x) + 0.5f < low[0] || float(x) + 0.5f > high[0] ||
@@ -439,8 +446,9 @@ TEST(Numerics, G7_TrianglesBelowAPixelKeepTheirShareOfTheLight) {
       if (std::min(box.x, box.y) < 1) large[t + 1] = large[t + 2] = large[t];
     }
     const double without_small = intensity(soup_of(large), small);
-    // A mean of 16384 samples of 0 or 1 has a deviation of 0.4 %, of a mean of one half 0.8 %: 2 %
-    // are 2.6 deviations, and the seed is fixed.
+    // The catalogue's 2 %. It is neither loose nor out of reach: if samples were independent, a
+    // mean of 16384 of 0 or 1 had a deviation of 0.4 %, of a mean of one half 0.8 %, of which 2 %
+    // are 2.6; that the wall's triangles lie in rows makes it less, and the seed is fixed.
     recorder.add({.at = pixels,
                   .naive = std::abs(without_small / full - 1),
                   .ours = std::abs(quarter / full - 1),

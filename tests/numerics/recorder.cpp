@@ -36,6 +36,19 @@ void Recorder::add(const Measurement& measured) {
       << case_.stressed << ", " << case_.parameter << " " << measured.at << ": the error is "
       << measured.ours << " " << case_.unit << ", at most " << measured.tolerance << " is allowed";
   EXPECT_EQ(measured.naive.has_value(), !case_.naive.empty()) << case_.stressed;
+  if (measured.naive) {
+    const auto message = [&] {
+      return case_.stressed + ", " + case_.parameter + " " + std::to_string(measured.at) +
+             ": the error of the naive form is " + std::to_string(*measured.naive);
+    };
+    const bool fails = !(*measured.naive <= measured.tolerance);
+    if (case_.naive_fails_from && measured.at >= *case_.naive_fails_from) {
+      EXPECT_TRUE(fails) << message();
+    }
+    if (case_.naive_holds_below && measured.at < *case_.naive_holds_below) {
+      EXPECT_FALSE(fails) << message();
+    }
+  }
   measurements_.push_back(measured);
 }
 
@@ -47,6 +60,16 @@ Recorder::~Recorder() {
                             [](const Measurement& m) { return !(*m.naive <= m.tolerance); }))
         << case_.stressed << ": the naive form (" << case_.naive
         << ") is nowhere worse than allowed";
+  }
+  const auto any = [&](auto where) {
+    return std::any_of(measurements_.begin(), measurements_.end(),
+                       [&](const Measurement& m) { return where(m.at); });
+  };
+  if (const auto from = case_.naive_fails_from) {
+    EXPECT_TRUE(any([&](double at) { return at >= *from; })) << case_.stressed;
+  }
+  if (const auto below = case_.naive_holds_below) {
+    EXPECT_TRUE(any([&](double at) { return at < *below; })) << case_.stressed;
   }
   write();
 }

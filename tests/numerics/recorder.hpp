@@ -3,7 +3,8 @@
 // A case is one way in which numbers go wrong, stressed by one parameter. At each value of the
 // parameter stands the error of our form, the error that it may have, and, where the catalogue of
 // hazards names one, the error of the naive form. Our error must never exceed the tolerance; the
-// naive one must somewhere, or nothing would be lost by going back to it.
+// naive one must somewhere, or nothing would be lost by going back to it; and where the catalogue
+// says from which stress on, it must there.
 //
 // `./dev numerics` sets TUREEN_MEASURED to a folder, into which every case writes a file, named
 // after its test; numerics_report makes the page of them. Without it nothing is written.
@@ -32,6 +33,10 @@ struct Case {
   std::string parameter;   // the stress, with its unit: "offset / units"
   std::string unit;        // of the errors: "pixels"
   std::string naive = {};  // what the naive form does; empty where there is none
+  /// From this parameter on the naive error must exceed the tolerance, every time.
+  std::optional<double> naive_fails_from = {};
+  /// And below this one never: where the form is as good as ours up to its limit.
+  std::optional<double> naive_holds_below = {};
 };
 
 struct Measurement {
@@ -45,12 +50,13 @@ struct Measurement {
 class Recorder {
  public:
   explicit Recorder(Case what);
-  /// Asserts that the naive form failed, where there is one, and writes the file.
+  /// Asserts that the naive form failed, where there is one, and that there were measurements to
+  /// either side of where it is said to; and writes the file.
   ~Recorder();  // NOLINT(bugprone-exception-escape), see there
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Expects that `ours` is a number and at most the tolerance.
+  /// Expects that `ours` is a number and at most the tolerance, and of `naive` what the case says.
   void add(const Measurement& measured);
 
  private:

@@ -1,6 +1,8 @@
 // Puts what the tests of numerics measured into docs/numerics.md: a row a case between two marks,
 // everything else in the page stays as people wrote it; and a plot of those that say most.
 //
+// Nothing is written where one of the cases that the page has to have was not measured.
+//
 //   numerics_report MEASURED PAGE IMAGES
 //
 // MEASURED is the folder that TUREEN_MEASURED named, IMAGES where the plots go, relative to PAGE's
@@ -8,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
@@ -34,6 +37,19 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // The page's families in their order, and which of their cases are plotted.
 constexpr const char* families = "GDVTSOHCMR";
 constexpr const char* plotted[] = {"G3", "D1", "V1", "V1b", "S1", "M1"};
+
+// The cases that the page has to have: one that is no longer measured must not vanish unnoticed.
+constexpr const char* required[] = {
+    "G1", "G2",  "G3",  "G3b", "G4",  "G5", "G6",  "G7", "G8",  "G9",                      //
+    "D1", "D2",                                                                            //
+    "V1", "V1b", "V1c", "V1d", "V2",  "V3", "V3b", "V4", "V5",                             //
+    "T1", "T1b", "T2",  "T3",  "T4",  "T5", "T5b", "T6", "T6b", "T7", "T7b", "T8", "T9",   //
+    "S1", "S2",  "S3",  "S4",  "S5",                                                       //
+    "O1", "O2",  "O3",  "O4",  "O5",  "O6", "O7",                                          //
+    "H1", "H1b", "H1c", "H2",  "H2b", "H3", "H4",  "H5", "H6",  "H7", "H8",  "H9", "H10",  //
+    "C1", "C2",  "C2b", "C3",  "C4",                                                       //
+    "M1", "M2",  "M3",  "M4",  "M5",                                                       //
+    "R1", "R2",  "R3",  "R3b", "R4",  "R5", "R6",  "R7", "R8",  "R9"};
 
 struct Point {
   double at, ours, tolerance;
@@ -155,14 +171,25 @@ cli::Plot plot_of(const Row& row) {
                     line("allowed", 6, "tolerance", "dashtype 2 pointtype 0")};
 }
 
+const Row* find_row(const std::vector<Row>& rows, const std::string& id) {
+  const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.id == id; });
+  return row == rows.end() ? nullptr : &*row;
+}
+
+/// Throws where a case is missing, before anything is written.
+void check_complete(const std::vector<Row>& rows, const fs::path& page) {
+  std::string missing;
+  for (const char* id : required)
+    if (!find_row(rows, id)) missing += std::string(missing.empty() ? "" : ", ") + id;
+  if (!missing.empty()) throw InputError({page.string(), {}, {}}, "nothing measured " + missing);
+}
+
 /// Draws the plots, and the lines of the page that show them.
 std::string plots(const std::vector<Row>& rows, const fs::path& page, const fs::path& images) {
   std::string text;
   for (const char* id : plotted) {
-    const auto row =
-        std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.id == id; });
-    if (row == rows.end())
-      throw InputError({page.string(), {}, {}}, std::string("nothing measured ") + id);
+    const Row* row = find_row(rows, id);
+    assert(row);  // plotted cases are required
     const fs::path file = images / fmt::format("numerics-{}.svg", id);
     if (!cli::write_plot(plot_of(*row), page.parent_path() / file))
       throw OutputError({}, cli::gnuplot_missing);
@@ -185,6 +212,7 @@ int main(int argc, char** argv) {
   try {
     const fs::path page = argv[2];
     const std::vector<Row> rows = read_rows(argv[1]);
+    check_complete(rows, page);
     write_between(page, Marks("./dev numerics"),
                   "\n" + table(rows) + plots(rows, page, argv[3]) + "\n");
     std::fprintf(stderr, "wrote %s: %zu cases\n", argv[2], rows.size());

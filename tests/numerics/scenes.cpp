@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <functional>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <numeric>
 #include <utility>
 
 #include "runtime/oracle/oracle.hpp"
-#include "support/agreement.hpp"
+#include "runtime/oracle/shade.hpp"
 #include "support/contexts.hpp"
 #include "trainer/stages.hpp"
 
@@ -87,6 +89,118 @@ double differing_away_from_edges(const std::vector<std::uint32_t>& reference,
       count += reference[i] != other[i] && !at_edge(x, y);
     }
   return count;
+}
+
+double most_of(double mean) {
+  // Poisson's distribution is a normal one where the mean is large.
+  if (mean > 100) return std::floor(mean + 4 * std::sqrt(mean));
+  double probability = std::exp(-mean), beyond = -std::expm1(-mean);
+  double count = 0;
+  while (beyond > 1.0 / 16'000) {
+    probability *= mean / ++count;
+    beyond -= probability;
+  }
+  return count;
+}
+
+std::array<glm::dvec3, 3> homogeneous_corners(const TriangleSoup& soup, const glm::dvec3& origin,
+                                              const Camera& camera, std::uint32_t face) {
+  std::array<glm::dvec3, 3> corners;
+  for (int k = 0; k < 3; ++k) {
+    const glm::dvec3 position(soup.positions[soup.triangles[face][k]]);
+    const glm::dvec3 view = camera.view_from_world * glm::dvec4(origin + position, 1);
+    corners[std::size_t(k)] = {camera.fx * view.x - camera.cx * view.z,
+                               -camera.cy * view.z - camera.fy * view.y, -view.z};
+  }
+  return corners;
+}
+
+namespace {
+
+/// Weights of vertices 0 and 1 at a place of the picture.
+glm::dvec2 barycentrics(const std::array<glm::dvec3, 3>& corners, const glm::dvec2& place) {
+  glm::dvec3 e;
+  for (int k = 0; k < 3; ++k)
+    e[k] = glm::dot(glm::cross(corners[std::size_t(k + 1) % 3], corners[std::size_t(k + 2) % 3]),
+                    glm::dvec3(place, 1));
+  return glm::dvec2(e) / (e.x + e.y + e.z);
+}
+
+/// How far roundings move a face in a picture, in pixels along x and y, at a depth. A corner less
+/// the eye is multiplied by the focal length and its depth by the principal point: roundings are of
+/// what these products are, however near to each other they bring it, and those of w of where in
+/// the picture it is; all of them seen at that depth. An interpolated value is a0 + x dx + y dy, as
+/// a0 itself was worked out: four products and four sums of what the value changes by across the
+/// picture.
+glm::dvec2 moved_at(const Camera& camera, const std::array<glm::dvec3, 3>& corners, double depth) {
+  const glm::dvec2 focal(camera.fx, camera.fy), middle(camera.cx, camera.cy),
+      size(camera.width, camera.height);
+  double distance = 0, w = 0;  // the largest of a corner
+  for (const glm::dvec3& v : corners) {
+    const glm::dvec2 view = (glm::dvec2(v) - middle * v.z) / focal;
+    distance = std::max(distance, glm::length(glm::dvec3(view, v.z)));
+    w = std::max(w, std::abs(v.z));
+  }
+  const glm::dvec2 terms = (distance * focal + w * glm::max(glm::abs(middle), size)) / depth;
+  return vertex_rounding(1) * terms + 8 * epsilon * size;
+}
+
+/// The largest change of every channel where barycentrics are off by up to so much.
+glm::dvec3 change_of_color(const TriangleSoup& soup, const oracle::SurfacePoint& point,
+                           const glm::dvec2& off, const glm::dvec3& to_eye, const glm::dvec3& eye) {
+  const glm::dvec3 color = oracle::color(soup, point, to_eye, eye);
+  glm::dvec3 most(0);
+  for (const double i : {-1, 0, 1})
+    for (const double j : {-1, 0, 1}) {
+      const oracle::SurfacePoint other{point.face, point.b0 + i * off.x, point.b1 + j * off.y};
+      most = glm::max(most, glm::abs(oracle::color(soup, other, to_eye, eye) - color));
+    }
+  return most;
+}
+
+}  // namespace
+
+ColorError color_error(const TriangleSoup& soup, const glm::dvec3& origin, const Camera& camera,
+                       const OracleImage& expected, const Drawn& drawn) {
+  // Harmonics of degree 3 are 16 terms of five roundings each (V5), a layer of a network as many
+  // terms of two; of colours about 1, and of terms that may be a few times that.
+  constexpr double of_colors = 16 * 5 * 4 * epsilon;
+  const double half_step = 0.5 / 255;
+  const oracle::Rays rays(soup, origin, camera);
+  ColorError result{.allowed = of_colors};
+  std::size_t same = 0;
+  for (int y = 0; y < camera.height; ++y)
+    for (int x = 0; x < camera.width; ++x) {
+      const std::size_t i = std::size_t(y) * std::size_t(camera.width) + std::size_t(x);
+      const std::uint32_t face = expected.face[i];
+      if (face == no_face || drawn.faces[i] != face) continue;
+      ++same;
+      glm::dvec3 beyond;
+      for (int c = 0; c < 3; ++c)
+        beyond[c] =
+            std::abs(double(expected.color.pixels[i][c]) - drawn.color.pixels[i][c] / 255.0) -
+            half_step;
+      if (std::max({beyond.x, beyond.y, beyond.z}) <= 0) continue;
+      const auto corners = homogeneous_corners(soup, origin, camera, face);
+      const glm::dvec2 place(x + 0.5, y + 0.5), b = barycentrics(corners, place);
+      const glm::dvec2 moved = moved_at(camera, corners, expected.depth[i]);
+      // Half a unit of the 16 bits that each has in the visibility buffer; and quotients of
+      // interpolated values, which are three roundings.
+      glm::dvec2 off(0.5 / 65535 + 3 * epsilon);
+      for (const glm::dvec2 axis : {glm::dvec2(moved.x, 0), glm::dvec2(0, moved.y)})
+        off += glm::max(glm::abs(barycentrics(corners, place + axis) - b),
+                        glm::abs(barycentrics(corners, place - axis) - b));
+      const glm::dvec3 may =
+          change_of_color(soup, {face, b.x, b.y}, off, rays.to_eye(x, y), camera.eye() - origin) +
+          of_colors;
+      for (int c = 0; c < 3; ++c)
+        if (beyond[c] / may[c] > result.beyond / result.allowed) {
+          result.beyond = beyond[c];
+          result.allowed = may[c];
+        }
+    }
+  result.compared = double(same) / double(expected.face.size());
+  return result;
 }
 
 }  // namespace tureen::test

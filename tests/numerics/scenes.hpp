@@ -1,6 +1,7 @@
 // What tests of numerics draw, and who draws it: the oracle, the device, the trainer.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -10,6 +11,7 @@
 #include "runtime/oracle/hits.hpp"
 #include "soup/camera.hpp"
 #include "soup/triangle_soup.hpp"
+#include "support/agreement.hpp"
 
 namespace tureen::test {
 
@@ -50,5 +52,28 @@ double differing(const std::vector<std::uint32_t>& a, const std::vector<std::uin
 /// the same face there, a rounding cannot have moved an edge across the centre.
 double differing_away_from_edges(const std::vector<std::uint32_t>& reference,
                                  const std::vector<std::uint32_t>& other, int width, int height);
+
+/// Of things that happen independently of each other and so many times in the mean: how often at
+/// most, but once in 16,000, as a normal deviate is beyond four standard deviations.
+double most_of(double mean);
+
+/// The corners of a face in homogeneous pixels: (x w, y w, w), rows from the top, w the depth.
+std::array<glm::dvec3, 3> homogeneous_corners(const TriangleSoup& soup, const glm::dvec3& origin,
+                                              const Camera& camera, std::uint32_t face);
+
+/// How colours are held against the oracle's, where both show the same face.
+struct ColorError {
+  /// What a channel is off beyond half a step of 8 bits, and what it may be, of the pixel where the
+  /// one is nearest to the other; where no channel is off by more, none and what colours are
+  /// rounded by.
+  double beyond = 0, allowed = 0;
+  double compared = 0;  // fraction of pixels where both show the same face
+};
+
+/// What a channel may be off is what it changes by where the pixel's barycentrics are moved by
+/// their roundings: those of corners on their way (vertex_rounding), of the interpolation, and of
+/// the visibility buffer.
+ColorError color_error(const TriangleSoup& soup, const glm::dvec3& origin, const Camera& camera,
+                       const OracleImage& expected, const Drawn& drawn);
 
 }  // namespace tureen::test

@@ -216,11 +216,15 @@ TEST(Numerics, T4_ThePrecisionOfTheColourChain) {
 }
 
 TEST(Numerics, T5_TheSigmoidSaturates) {
+  // From where on exp(x) is infinite, and infinite by infinite no number.
+  const double overflows = std::log(double(std::numeric_limits<float>::max()));
   Recorder recorder(
       {.stressed = "the sigmoid of large sums: the network's shader, and the trainer's",
        .parameter = "size of the sum",
        .unit = "absolute error",
-       .naive = "exp(x) / (1 + exp(x)) in floats"});
+       .naive = "exp(x) / (1 + exp(x)) in floats",
+       .naive_fails_from = overflows,
+       .naive_holds_below = overflows});
   ColorMlp network;
   network.encoding = DirectionEncoding::none;
   network.layers = {{.inputs = 1, .outputs = 3, .weights = {1, 1, 1}, .biases = {0, 0, 0}}};
@@ -254,11 +258,14 @@ TEST(Numerics, T5_TheSigmoidSaturates) {
 }
 
 TEST(Numerics, T5b_TheSigmoidSaturatesInHalves) {
+  const double overflows = std::log(65504.0);  // the largest half
   Recorder recorder({.stressed = "the sigmoid of large sums in half precision, rounded after every "
                                  "operation: scalar.hpp",
                      .parameter = "size of the sum",
                      .unit = "absolute error",
-                     .naive = "exp(x) / (1 + exp(x)) in halves"});
+                     .naive = "exp(x) / (1 + exp(x)) in halves",
+                     .naive_fails_from = overflows,
+                     .naive_holds_below = overflows});
   for (const float size : {1.0f, 5.0f, 8.0f, 11.0f, 12.0f, 50.0f, 1000.0f}) {
     double ours = 0, naive = 0;
     for (const float x : {-size, size}) {
@@ -388,13 +395,16 @@ TEST(Numerics, T6b_TexelsAreNotManagedAsColours) {
 // -- T7, T8: large indices -----------------------------------------------------------------------
 
 TEST(Numerics, T7_TexelsBeyondTwoToThe31AreFound) {
+  constexpr std::uint32_t per_face = lattice::texel_count(5);
+  constexpr double overflows = 0x1p31 / per_face;  // faces
   Recorder recorder({.stressed = "the first texel of a face at level 5 and where it lies: "
                                  "appearance_lattice.glsl, texel_store.glsl",
                      .parameter = "faces",
                      .unit = "of 1000 faces at a wrong place",
-                     .naive = "32 bit integers with a sign"});
+                     .naive = "32 bit integers with a sign",
+                     .naive_fails_from = overflows,
+                     .naive_holds_below = overflows});
   Random random(7);
-  constexpr std::uint32_t per_face = lattice::texel_count(5);
   const std::map<std::string, std::string> constants = {
       {"LATTICE_LEVEL", "5"},     {"LATENT_FEATURES", "0"}, {"ALPHA_BY_CELL", "0"},
       {"LATTICE_HARMONICS", "0"}, {"COLOR_MLP", "0"},       {"ALPHA_THRESHOLD", "0.5"},
@@ -429,13 +439,18 @@ TEST(Numerics, T7_TexelsBeyondTwoToThe31AreFound) {
 }
 
 TEST(Numerics, T8_IndicesBecomeCoordinatesAgain) {
+  // Up to here, says the catalogue, a square root in floats gives every index's diagonal.
+  constexpr double last_exact = 10'619'134;
   Recorder recorder({.stressed =
                          "the coordinates of a texel by its index, about the ends of diagonals: "
                          "lattice.hpp",
                      .parameter = "index",
                      .unit = "of 1000 diagonals with a wrong texel",
-                     .naive = "the square root in floats"});
-  for (const double index : {8e3, 1e5, 1e6, 1e7, 1e8, 1e9}) {
+                     .naive = "the square root in floats",
+                     .naive_fails_from = last_exact + 1,
+                     .naive_holds_below = last_exact + 1});
+  // Two of them are the last one that floats get right, and the first of the diagonal above it.
+  for (const double index : {8e3, 1e5, 1e6, 1e7, last_exact, last_exact + 2, 1e8, 1e9}) {
     const int last = int((std::sqrt(8 * index + 1) - 1) / 2);
     double ours = 0, naive = 0;
     for (int diagonal = std::max(1, last - 999); diagonal <= last; ++diagonal) {

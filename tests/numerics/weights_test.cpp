@@ -68,7 +68,10 @@ double rounding_bound(const ColorMlp& mlp, const Sample& sample) {
   std::vector<double> x(sample.features.begin(), sample.features.end()), error(7, 0.0);
   for (int i = 0; i < 9; ++i) {
     x.push_back(basis[std::size_t(i)]);
-    error.push_back(6 * epsilon);  // six operations at most, on values of at most about 1
+    // The worst is c (2 zz - xx - yy), c = 0.316: of its squares the roundings add up to 2, of two
+    // differences of at most 2 to 4, and those of c and of the product, which is at most 2 c,
+    // are 2.
+    error.push_back((2 + 4 + 2 * 2) * 0.316 * epsilon);
   }
   double result = 0;
   for (const DenseLayer& layer : mlp.layers) {

@@ -107,13 +107,16 @@ TEST(OracleShading, LatticesReturnTheirTexelsAtLatticePoints) {
     }
 }
 
+// What is negative becomes 0, and what adds up to more than 1 is divided by its sum, as in
+// simplex.glsl.
 TEST(OracleShading, PointsBesideTheFaceTakeTheLatticeOfItsRim) {
   const TriangleSoup soup = test::random_soup(
       7, {.kind = test::Kind::lattice, .faces = 1, .level = 3, .float_texels = true});
   for (const auto& [outside, rim] : {std::pair{glm::dvec2(-0.3, 0.4), glm::dvec2(0, 0.4)},
-                                     {{1.5, 0.2}, {1, 0}},
+                                     {{1.5, 0.5}, {0.75, 0.25}},
+                                     {{1.5, -0.2}, {1, 0}},
                                      {{0.25, -1e9}, {0.25, 0}},
-                                     {{0.25, 0.9}, {0.25, 0.75}}})
+                                     {{0.25, 1}, {0.2, 0.8}}})
     expect_color(oracle::color(soup, {0, outside.x, outside.y}, to_eye, eye),
                  oracle::color(soup, {0, rim.x, rim.y}, to_eye, eye));
 }

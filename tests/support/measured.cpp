@@ -55,6 +55,11 @@ void write_between(const fs::path& page, const Marks& marks, const std::string& 
         {page.string(), {}, {}},
         "the page has no place for what is measured, between the lines " + marks.begin + marks.end);
   const std::size_t after = begin + marks.begin.size();
+  // An end that is missing: the next one is another section's, and what people wrote lies before
+  // it.
+  if (const std::size_t next = whole.find("<!-- measured:", after); next < end)
+    throw InputError({page.string(), {}, {}},
+                     "what " + marks.begin + "begins has no end before the next begins");
   whole.replace(after, end - after, text);
   Output output(page);
   output.write(whole);

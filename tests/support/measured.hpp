@@ -28,7 +28,8 @@ struct Marks {
 };
 
 /// Replaces what stands between the marks of `page`, and nothing else of it. Throws InputError
-/// where the page does not have them, OutputError where it cannot be written.
+/// where the page does not have them both, or another's between them; OutputError where it cannot
+/// be written.
 void write_between(const std::filesystem::path& page, const Marks& marks, const std::string& text);
 
 /// `text` as a cell of a table in Markdown.

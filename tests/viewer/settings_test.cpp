@@ -52,9 +52,22 @@ TEST(Settings, WithoutAFileThereAreDefaults) {
   EXPECT_EQ(read_settings(folder() / "none.json").window, Settings{}.window);
 }
 
+TEST(Settings, AWindowIsOneThatCanBeSeenAndThatScreensHold) {
+  const fs::path file = folder() / "viewer.json";
+  const auto window = [&](const char* sides) {
+    std::ofstream(file) << "{\"window\": " << sides << "}";
+    return read_settings(file).window;
+  };
+  EXPECT_EQ(window("[640.5, 480]"), glm::ivec2(640, 480));
+  EXPECT_EQ(window("[-1, 0]"), glm::ivec2(320, 240));
+  // Of 64 bits the lower 32 would be 640.
+  EXPECT_EQ(window("[4294967936, 1e30]"), glm::ivec2(16384, 16384));
+}
+
 TEST(Settings, AFileThatIsNotOursIsRefusedWithItsName) {
   const fs::path file = folder() / "viewer.json";
-  for (const char* text : {"[1]", "{\"vsync\": 3}", "{\"recent\": [1]}", "{"}) {
+  for (const char* text : {"[1]", "{\"vsync\": 3}", "{\"recent\": [1]}", "{\"window\": [1]}",
+                           "{\"window\": [1e300, 1]}", "{"}) {
     std::ofstream(file) << text;
     try {
       read_settings(file);

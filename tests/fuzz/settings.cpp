@@ -1,0 +1,22 @@
+// What the window remembers between runs.
+#include "viewer/settings.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "fuzz/scratch.hpp"
+
+namespace tureen::fuzz {
+
+void settings(Bytes bytes) {
+  static const Scratch scratch("settings");
+  scratch.write("viewer.json", bytes);
+  const viewer::Settings settings = viewer::read_settings(scratch.folder() / "viewer.json");
+  if (settings.window.x < 1 || settings.window.y < 1 ||
+      settings.recent.size() > viewer::most_recent) {
+    std::fprintf(stderr, "settings that no window has\n");
+    std::abort();
+  }
+}
+
+}  // namespace tureen::fuzz
