@@ -118,7 +118,8 @@ void write_files(const Options& options, TradeoffReport& report) {
   const auto drawn = write_figures(tradeoff_plots(report), folder);
   if (!drawn) report.notes.emplace_back(gnuplot_missing);
   const std::vector<DrawnFigure> figures = drawn.value_or(std::vector<DrawnFigure>());
-  report.output = files_of(figures);
+  const std::vector<std::string> plots = files_of(figures);
+  report.output.insert(report.output.end(), plots.begin(), plots.end());
   write_file(file("tradeoff.html"), tradeoff_page(report, figures));
   write_file(file("tradeoff.csv"), to_csv(report));
   const fs::path json = file("tradeoff.json");

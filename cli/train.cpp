@@ -387,8 +387,9 @@ void add_train(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("train", "Photographs to a soup");
   command->footer(
       R"(Trains triangles with lattice textures and a color MLP until they look like the
-photographs, writes them as OUT.glb, and measures them against the test views. Ctrl-C leaves a
-checkpoint that --resume goes on from. Equal seeds give equal soups with any number of threads.
+photographs, writes them as OUT.glb, with a log (OUT.jsonl) and its plot (OUT.svg) beside it, and
+measures them against the test views. Ctrl-C leaves a checkpoint that --resume goes on from. Equal
+seeds give equal soups with any number of threads.
 
 Examples:
   tureen train lego -o lego.glb

@@ -1,10 +1,11 @@
 #include "cli/training_files.hpp"
 
-#include <array>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "cli/output_argument.hpp"
+#include "cli/training_plot.hpp"
 #include "formats/input.hpp"
 #include "soup/error.hpp"
 
@@ -14,21 +15,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A log is begun anew, so what is there must be one, or nothing: not a scene, not a dataset.
-void check_log(const TrainingFiles& files) {
+/// What is there under the name of a file that is written without being named has to be one of its
+/// kind, or nothing: not a scene, not a dataset, nobody's drawing. One that was cut short is.
+void check_kind(const fs::path& file, std::string_view beginning, const char* kind) {
   std::error_code error;
+  if (!fs::exists(file, error)) return;
+  Input input = Input::open(file);
+  std::string found(beginning.size(), '\0');
+  found.resize(input.read_some(std::as_writable_bytes(std::span(found))));
+  if (found != beginning.substr(0, found.size()))
+    throw UsageError(file.string() + " exists and is no " + kind + "; choose another name");
+}
+
+void check_log(const TrainingFiles& files) {
   for (const fs::path& other :
        {files.scene, files.checkpoint, files.plot, files.previews, files.lock})
     if (files.log.lexically_normal() == other.lexically_normal())
       throw UsageError("the log cannot be " + other.string() + ", which is written, too");
-  if (!fs::exists(files.log, error)) return;
   // All lines of a log begin so, also one that was cut short.
-  constexpr std::string_view beginning = "{\"step\":";
-  Input log = Input::open(files.log);
-  std::array<char, beginning.size()> found{};
-  const std::size_t size = log.read_some(std::as_writable_bytes(std::span(found)));
-  if (std::string_view(found.data(), size) != beginning.substr(0, size))
-    throw UsageError(files.log.string() + " exists and is no log of training; choose another name");
+  check_kind(files.log, "{\"step\":", "log of training");
 }
 
 }  // namespace
@@ -52,6 +57,7 @@ void check_writable(const TrainingFiles& files) {
   for (const fs::path& file : {files.scene, files.checkpoint, files.log, files.plot})
     require_writable_file(file);
   check_log(files);
+  check_kind(files.plot, training_plot_beginning, "plot of training");
   const fs::path& folder = files.diffsoup_export;
   if (folder.empty()) return;
   for (const fs::path& other :

@@ -25,7 +25,7 @@ struct Box {
   double left, top, width, height;
 };
 
-constexpr double picture_width = 960;
+constexpr double picture_width = 960;  // as in training_plot_beginning
 constexpr double panel_height = 290;
 constexpr double legend_row = 22;
 constexpr Box loss_box{64, 52, 382, panel_height};
@@ -337,9 +337,9 @@ std::string training_plot(std::span<const TrainingRun> runs) {
   const double height = legend_top + names.height;
 
   std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
-      "height=\"{1}\" role=\"img\">\n<title>Loss and PSNR of training</title>\n",
-      picture_width, height);
+      "{0}{2}\" width=\"{1}\" height=\"{2}\" role=\"img\">\n<title>Loss and PSNR of "
+      "training</title>\n",
+      training_plot_beginning, picture_width, height);
   svg += style_sheet();
   svg += "<rect class=\"page\" width=\"100%\" height=\"100%\"/>\n";
   svg += frame(left) + frame(right);

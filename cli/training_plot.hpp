@@ -20,6 +20,10 @@ struct TrainingRun {
 /// numbers are left out. There is one run at least, and one record in each.
 std::string training_plot(std::span<const TrainingRun> runs);
 
+/// What all of them begin with, by which one is told from somebody's drawing: its width, as well.
+inline constexpr const char* training_plot_beginning =
+    "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 960 ";
+
 /// Values at places 0, 1, .. as a line should show them: an exponential moving average, begun at
 /// the first value without its bias, over about `window` of them; what is no number is skipped and
 /// stays none. Window 1 changes nothing.

@@ -73,6 +73,18 @@ std::string beyond(std::int64_t width, std::int64_t height) {
          " pixels a side and " + std::to_string(max_image_pixels) + " in all";
 }
 
+/// Of a chunk that it does not know stb says the name, which may be any four bytes.
+std::string reason_of_stb() {
+  const std::string reason = stbi_failure_reason();
+  return reason.size() > 4 ? reason : "a chunk that nobody knows";
+}
+
+void refuse_damaged(std::span<const std::byte> bytes, const std::string& name) {
+  if (const auto damage = png_damage(bytes))
+    throw InputError({name, damage->byte, {}},
+                     std::string("the image is damaged: ") + damage->reason);
+}
+
 }  // namespace
 
 Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
@@ -103,15 +115,14 @@ Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
           (std::uint64_t(side(16)) * side(20) > max_image_pixels ||
            std::max(side(16), side(20)) > std::uint32_t(max_image_side)))
         fail(beyond(side(16), side(20)));
-      fail(std::string("not a PNG or JPEG image: ") + stbi_failure_reason());
+      refuse_damaged(bytes, name);
+      fail("not a PNG or JPEG image: " + reason_of_stb());
     }
   }
   if (width < 1 || height < 1 || width > max_image_side || height > max_image_side ||
       std::size_t(width) * height > max_image_pixels)
     fail(beyond(width, height));
-  if (const auto byte = damaged_png_chunk(bytes))
-    throw InputError({name, byte, {}},
-                     "the image is damaged: a chunk's checksum is not that of its bytes");
+  refuse_damaged(bytes, name);
   PassingMemory passing(budget);
   const std::string what = "an image of " + std::to_string(width) + " x " + std::to_string(height);
   const std::uint64_t result_bytes = std::uint64_t(width) * std::uint64_t(height) * 4;
@@ -121,7 +132,7 @@ Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
       stbi_load_from_memory(data, size, &width, &height, &channels, 4), &stbi_image_free);
   if (scope.beyond_budget()) fail(budget.refusal(what));
   if (scope.beyond_limit()) fail("the image is damaged: it unfolds to more than its pixels");
-  if (!pixels) fail(std::string("the image is damaged: ") + stbi_failure_reason());
+  if (!pixels) fail("the image is damaged: " + reason_of_stb());
   Image8 image(width, height);
   std::memcpy(image.pixels.data(), pixels.get(), image.pixels.size() * 4);
   passing.keep(result_bytes);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "soup/quantise.hpp"
 #include "soup/spherical_harmonics.hpp"
@@ -33,8 +34,8 @@ const char* name_of(MlpPrecision precision) {
   return names[int(precision)];
 }
 
-EmulatedMlp::EmulatedMlp(const ColorMlp& mlp, MlpPrecision precision)
-    : mlp_(mlp), precision_(precision) {
+EmulatedMlp::EmulatedMlp(ColorMlp mlp, MlpPrecision precision)
+    : mlp_(std::move(mlp)), precision_(precision) {
   for (DenseLayer& layer : mlp_.layers) {
     if (rounds_to_half(precision)) {
       for (auto* values : {&layer.weights, &layer.biases})

@@ -24,7 +24,7 @@ const char* name_of(MlpPrecision precision);
 
 class EmulatedMlp {
  public:
-  EmulatedMlp(const ColorMlp& mlp, MlpPrecision precision);
+  EmulatedMlp(ColorMlp mlp, MlpPrecision precision);
 
   /// As evaluate(mlp, features, to_eye).
   glm::dvec3 operator()(std::span<const double> features, glm::dvec3 to_eye) const;

@@ -89,20 +89,20 @@ void measure(const Scene& base, const Options& options) {
 }  // namespace tureen::testing
 
 int main(int argc, char** argv) {
-  CLI::App app("Times a large opaque soup, made of BASE by splitting its triangles");
-  std::string base;
-  tureen::testing::Options options;
-  app.add_option("BASE", base, "any small soup")->required();
-  app.add_option("--triangles", options.triangles, "at least this many");
-  app.add_option("--rounds", options.rounds, "of eight views each")->check(CLI::PositiveNumber);
-  app.add_option("--width", options.width)->check(CLI::PositiveNumber);
-  app.add_option("--height", options.height)->check(CLI::PositiveNumber);
-  app.add_flag("--processor-time", options.processor_time,
-               "of all threads, instead of time that passed: for a busy machine; software only");
-  CLI11_PARSE(app, argc, argv);
   try {
+    CLI::App app("Times a large opaque soup, made of BASE by splitting its triangles");
+    std::string base;
+    tureen::testing::Options options;
+    app.add_option("BASE", base, "any small soup")->required();
+    app.add_option("--triangles", options.triangles, "at least this many");
+    app.add_option("--rounds", options.rounds, "of eight views each")->check(CLI::PositiveNumber);
+    app.add_option("--width", options.width)->check(CLI::PositiveNumber);
+    app.add_option("--height", options.height)->check(CLI::PositiveNumber);
+    app.add_flag("--processor-time", options.processor_time,
+                 "of all threads, instead of time that passed: for a busy machine; software only");
+    CLI11_PARSE(app, argc, argv);
     tureen::testing::measure(tureen::read_scene(base), options);
-  } catch (const tureen::Error& error) {
+  } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 3;
   }

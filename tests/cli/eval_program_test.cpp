@@ -44,8 +44,8 @@ TEST_F(Eval, TheScenesOwnPicturesAreMetExactly) {
   EXPECT_EQ(json["mean"]["psnr_db"], 100);
   EXPECT_EQ(json["split"], "test");
   EXPECT_EQ(json["ssim_border"], "valid");
-  EXPECT_EQ(json["output"], nlohmann::json({"views/test_r_0.png", "views/test_r_1.png",
-                                            "views/contact_sheet.png"}));
+  EXPECT_EQ(json["output"], nlohmann::ordered_json({"views/test_r_0.png", "views/test_r_1.png",
+                                                    "views/contact_sheet.png"}));
   const Image8 sheet = read_png("views/test_r_1.png"), photograph = read_png("data/test/r_1.png");
   EXPECT_EQ(sheet.width, 3 * width);
   for (int y = 0; y < height; ++y)

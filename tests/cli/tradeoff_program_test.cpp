@@ -69,6 +69,7 @@ TEST_F(Tradeoff, MeasuresWritesAndKeepsTheChoice) {
     }
   }
 
+  EXPECT_THAT(result.err, HasSubstr("wrote fast.glb\n"));
   const Scene kept = read_scene(folder / "fast.glb");
   ASSERT_TRUE(kept.preset);
   const auto& chosen = configurations[json["choice"]["configuration"].get<std::size_t>()];

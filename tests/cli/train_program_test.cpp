@@ -323,6 +323,20 @@ TEST_F(Train, SaysThatNoPictureShowsATriangle) {
   EXPECT_THAT(train("ball.glb", {}, "2").err, Not(HasSubstr("No training picture")));
 }
 
+TEST_F(Train, NobodysDrawingIsReplacedByThePlot) {
+  make_dataset();
+  const std::string drawing = "<svg>my logo</svg>";
+  write("ball.svg", drawing);
+  const ChildResult refused = train("ball.glb");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("ball.svg exists and is no plot of training"));
+  EXPECT_EQ(bytes("ball.svg"), drawing);
+  EXPECT_FALSE(exists("ball.glb"));
+  ASSERT_EQ(train("other.glb", {}, "2").exit_code, 0);
+  const ChildResult again = train("other.glb", {}, "2");
+  EXPECT_EQ(again.exit_code, 0) << again.err;  // a plot of its own is no drawing
+}
+
 TEST_F(Train, DoesNotReplaceWhatItBeginsWith) {
   make_dataset();
   ASSERT_EQ(train("ball.glb", {}, "2").exit_code, 0);

@@ -90,6 +90,11 @@ TEST(Png, NoBitOfAPictureIsReadAsAnotherOne) {
       damaged[place] ^= static_cast<std::byte>(1u << bit);
       EXPECT_NE(refusal(damaged), "") << "bit " << bit << " of byte " << place;
     }
+  for (std::size_t size = 8; size + 4 < png.size(); ++size)
+    EXPECT_THAT(
+        refusal(Bytes(png.begin(), png.begin() + std::ptrdiff_t(size))),
+        testing::MatchesRegex("test.png: byte [0-9]+: the image is damaged: it is cut short"))
+        << size;
   Bytes damaged = png;
   damaged.at(50) ^= std::byte{1};
   EXPECT_EQ(refusal(damaged),

@@ -38,7 +38,8 @@ std::string growth_table(const Json& growth, const std::string& series) {
 
 std::string fits_table(const Json& growth) {
   Table table({"", "a frame, ms", "a triangle, ns", "a fragment, ns", "a shaded pixel, ns"});
-  for (const auto& [kind, fit] : growth.at("fits").items()) {
+  for (const auto& [kind, of_kind] : growth.at("fits").items()) {
+    const Json& fit = of_kind;  // what lambdas capture has to be a variable
     const auto cost = [&](const char* key, std::size_t i, double unit) {
       return fmt::format("{:.3g} ± {:.2g}", fit.at(key).get<double>(),
                          unit * fit.at("standard_errors_ms").at(i).get<double>());
