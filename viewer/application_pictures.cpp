@@ -31,7 +31,7 @@ fs::path Application::picture_path(const std::string& extension) {
   const std::string stem =
       state_.stage ? fs::path(short_name(state_.stage->path)).stem().string() : "tureen";
   for (int number = 1;; ++number) {
-    const fs::path path = folder / (stem + "-" + std::to_string(number) + extension);
+    fs::path path = folder / (stem + "-" + std::to_string(number) + extension);
     std::error_code ignored;
     if (fs::exists(path, ignored) ||
         std::find(promised_.begin(), promised_.end(), path) != promised_.end())

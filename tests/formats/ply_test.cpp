@@ -12,6 +12,7 @@
 #include <map>
 #include <random>
 #include <string>
+#include <utility>
 
 #include "formats/format_testing.hpp"
 #include "formats/truncation.hpp"
@@ -39,10 +40,10 @@ std::string message_of(const std::string& text) {
 /// A PLY put together value by value, in any encoding.
 class Builder {
  public:
-  explicit Builder(const std::string& encoding, const std::string& line_break = "\n")
-      : encoding_(encoding), break_(line_break) {
+  explicit Builder(std::string encoding, std::string line_break = "\n")
+      : encoding_(std::move(encoding)), break_(std::move(line_break)) {
     line("ply");
-    line("format " + encoding + " 1.0");
+    line("format " + encoding_ + " 1.0");
   }
   Builder& line(const std::string& text) {
     text_ += text + break_;
@@ -83,8 +84,8 @@ std::string rich_file(const std::string& encoding, const std::string& line_break
     b.line(line);
   b.value(std::uint32_t(4000000000u)).value(std::uint8_t(2)).value(1.5).value(-2.5).end_row();
   b.value(std::uint32_t(1)).value(std::uint8_t(0)).end_row();
-  const auto face = [&](std::uint16_t red, std::vector<std::uint16_t> corners, std::uint16_t blue,
-                        std::uint16_t green) {
+  const auto face = [&](std::uint16_t red, const std::vector<std::uint16_t>& corners,
+                        std::uint16_t blue, std::uint16_t green) {
     b.value(red).value(std::int16_t(-9)).value(std::int8_t(corners.size()));
     for (const std::uint16_t corner : corners) b.value(corner);
     b.value(blue).value(green).value(0.25).end_row();

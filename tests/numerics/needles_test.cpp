@@ -123,7 +123,7 @@ double beyond_without_clamp(const TriangleSoup& soup, const Camera& camera, int 
       return glm::dvec2(camera.cx - camera.fx * p.x / p.z, camera.cy + camera.fy * p.y / p.z);
     };
     const glm::dvec2 c = pixel(2), a = pixel(0) - c, b = pixel(1) - c;
-    const glm::dvec2 centre = glm::dvec2(column / samples + 0.5, row / samples + 0.5) - c;
+    const glm::dvec2 centre = glm::dvec2(glm::ivec2(column / samples, row / samples)) + 0.5 - c;
     const double area = a.x * b.y - a.y * b.x;
     const double b0 = (centre.x * b.y - centre.y * b.x) / area;
     const double b1 = (a.x * centre.y - a.y * centre.x) / area;

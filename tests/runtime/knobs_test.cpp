@@ -139,7 +139,7 @@ TEST(KnobSentences, SayWhatIsTurnedAndWhatItSaves) {
   const auto& sentences = renderer.plan().sentences;
   const auto text =
       std::accumulate(sentences.begin(), sentences.end(), std::string(),
-                      [](std::string a, const std::string& b) { return a + b + "\n"; });
+                      [](const std::string& a, const std::string& b) { return a + b + "\n"; });
   EXPECT_THAT(text, HasSubstr("knob: no lattice above level 3"));
   EXPECT_THAT(text, HasSubstr("knob: the base colour"));
   EXPECT_THAT(text, HasSubstr("knob: 4 bits a texel channel instead of 8"));
@@ -186,7 +186,7 @@ TEST(KnobRefusals, SayWhy) {
   const auto refused = [&](const PlanPreferences& plan) -> std::string {
     try {
       context().make_current();
-      Renderer(context(), soup, glm::dvec3(0), {.plan = plan});
+      const Renderer drawn(context(), soup, glm::dvec3(0), {.plan = plan});
       return "accepted";
     } catch (const UsageError& error) {
       return error.reason();

@@ -95,8 +95,8 @@ std::vector<Corners> gathered(test::Faces& faces, const Shade& shade, int phases
     Picture& picture = pictures[0];
     faces.find(picture, Masking::threshold);
     for (std::size_t pixel = 0; pixel < picture.pixels(); ++pixel) {
-      const glm::dvec2 place(double(pixel % side) + 0.5 - shift.x,
-                             double(pixel / side) + 0.5 - shift.y);
+      const std::size_t column = pixel % side, row = pixel / side;
+      const glm::dvec2 place(double(column) + 0.5 - shift.x, double(row) + 0.5 - shift.y);
       PixelGradient& gradient = picture.gradient[pixel];
       gradient = {};
       gradient.color[1] = float(shade(picture.visible[pixel].face, place));

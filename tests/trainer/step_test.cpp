@@ -85,8 +85,9 @@ class ReferenceLoss {
       if (pixel.face != no_face) {
         kernels::NetworkState<double> state;
         features(model, logits, pixel, state.input);
+        const auto column = p % width, row = p / width;
         const glm::dvec3 to_eye =
-            -glm::normalize(test::ray(geometry_, double(p % width), double(p / width)));
+            -glm::normalize(test::ray(geometry_, double(column), double(row)));
         const auto basis = harmonics::basis(to_eye);
         std::copy_n(basis.begin(), 9, state.input + kernels::features);
         kernels::shade(mlp.data(), state, rgb);
@@ -224,22 +225,22 @@ TEST(CpuStep, ItsGradientIsThatOfTheLoss) {
   }
 }
 
-template <class Value>
-bool same_bits(const std::vector<Value>& a, const std::vector<Value>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Value)) == 0;
+/// Of vectors and arrays.
+template <class Values>
+bool same_bits(const Values& a, const Values& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
 }
 
 bool same_bits(const TrainingState& a, const TrainingState& b) {
   const Moments &m = a.moments, &n = b.moments;
   return same_bits(a.model.positions, b.model.positions) &&
-         same_bits(a.model.logits, b.model.logits) &&
-         std::memcmp(&a.model.mlp, &b.model.mlp, sizeof a.model.mlp) == 0 &&
+         same_bits(a.model.logits, b.model.logits) && same_bits(a.model.mlp, b.model.mlp) &&
          same_bits(m.first, n.first) && same_bits(m.second, n.second) &&
          same_bits(m.vertex_first, n.vertex_first) && same_bits(m.vertex_second, n.vertex_second) &&
-         m.steps == n.steps && std::memcmp(&m.mlp_first, &n.mlp_first, sizeof m.mlp_first) == 0 &&
-         std::memcmp(&m.mlp_second, &n.mlp_second, sizeof m.mlp_second) == 0 &&
-         m.mlp_steps == n.mlp_steps && same_bits(a.baseline, b.baseline) &&
-         same_bits(a.errors, b.errors) && a.step == b.step && a.non_finite == b.non_finite;
+         m.steps == n.steps && same_bits(m.mlp_first, n.mlp_first) &&
+         same_bits(m.mlp_second, n.mlp_second) && m.mlp_steps == n.mlp_steps &&
+         same_bits(a.baseline, b.baseline) && same_bits(a.errors, b.errors) && a.step == b.step &&
+         a.non_finite == b.non_finite;
 }
 
 TrainingState after_steps(const TrainingState& state, const std::vector<TrainingView>& views,

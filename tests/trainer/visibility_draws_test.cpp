@@ -62,9 +62,9 @@ TEST_P(DrawsAlong, AreUniform) {
   for (std::uint32_t i = 0; i < count; ++i)
     // (0, 1] in 256 half-open bins.
     ++found[std::size_t(std::ceil(GetParam().draw(i) * bins)) - 1];
+  const double expected = double(count) / bins;
   double chi_squared = 0;
-  for (const double n : found)
-    chi_squared += (n - count / bins) * (n - count / bins) * bins / count;
+  for (const double n : found) chi_squared += (n - expected) * (n - expected) / expected;
   // Mean 255, variance 510: within five deviations, as sequences that are more even than chance
   // are no random draws either.
   EXPECT_NEAR(chi_squared, 255, 5 * std::sqrt(510.0));
@@ -165,7 +165,8 @@ std::vector<VisiblePixel> obvious(const test::Faces& faces, const Picture& pictu
     kernels::for_each_fragment(
         picture.view, kernels::project(picture.view, &faces.model.positions[3 * face].x),
         {0, 0, picture.view.width, picture.view.height}, [&](const kernels::Fragment& fragment) {
-          const auto pixel = std::size_t(fragment.y * picture.view.width + fragment.x);
+          const auto pixel =
+              std::size_t(fragment.y) * std::size_t(picture.view.width) + std::size_t(fragment.x);
           const auto at = lattice::footprint(2, fragment.b0, fragment.b1);
           float alpha = 0;
           for (std::size_t j = 0; j < 3; ++j)
