@@ -90,7 +90,7 @@ done
 
 # What an earlier run wrote into the pages makes no other program.
 commit=$(git describe --always 2>/dev/null || echo unknown)
-git diff --quiet HEAD -- . ':!docs' 2>/dev/null || commit+=-dirty
+[[ $commit == unknown ]] || git diff --quiet HEAD -- . ':!docs' || commit+=-dirty
 cpu=$(awk -F ': ' '/^model name/ { print $2; exit }' /proc/cpuinfo 2>/dev/null)
 
 json_text() { printf '"%s"' "$(sed 's/[\\"]/\\&/g' <<<"$1")"; }
