@@ -40,7 +40,7 @@ std::vector<Camera> slim_views(const Scene& scene, std::size_t count) {
 }
 
 SlimJudge::SlimJudge(const gl::Context& context, const Scene& scene,
-                     std::vector<Photograph> photographs)
+                     std::span<const Photograph> photographs)
     : context_(context), origin_(scene.origin), background_(scene.info.background) {
   for (const Photograph& photograph : photographs) {
     cameras_.push_back(photograph.camera);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,8 @@ class SlimJudge {
   /// Draws the scene from where the photographs were taken, or, where there are none, from up to 24
   /// of its recorded cameras, or of a half sphere around it. `context` must outlive the judge and
   /// be current. The scene holds a soup without defect().
-  SlimJudge(const gl::Context& context, const Scene& scene, std::vector<Photograph> photographs);
+  SlimJudge(const gl::Context& context, const Scene& scene,
+            std::span<const Photograph> photographs);
 
   SlimLoss loss(const TriangleSoup& soup) const;
 

@@ -63,8 +63,9 @@ Image8 Studio::photograph(const Camera& camera, int strata) const {
       glm::dvec3 sum(0);
       int covered = 0;
       for (int i = 0; i < strata * strata; ++i) {
-        const double px = x + (i % strata + random.uniform()) / strata;
-        const double py = y + (i / strata + random.uniform()) / strata;
+        const int column = i % strata, row = i / strata;
+        const double px = x + (column + random.uniform()) / strata;
+        const double py = y + (row + random.uniform()) / strata;
         const glm::dvec3 view((px - camera.cx) / camera.fx, (camera.cy - py) / camera.fy, -1);
         if (const auto color = seen(eye, glm::normalize(rotation * view), random)) {
           sum += *color;

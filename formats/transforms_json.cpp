@@ -32,7 +32,7 @@ constexpr std::array described{"",       "OPENCV",        "PINHOLE",    "SIMPLE_
 std::string other_lens(const CameraJson& json) {
   for (const char* key : {"is_fisheye", "ftheta_p0", "latlong", "equirectangular"})
     if (json.truth(key)) return key;
-  const std::string model = json.text("camera_model");
+  std::string model = json.text("camera_model");
   if (std::find(described.begin(), described.end(), model) == described.end()) return model;
   // In OpenCV's order the fourth radial number belongs to a quotient of polynomials, in others'
   // to r^8.

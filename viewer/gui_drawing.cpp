@@ -29,6 +29,7 @@ GuiDrawing::GuiDrawing(gl::Api api)
                             std::size_t offset) {
     glEnableVertexAttribArray(location);
     glVertexAttribPointer(location, count, type, normalised, sizeof(ImDrawVert),
+                          // An offset, as GL wants it. NOLINTNEXTLINE(performance-no-int-to-ptr)
                           reinterpret_cast<const void*>(offset));
   };
   attribute(0, 2, GL_FLOAT, GL_FALSE, offsetof(ImDrawVert, pos));
@@ -45,6 +46,7 @@ GuiDrawing::GuiDrawing(gl::Api api)
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+  // A name, as Dear ImGui takes it. NOLINTNEXTLINE(performance-no-int-to-ptr)
   atlas.SetTexID(reinterpret_cast<ImTextureID>(std::uintptr_t(font_.id())));
   gl::check("GuiDrawing");
 }
@@ -94,6 +96,7 @@ void GuiDrawing::draw_list(const ImDrawList& list, const ImDrawData& data) {
     glBindTexture(GL_TEXTURE_2D,
                   static_cast<GLuint>(reinterpret_cast<std::uintptr_t>(command.GetTexID())));
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount), GL_UNSIGNED_SHORT,
+                   // An offset, as above. NOLINTNEXTLINE(performance-no-int-to-ptr)
                    reinterpret_cast<const void*>(std::uintptr_t(command.IdxOffset) * 2));
   }
 }

@@ -19,6 +19,7 @@ PictureTexture::PictureTexture(const Image8& image)
 }
 
 void* PictureTexture::id() const {
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): the interface hands names on as pointers
   return reinterpret_cast<void*>(static_cast<std::uintptr_t>(texture_.id()));
 }
 

@@ -115,7 +115,8 @@ TEST(StillLife, OnlyWhatIsCutOutHasHoles) {
   for (std::uint32_t s = 0; s < model().surfaces.size(); ++s) {
     int holes = 0;
     for (int i = 0; i < 10000; ++i) {
-      const glm::dvec2 uv((i % 100 + 0.5) / 100, (i / 100 + 0.5) / 100);
+      const int column = i % 100, row = i / 100;
+      const glm::dvec2 uv((column + 0.5) / 100, (row + 0.5) / 100);
       holes += model().paint(model().point(s, uv), s).hole;
     }
     EXPECT_EQ(holes > 0, model().surfaces[s].cut_out) << "surface " << s;

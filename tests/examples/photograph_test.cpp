@@ -78,7 +78,8 @@ TEST(LightMap, IsTheLightAtItsPointsAndCloseToItBetween) {
   EXPECT_LT(error(map, {1, 1}), 1e-6);
   double sum = 0, fine_sum = 0;
   for (int i = 0; i < 100; ++i) {
-    const glm::dvec2 uv((i % 10 + 0.37) / 10, (i / 10 + 0.41) / 10);
+    const int column = i % 10, row = i / 10;
+    const glm::dvec2 uv((column + 0.37) / 10, (row + 0.41) / 10);
     sum += error(map, uv) / 100;
     fine_sum += error(fine, uv) / 100;
   }

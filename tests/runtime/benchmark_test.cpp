@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 
 namespace tureen {
 namespace {
@@ -24,7 +25,7 @@ struct Machine {
   Entrant entrant(const std::string& name, std::function<double(const Camera&)> frame_ms) {
     return {.name = name,
             .draw =
-                [this, name, frame_ms](const Camera& camera) {
+                [this, name, frame_ms = std::move(frame_ms)](const Camera& camera) {
                   pending += frame_ms(camera) / 1000;
                   log += name;
                 },

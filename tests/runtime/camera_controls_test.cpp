@@ -4,8 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -39,10 +40,14 @@ double largest_difference(const Camera& a, const Camera& b) {
                    std::abs(a.cy - b.cy)});
 }
 
+std::array<std::uint64_t, 16> bits_of(const glm::dmat4& matrix) {
+  return std::bit_cast<std::array<std::uint64_t, 16>>(matrix);
+}
+
 bool same_bits(const Camera& a, const Camera& b) {
   return a.name == b.name && a.width == b.width && a.height == b.height && a.fx == b.fx &&
          a.fy == b.fy && a.cx == b.cx && a.cy == b.cy &&
-         std::memcmp(&a.view_from_world, &b.view_from_world, sizeof a.view_from_world) == 0;
+         bits_of(a.view_from_world) == bits_of(b.view_from_world);
 }
 
 /// The largest entry of R^T R - 1, and how far the determinant is from 1.

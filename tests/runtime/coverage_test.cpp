@@ -55,8 +55,8 @@ TEST_P(Coverage, IsThatOfTheEdgeWhateverTheSlopeOfAlpha) {
             double covered = 0;
             constexpr int fine = 32;
             for (int i = 0; i < fine * fine; ++i) {
-              const double u = x - 32 + (i % fine + 0.5) / fine,
-                           v = 32 - y - (i / fine + 0.5) / fine;
+              const int column = i % fine, row = i / fine;
+              const double u = x - 32 + (column + 0.5) / fine, v = 32 - y - (row + 0.5) / fine;
               covered += u * std::cos(angle) + v * std::sin(angle) + 0.13 >= 0 ? 1 : 0;
             }
             covered /= fine * fine;

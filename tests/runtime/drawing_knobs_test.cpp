@@ -84,7 +84,7 @@ TEST(DrawingKnobs, CoverageTakesTheSamplesThatTheDeviceHas) {
 
 TEST(DrawingKnobs, WhatExcludesEachOtherIsRefused) {
   const TriangleSoup soup = soup_of(Kind::lattice_mlp);
-  const auto refused = [&](PlanPreferences plan) {
+  const auto refused = [&](const PlanPreferences& plan) {
     try {
       make_plan(soup, {}, plan);
     } catch (const UsageError& error) {

@@ -155,7 +155,7 @@ TEST(ShadingStagePlan, IsMeasuredOnHardwareWithComputeShadersOnly) {
 TEST(ShadingStagePlan, SaysWhyNothingIsShadedAsCompute) {
   const DeviceLimits limits{.compute_shaders = true};
   const TriangleSoup soup = soup_of(Kind::lattice_mlp);
-  const auto plan_of = [&](RenderPreset preset) {
+  const auto plan_of = [&](const RenderPreset& preset) {
     PlanPreferences preferences = with(preset);
     preferences.shading_stage = ShadingStage::compute;
     const RenderPlan plan = make_plan(soup, limits, preferences);

@@ -148,8 +148,8 @@ TEST(MeanColor, MlpAgreesWithTheDoubleOne) {
     glm::dvec3 dense(0.0);
     const auto points = sphere(4000);
     for (int i = 0; i < 3; ++i) {
-      const std::vector<double> features(&texels[std::size_t(8 * i)],
-                                         &texels[std::size_t(8 * i)] + 7);
+      const float* texel = &texels[8 * std::size_t(i)];
+      const std::vector<double> features(texel, texel + 7);
       for (const glm::dvec3& d : points)
         dense += evaluate(*texture.mlp, features, d) / (3.0 * double(points.size()));
     }

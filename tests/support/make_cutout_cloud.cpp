@@ -3,15 +3,17 @@
 // has no extension.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <exception>
 #include <map>
 #include <string>
 
 #include "formats/scene_file.hpp"
-#include "soup/error.hpp"
 #include "soup/lattice.hpp"
 #include "support/cutout_cloud.hpp"
 
-int main(int argc, char** argv) {
+namespace {
+
+int run(int argc, char** argv) {
   using tureen::test::CloudCoverage;
   CLI::App app("Writes the cut-out cloud, a random soup with a color MLP.");
   std::string out;
@@ -27,12 +29,18 @@ int main(int argc, char** argv) {
   app.add_option("--coverage", options.coverage, "How much of the views it covers")
       ->transform(CLI::CheckedTransformer(coverages));
   CLI11_PARSE(app, argc, argv);
+  for (const std::string& note : tureen::write_scene(tureen::test::cutout_cloud(options), out))
+    std::fprintf(stderr, "%s\n", note.c_str());
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    for (const std::string& note : tureen::write_scene(tureen::test::cutout_cloud(options), out))
-      std::fprintf(stderr, "%s\n", note.c_str());
-  } catch (const tureen::Error& error) {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 5;
   }
-  return 0;
 }

@@ -3,10 +3,10 @@
 // alpha_to_coverage.glb with its preset, inspections.glb, and one soup as a DiffSoup export, in the
 // folder diffsoup.
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 
 #include "formats/scene_file.hpp"
-#include "soup/error.hpp"
 #include "support/golden_scenes.hpp"
 
 namespace tureen::test {
@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
   }
   try {
     tureen::test::write_all(argv[1], argv[2]);
-  } catch (const tureen::Error& error) {
+  } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 5;
   }

@@ -5,8 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <random>
 #include <set>
@@ -140,12 +141,15 @@ Config random_config(std::mt19937& random) {
   return config;
 }
 
+template <class Value>
+auto bytes_of(const Value& value) {
+  return std::bit_cast<std::array<std::byte, sizeof value>>(value);
+}
+
 void expect_equal(const Config& a, const Config& b) {
   for (const ConfigField& field : config_fields())
     std::visit(
-        [&](auto member) {
-          EXPECT_EQ(std::memcmp(&(a.*member), &(b.*member), sizeof(a.*member)), 0) << field.name;
-        },
+        [&](auto member) { EXPECT_EQ(bytes_of(a.*member), bytes_of(b.*member)) << field.name; },
         field.member);
 }
 

@@ -133,7 +133,7 @@ TEST(ImageLoss, ValueIsThatOfTheMetrics) {
   // Sizes around the window and around the band of rows, which is 128 high.
   for (const auto& [width, height] :
        {std::pair{11, 11}, {12, 40}, {64, 48}, {37, 127}, {37, 129}, {29, 300}}) {
-    const std::uint64_t seed = std::uint64_t(width * 1000 + height);
+    const std::uint64_t seed = 1000 * std::uint64_t(width) + std::uint64_t(height);
     SCOPED_TRACE(std::to_string(width) + " x " + std::to_string(height) + ", seed " +
                  std::to_string(seed));
     auto pair = random_pair<float>(seed, width, height);
