@@ -5,7 +5,8 @@ set -uo pipefail
 
 bin=build/release/bin data=../shared/data
 usual_parts=(load frames leave_out growth tradeoff slim agreement step browser)
-all_parts=("${usual_parts[@]}" training)
+training_parts=(train-fox train-bottle train-lego train-example ablations)
+all_parts=("${usual_parts[@]}" training "${training_parts[@]}")
 quick='' processor='' check='' ficus='' fox='' photographs='' lego='' bottle=''
 parts=() done_parts=() skipped=() failed=()
 
@@ -25,7 +26,9 @@ their marks; without a PART all but training:
   agreement   how well GL agrees with the oracle
   step        what a training step costs
   browser     bench.html in Chromium on two rasterisers, memory, and how long the first picture takes
-  training    the training runs: hours; the others draw the soups that it left in build/bench/training
+  training    the training runs: hours; the others draw the soups that it left in build/bench/training. Each is
+              a part by itself, too, and then stands in the table beside those that were made before:
+              train-fox, train-bottle, train-lego, train-example, ablations
 
   --quick        everything small, in build/bench-quick, with copies of the pages there: whether it works, not a
                  measurement
@@ -33,7 +36,7 @@ their marks; without a PART all but training:
                  frames, leave_out, growth and tradeoff by the processor time of all threads instead of the time
                  that passed: ratios on a busy machine, without a GPU (leave_out does so by itself there)
   --ficus SOUP   a soup of 2D Triangle Splatting; ../shared/data/soups/ficus_2dts.off where it is there
-  --fox SOUP     a soup trained from photographs; what the part training left
+  --fox SOUP     a soup trained from photographs; what the part train-fox left
   --photographs  what it was trained from; ../shared/data/photos/fox where it is there
   --lego, --bottle DATASET
                  what else training learns from; ../shared/data/rendered/lego and ../shared/data/photos/bottle
@@ -321,7 +324,7 @@ train() {
 }
 
 # One constant changed at a time: a name, and what changes it.
-train_ablations() {
+part_ablations() {
   [[ -n $lego ]] || { skip "the ablations, which train on lego"; return; }
   local small=(--scale 0.125 --triangles 2000 --steps "$(steps 2500)") name constants
   train ablation-ours "$lego" "${small[@]}"
@@ -340,22 +343,34 @@ slow-vertices {"vertex_rate": 1e-3}
 END
 }
 
-part_training() {
-  train train-fox "$photographs" --scale 0.25 --steps "$(steps 10000)"
-  train train-bottle "$bottle" --scale 0.5 --steps "$(steps 1500)"
-  train train-lego "$lego" --scale 0.5 --steps "$(steps 10000)"
+part_train-fox() { train train-fox "$photographs" --scale 0.25 --steps "$(steps 10000)"; }
+part_train-bottle() { train train-bottle "$bottle" --scale 0.5 --steps "$(steps 1500)"; }
+part_train-lego() { train train-lego "$lego" --scale 0.5 --steps "$(steps 10000)"; }
+part_train-example() {
   make_example_photographs &&
     train train-example "$example_photographs" --config examples/training.json --steps "$(steps 3000)"
-  train_ablations
+}
+
+# Runs of training that this folder holds and this call did not make.
+trained_before() {
+  local file name
+  for file in "$out"/{train,ablation}-*.run.json; do
+    name=$(basename "$file" .run.json)
+    [[ ! -e $file || " ${done_parts[*]} " == *" $name "* ]] || echo "$name"
+  done
 }
 
 mkdir -p "$out/scenes" "$training"
-[[ " ${parts[*]} " != *" training "* ]] || part_training
+for part in "${training_parts[@]}"; do
+  [[ " ${parts[*]} " != *" training "* && " ${parts[*]} " != *" $part "* ]] || "part_$part"
+done
 [[ -n $fox || ! -e $training/fox.glb ]] || fox=$training/fox.glb
 case " ${parts[*]} " in
   *" frames "* | *" leave_out "* | *" tradeoff "*) find_scenes ;;
 esac
-for part in "${parts[@]}"; do [[ $part == training ]] || "part_$part"; done
+for part in "${parts[@]}"; do
+  [[ " training ${training_parts[*]} " == *" $part "* ]] || "part_$part"
+done
 
 # What is only tried leaves the pages as they are.
 pages=docs
@@ -365,7 +380,9 @@ if [[ $quick ]]; then
   cp -r docs "$pages"
 fi
 if ((${#done_parts[@]})); then
-  "$bin/bench_report" "$out" "$pages" "${done_parts[@]}" || failed+=("bench_report: $pages is not whole")
+  reported=("${done_parts[@]}")
+  [[ " ${done_parts[*]}" != *" "@(train|ablation)-* ]] || mapfile -t -O "${#reported[@]}" reported < <(trained_before)
+  "$bin/bench_report" "$out" "$pages" "${reported[@]}" || failed+=("bench_report: $pages is not whole")
 fi
 
 {

@@ -53,8 +53,9 @@ std::string number_or_none(const Json& value, const char* format) {
 
 void add_plot(Section& section, const fs::path& from, const std::string& shown) {
   if (!fs::exists(from)) return;
-  section.plots.push_back(
-      {from, fmt::format("bench-{}-{}", section.name, from.filename().string())});
+  // Named by the measurement: a section of several has plots of one file name.
+  section.plots.push_back({from, fmt::format("bench-{}-{}", from.parent_path().filename().string(),
+                                             from.filename().string())});
   section.text += fmt::format("![{}](images/{})\n\n", shown, section.plots.back().name);
 }
 

@@ -24,7 +24,8 @@ struct Section {
 /// When and where, and the command as a block to be copied; of several measurements all commands.
 std::string head(const Measurements& measurements, const std::vector<std::string>& names);
 
-/// Takes a plot into the section, with its link; nothing where gnuplot drew none.
+/// Takes a plot into the section, with its link; nothing where gnuplot drew none. `from` lies in
+/// its measurement's folder, by which it is named in images/.
 void add_plot(Section& section, const std::filesystem::path& from, const std::string& shown);
 
 class Table {

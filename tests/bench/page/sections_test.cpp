@@ -231,10 +231,16 @@ TEST_F(BenchPage, SlimFilesAndTrainingsAreRowsOfWhatTheyPrint) {
                  {"opacity_binary_fraction", 0.875},
                  {"non_finite", 0}};
   measure("train-lego", run.dump());
+  measure("train-fox", run.dump());
+  write("train-lego/log.svg", "<svg/>");
+  write("train-fox/log.svg", "<svg/>");
   measure("ablation-ours", run.dump());
   EXPECT_THAT(
       section("train").text,
       HasSubstr("| lego | 100 | 50 | 3 | 21.50 | 0.9000 | 0.1000 | 21.49 | 87.5 % | 0 | 12 |\n"));
+  // Each run's plot is its own.
+  EXPECT_THAT(section("train").text, AllOf(HasSubstr("](images/bench-train-fox-log.svg)"),
+                                           HasSubstr("](images/bench-train-lego-log.svg)")));
   EXPECT_THAT(section("ablation").text, HasSubstr("| ours | 100 |"));
 }
 
