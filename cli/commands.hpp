@@ -27,4 +27,7 @@ void add_tradeoff(CLI::App& program, Action& action, std::vector<std::string> ar
 void add_train(CLI::App& program, Action& action);
 void add_view(CLI::App& program, Action& action);
 
+/// All of them.
+void add_commands(CLI::App& program, Action& action, const std::vector<std::string>& arguments);
+
 }  // namespace tureen::cli

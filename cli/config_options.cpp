@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
+#include <string_view>
+#include <utility>
 
 #include "cli/choice.hpp"
 #include "soup/error.hpp"
@@ -33,10 +34,14 @@ std::string refuse_seed(const std::string& text) {
   return "a seed is a whole number from 0 to 18446744073709551615, not " + text;
 }
 
-/// The nearest int: beyond an int is beyond every range as well, and is refused with its range.
-int as_int(std::int64_t value) {
-  constexpr std::int64_t most = std::numeric_limits<int>::max();
-  return static_cast<int>(std::clamp(value, -most, most));
+/// For the constant of this name. Beyond an int is beyond every range as well.
+int as_int(std::int64_t value, std::string_view name) {
+  if (std::in_range<int>(value)) return static_cast<int>(value);
+  const auto fields = trainer::config_fields();
+  const auto field = std::find_if(fields.begin(), fields.end(),
+                                  [&](const auto& candidate) { return candidate.name == name; });
+  throw UsageError(std::string(name) + ": " +
+                   field->range.refusal(double(value), std::to_string(value)));
 }
 
 }  // namespace
@@ -87,13 +92,13 @@ Config with_options(const Config& base, const ConfigOptions& options) {
     const double ratio = double(*options.triangles) / config.triangles;
     config.initial_triangles =
         int(std::clamp(std::round(config.initial_triangles * ratio), 1.0, 4e6));
-    config.triangles = as_int(*options.triangles);
+    config.triangles = as_int(*options.triangles, "triangles");
   }
-  if (options.steps) config.steps = as_int(*options.steps);
-  if (options.batch) config.batch = as_int(*options.batch);
+  if (options.steps) config.steps = as_int(*options.steps, "steps");
+  if (options.batch) config.batch = as_int(*options.batch, "batch");
   config.seed = options.seed.value_or(config.seed);
   if (options.level) {
-    config.max_level = as_int(*options.level);
+    config.max_level = as_int(*options.level, "max_level");
     config.min_level = std::min(config.min_level, config.max_level);
     config.coarse_level = std::min(config.coarse_level, config.min_level);
   }

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <new>
 #include <optional>
@@ -96,6 +97,19 @@ std::optional<std::string> empty_argument(const CLI::App& command) {
   return std::nullopt;
 }
 
+/// Ranges of CLI11 let NaN through: it is neither below nor above them.
+void refuse_nan(CLI::App& app) {
+  const auto refusal = [](const std::string& text) {
+    double value = 0;
+    const bool is_nan = CLI::detail::lexical_cast(text, value) && std::isnan(value);
+    return is_nan ? text + " is not a number" : std::string();
+  };
+  for (CLI::Option* option : app.get_options())
+    if (option->get_type_name().starts_with("FLOAT")) option->check(refusal);
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
+    refuse_nan(*command);
+}
+
 /// CLI11 would take a mistyped subcommand for an argument too many.
 bool is_unknown_command(const CLI::App& program, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return false;
@@ -104,6 +118,20 @@ bool is_unknown_command(const CLI::App& program, int argc, char** argv) {
 }
 
 }  // namespace
+
+void add_commands(CLI::App& program, Action& action, const std::vector<std::string>& arguments) {
+  add_render(program, action);
+  add_view(program, action);
+  add_train(program, action);
+  add_info(program, action);
+  add_convert(program, action);
+  add_compare(program, action);
+  add_eval(program, action);
+  add_bench(program, action, arguments);
+  add_plot(program, action);
+  add_tradeoff(program, action, arguments);
+  refuse_nan(program);
+}
 
 int run_program(int argc, char** argv) {
   catch_interrupts();
@@ -123,16 +151,7 @@ Exit codes: 0 done, 1 the comparison or the check failed, 2 wrong usage, 3 the i
 bad, 4 no OpenGL context, 5 anything else.)");
 
   Action action;
-  add_render(program, action);
-  add_view(program, action);
-  add_train(program, action);
-  add_info(program, action);
-  add_convert(program, action);
-  add_compare(program, action);
-  add_eval(program, action);
-  add_bench(program, action, {argv + std::min(argc, 1), argv + argc});
-  add_plot(program, action);
-  add_tradeoff(program, action, {argv + std::min(argc, 1), argv + argc});
+  add_commands(program, action, {argv + std::min(argc, 1), argv + argc});
 
   if (argc < 2) {
     std::istringstream help(program.help());
@@ -147,7 +166,12 @@ bad, 4 no OpenGL context, 5 anything else.)");
     if (const auto name = empty_argument(named_command(program)))
       return refuse(program, *name + " is empty");
   } catch (const CLI::Success& help_or_version) {
-    return program.exit(help_or_version);
+    std::ostringstream text;
+    program.exit(help_or_version, text);
+    action = [text = text.str()] {
+      print_text(text);
+      return ExitCode::done;
+    };
   } catch (const UsageError& error) {
     return refuse(program, error.reason());
   } catch (const CLI::ParseError& error) {

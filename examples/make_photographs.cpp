@@ -41,9 +41,7 @@ void take(const Studio& studio, const Options& options, const std::string& split
   write_transforms(options.folder, split, cameras);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app("Photographs the example's still life, as a dataset like those of NeRF-synthetic.");
   Options options;
   app.add_option("FOLDER", options.folder, "Where the dataset goes")->required();
@@ -61,15 +59,21 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--threads", options.threads)->check(CLI::Range(1, 1024));
   CLI11_PARSE(app, argc, argv);
+  std::filesystem::create_directories(options.folder);  // before the minutes that light takes
+  std::fprintf(stderr, "lighting, a minute or two\n");
+  const Studio studio(still_life(), {.threads = options.threads});
+  take(studio, options, "train", example_cameras(options.views, options.size));
+  take(studio, options, "test", example_cameras(options.test_views, options.size, 0.5));
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    std::filesystem::create_directories(options.folder);  // before the minutes that light takes
-    std::fprintf(stderr, "lighting, a minute or two\n");
-    const Studio studio(still_life(), {.threads = options.threads});
-    take(studio, options, "train", example_cameras(options.views, options.size));
-    take(studio, options, "test", example_cameras(options.test_views, options.size, 0.5));
+    return run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "make_photographs: %s\n", error.what());
     return 5;
   }
-  return 0;
 }

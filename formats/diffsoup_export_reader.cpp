@@ -28,6 +28,7 @@ struct Meta {
   glm::vec3 background{0.0f};
   std::optional<std::uint64_t> faces, vertices;
   bool ours = false;
+  std::string assumed;  // why level is not what meta.json says, where it is not
 };
 
 Meta read_meta(const fs::path& folder, const MemoryBudget& budget,
@@ -36,6 +37,7 @@ Meta read_meta(const fs::path& folder, const MemoryBudget& budget,
   // A link that leads nowhere or to itself is there, and Input::open says what is wrong with it.
   std::error_code ignored;
   if (fs::symlink_status(folder / "meta.json", ignored).type() == fs::file_type::not_found) {
+    meta.assumed = "meta.json is missing: level 5 is assumed";
     notes.emplace_back("meta.json is missing: level 5, up -y and a black background are assumed");
     return meta;
   }
@@ -60,7 +62,8 @@ Meta read_meta(const fs::path& folder, const MemoryBudget& budget,
       fail("\"level\" is not an integer from 0 to 7");
     meta.level = level.get<int>();
   } else {
-    notes.emplace_back("meta.json names no level: 5 is assumed");
+    meta.assumed = "meta.json names no level: 5 is assumed";
+    notes.push_back(meta.assumed);
   }
   meta.up = vector("up", meta.up);
   // In double: squares of floats overflow otherwise.
@@ -81,9 +84,10 @@ void expect_count(const fs::path& mesh, std::optional<std::uint64_t> said, std::
                                                   ", but meta.json says " + std::to_string(*said));
 }
 
-/// One of the two images, with as many texels as `texels` and a remainder below one row.
+/// One of the two images, with as many texels as `texels` and a remainder below one row. `assumed`:
+/// what that number stands on, for the refusal of an image of another.
 Image8 read_lut(const fs::path& folder, const char* name, std::uint64_t texels,
-                const MemoryBudget& budget) {
+                const std::string& assumed, const MemoryBudget& budget) {
   Input input = open_in_folder(folder, name, budget);
   const auto bytes = input.read_rest();
   // Bit depth and colour type of IHDR, always the first chunk. Anything else than 8 and 6 would be
@@ -105,7 +109,7 @@ Image8 read_lut(const fs::path& folder, const char* name, std::uint64_t texels,
     input.fail_at(16, std::to_string(width) + " x " + std::to_string(height) +
                           " pixels cannot be " + std::to_string(texels) + " texels in rows of " +
                           std::to_string(width) + ": " + std::to_string(expected) +
-                          " rows expected");
+                          " rows expected" + (assumed.empty() ? "" : " (" + assumed + ")"));
   Image8 image = decode_image(bytes, input.name(), budget);
   // A decoder may look past other chunks for the header that it believes (Apple's CgBI is one).
   if (std::uint64_t(image.width) != width || std::uint64_t(image.height) != height)
@@ -191,7 +195,7 @@ Scene read_diffsoup_export(const fs::path& folder, const ReadOptions& options) {
     if (options.progress) options.progress(0.1 + 0.45 * double(half));
     if (half == 0) mesh_input.take_memory(count, LatticeTexture::channels, "the texels");
     PassingMemory passing(budget);
-    const Image8 image = read_lut(folder, luts[half], count, budget);
+    const Image8 image = read_lut(folder, luts[half], count, meta.assumed, budget);
     // Only now is it certain that the files hold what mesh.ply promised.
     texels.resize(static_cast<std::size_t>(count) * LatticeTexture::channels);
     for (std::size_t i = 0; i < count; ++i)

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "formats/json_limits.hpp"
+#include "formats/shown_text.hpp"
 
 namespace tureen {
 
@@ -94,10 +95,7 @@ std::size_t JsonView::one_of(std::span<const char* const> names) const {
 
 void JsonView::fail(const std::string& reason) const {
   // Both may hold what the file says: a letter 0 would end the sentence, a new line forge another.
-  std::string sentence = path_.empty() ? reason : path_ + ": " + reason;
-  for (char& c : sentence)
-    if (static_cast<unsigned char>(c) < 0x20) c = '?';
-  throw InputError({*file_, {}, {}}, sentence);
+  throw InputError({*file_, {}, {}}, shown_text(path_.empty() ? reason : path_ + ": " + reason));
 }
 
 }  // namespace tureen

@@ -205,6 +205,13 @@ bool is_mobilenerf(const fs::path& path) {
 
 Scene read_mobilenerf(const fs::path& path, const ReadOptions& options) {
   const fs::path folder = folder_of(path);
+  // Whoever comes with a mesh of any other program has never heard of mlp.json.
+  std::error_code ignored;
+  if (!fs::is_directory(path, ignored) && path.filename() != "mlp.json" &&
+      fs::symlink_status(folder / "mlp.json", ignored).type() == fs::file_type::not_found)
+    throw InputError({path.string(), {}, {}},
+                     "an .obj is read as a part of a MobileNeRF scene, and the mlp.json of one is "
+                     "not beside it");
   const MemoryBudget budget;
   Network network = read_network(folder, budget);
   const auto shapes = find_shapes(folder);
@@ -222,7 +229,6 @@ Scene read_mobilenerf(const fs::path& path, const ReadOptions& options) {
     }
     const std::string stem = "shape" + std::to_string(i) + ".pngfeat";
     const std::array<fs::path, 2> features{folder / (stem + "0.png"), folder / (stem + "1.png")};
-    std::error_code ignored;
     if (!fs::exists(features[0], ignored) || !fs::exists(features[1], ignored)) {
       untextured.push_back(i);
       continue;

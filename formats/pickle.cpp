@@ -6,6 +6,8 @@
 #include <iterator>
 #include <utility>
 
+#include "formats/shown_text.hpp"
+
 namespace tureen {
 
 namespace {
@@ -127,14 +129,6 @@ const char* refused_opcode_name(unsigned char opcode) {
     default:
       return nullptr;
   }
-}
-
-/// Names from the file go into messages: no control characters, no endless ones.
-std::string printable(std::string_view text) {
-  std::string result(text.substr(0, 80));
-  for (char& c : result)
-    if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) >= 0x7f) c = '?';
-  return result;
 }
 
 /// One run over the opcodes. Values live in one vector and know each other by number, so that no
@@ -376,7 +370,7 @@ class Machine {
     full += '.';
     full += line("a global's name");
     if (full != ordered_dict && std::find(globals_.begin(), globals_.end(), full) == globals_.end())
-      fail("the pickle wants the global " + printable(full) +
+      fail("the pickle wants the global " + shown_line(full) +
            ", which is not on the list of harmless ones: refused, nothing was executed");
     push({.kind = Kind::global, .text = std::move(full)});
   }

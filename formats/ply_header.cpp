@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <set>
 
 #include "formats/decimal.hpp"
 
@@ -67,6 +68,8 @@ class HeaderReader {
   bool next_line() {
     if (next_ >= text_.size()) return false;
     const std::size_t end = text_.find(line_break_, next_);
+    // We stopped reading within it: what it says is not known.
+    if (end == std::string::npos && text_.size() < input_.size()) return false;
     const std::string_view line = std::string_view(text_).substr(next_, end - next_);
     next_ = end == std::string::npos ? text_.size() : end + line_break_.size();
     ++line_;
@@ -105,7 +108,8 @@ class HeaderReader {
     PlyElement element;
     element.name = words_[1];
     element.line = line_;
-    if (header_.find(element.name)) fail("a second element '" + printable(element.name) + "'");
+    if (!names_.insert(element.name).second)
+      fail("a second element '" + printable(element.name) + "'");
     const std::string text(words_[2]);
     const Integer count = parse_integer(text.c_str());
     if (!count.end || *count.end != '\0')
@@ -181,6 +185,7 @@ class HeaderReader {
   std::size_t next_ = 0;
   std::uint64_t line_ = 0;
   std::vector<std::string_view> words_;  // of the current line
+  std::set<std::string> names_;          // of the elements: a header may have very many
   PlyHeader header_;
 };
 

@@ -19,13 +19,20 @@ mat3 corners_from_eye(uint face) {
 
 float largest_component(vec3 v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
 
+// Across both edges. Those of a needle may have a product of 0 in floats, which says nothing of
+// where its face looks: any number is better than none.
+vec3 unit_normal(vec3 u, vec3 v) {
+  vec3 across = cross(u, v);
+  return dot(across, across) > 0.0 ? normalize(across) : vec3(0.0, 0.0, 1.0);
+}
+
 // Of unit length, whatever the size of the face: the edges are scaled before they are multiplied.
 // Taken from the stored corners, whose differences are exact to a rounding.
 vec3 face_normal(uint face) {
   vec3 a = texelFetch(corners, texel_position(3u * face), 0).xyz;
   vec3 u = texelFetch(corners, texel_position(3u * face + 1u), 0).xyz - a;
   vec3 v = texelFetch(corners, texel_position(3u * face + 2u), 0).xyz - a;
-  return normalize(cross(u / largest_component(u), v / largest_component(v)));
+  return unit_normal(u / largest_component(u), v / largest_component(v));
 }
 
 // Where the ray, whose depth along the viewing axis is 1, meets the face's plane. Seen edge-on the

@@ -210,9 +210,7 @@ std::vector<double> numbers(const Config& config, const ConfigField& field) {
 std::optional<std::string> range_defect(const Config& config, const ConfigField& field) {
   for (const double value : numbers(config, field))
     if (!field.range.contains(value))
-      return std::string(field.name) + ": " + value_text(config, field) + " is not " +
-             field.range.text() + " (" +
-             (value > field.range.high ? field.range.reason_above : field.range.reason) + ")";
+      return std::string(field.name) + ": " + field.range.refusal(value, value_text(config, field));
   return std::nullopt;
 }
 
@@ -243,6 +241,10 @@ std::string Range::text() const {
       break;
   }
   return "from " + number_text(low) + " to " + number_text(high);
+}
+
+std::string Range::refusal(double value, const std::string& written) const {
+  return written + " is not " + text() + " (" + (value > high ? reason_above : reason) + ")";
 }
 
 std::span<const ConfigField> config_fields() { return fields; }

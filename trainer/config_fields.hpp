@@ -24,8 +24,10 @@ struct Range {
   const char* reason_above = reason;  // where numbers beyond `high` have a reason of their own
 
   bool contains(double value) const;
-  /// "1..1024"; for an open end "more than 0, at most 1" or "from 0 to less than 1".
+  /// "from 1 to 1024"; for an open end "more than 0, at most 1" or "from 0 to less than 1".
   std::string text() const;
+  /// Why a value beyond it, which somebody wrote so, is refused: "0 is not from 1 to 1024 (...)".
+  std::string refusal(double value, const std::string& written) const;
 };
 
 /// Three channels, display-referred.

@@ -25,9 +25,10 @@ struct Assign {
   void operator()(int Config::*member) const {
     const double number = value.number();
     if (number != std::floor(number)) value.fail("expected a whole number, not " + written());
-    // Beyond an int is beyond every range as well: the nearest int is refused just so.
-    constexpr double most = std::numeric_limits<int>::max();
-    config.*member = static_cast<int>(std::clamp(number, -most, most));
+    // Beyond an int is beyond every range as well.
+    if (std::abs(number) > std::numeric_limits<int>::max())
+      value.fail(field.range.refusal(number, written()));
+    config.*member = static_cast<int>(number);
   }
   void operator()(std::uint64_t Config::*member) const { config.*member = value.natural(); }
   void operator()(float Config::*member) const { config.*member = value.number_float(); }

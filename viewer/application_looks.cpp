@@ -53,6 +53,7 @@ void Application::compare_when_needed() {
     renderer.draw(photograph->camera);
   } catch (const DeviceLimitError& error) {
     comparison.show = Comparison::Show::off;
+    picture_is_current_ = false;  // the window's went with its targets
     state_.messages.error("The photograph cannot be compared", error.reason(), state_.now);
     return;
   }

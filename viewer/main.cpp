@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <iostream>
 #include <optional>
 #include <string>
 
@@ -128,7 +129,10 @@ or the settings cannot be read, 4 no display or no OpenGL, 5 anything else.)");
     program.parse(argc, argv);
     return run(arguments);
   } catch (const CLI::Success& help) {
-    return program.exit(help);
+    program.exit(help);
+    if (std::cout.flush()) return int(ExitCode::done);
+    std::fprintf(stderr, "tureen view: standard output cannot be written\n");
+    return int(ExitCode::other);
   } catch (const CLI::ParseError& error) {
     std::fprintf(stderr, "tureen view: %s\nTry: tureen view --help\n",
                  tureen::shown_line(error.what()).c_str());

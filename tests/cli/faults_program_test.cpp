@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstring>
 #include <map>
 #include <random>
 #include <sstream>
@@ -148,6 +150,59 @@ TEST_F(Faults, WhereNothingMayBeWrittenNothingIs) {
     EXPECT_THAT(result.err, HasSubstr("cannot be created: Permission denied"));
   }
   EXPECT_EQ(contents("locked"), before);
+}
+
+/// What happens to a folder and to the names beside it, in the order in which it happened.
+class Watch {
+ public:
+  explicit Watch(const fs::path& folder)
+      : events_(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC)),
+        beside_(::inotify_add_watch(events_, folder.parent_path().c_str(), changes)),
+        inside_(::inotify_add_watch(events_, folder.c_str(), changes | IN_MODIFY)),
+        name_(folder.filename().string()) {}
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+  ~Watch() { ::close(events_); }
+
+  bool watches() const { return beside_ >= 0 && inside_ >= 0; }
+
+  /// One letter each: `+` something takes the folder's name, `-` something with that name goes, `i`
+  /// one or more changes in the folder that was there at first, whatever its name is by then.
+  std::string changes_seen() {
+    std::string seen;
+    alignas(inotify_event) char bytes[4096];
+    for (ssize_t size; (size = ::read(events_, bytes, sizeof bytes)) > 0;)
+      for (ssize_t at = 0; at < size;) {
+        const auto* event = reinterpret_cast<const inotify_event*>(bytes + at);
+        at += ssize_t(sizeof(inotify_event) + event->len);
+        const bool is_name = event->wd == beside_ && event->len > 0 && event->name == name_;
+        if (is_name) seen += event->mask & (IN_CREATE | IN_MOVED_TO) ? '+' : '-';
+        const bool is_inside = event->wd == inside_ && (event->mask & (changes | IN_MODIFY));
+        if (is_inside && !seen.ends_with('i')) seen += 'i';
+      }
+    return seen;
+  }
+
+ private:
+  static constexpr std::uint32_t changes = IN_CREATE | IN_DELETE | IN_MOVED_FROM | IN_MOVED_TO;
+  int events_, beside_, inside_;
+  std::string name_;
+};
+
+// An exchange is told as the new folder's coming and then the old one's going; where the old one
+// is removed or moved away first, its going comes first.
+TEST_F(Faults, AFolderThatIsReplacedIsThereAtEveryMoment) {
+  write_scene();
+  for (const char* name : {"a", "b"}) fs::create_directory(folder / name);
+  if (::renameat2(AT_FDCWD, (folder / "a").c_str(), AT_FDCWD, (folder / "b").c_str(),
+                  RENAME_EXCHANGE) != 0)
+    GTEST_SKIP() << "no exchange of two names on this disk: " << std::strerror(errno);
+  ASSERT_EQ(run({"convert", "scene.off", "export/"}).exit_code, 0);
+  Watch watch(folder / "export");
+  if (!watch.watches()) GTEST_SKIP() << "no watching of folders: " << std::strerror(errno);
+  const ChildResult result = run({"convert", "scene.off", "export/", "--force"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(watch.changes_seen(), "+-i") << "the new one comes, the old one goes and is emptied";
 }
 
 /// Ends conversions over an old file at moments from their beginning to their end, and behind it.

@@ -33,6 +33,16 @@ TEST_F(Program, HelpTeachesAndGoesToStandardOutput) {
   EXPECT_THAT(run({"--version"}).out, HasSubstr("tureen "));
 }
 
+TEST_F(Program, HelpThatCannotBeWrittenIsFive) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  for (const char* words : {"--help", "--version", "render --help"}) {
+    const std::string line = "exec \"$0\" " + std::string(words) + " >/dev/full";
+    const ChildResult result = test::Child({"-c", line, TUREEN_PROGRAM}, folder, "/bin/sh").wait();
+    EXPECT_EQ(result.exit_code, 5) << words;
+    EXPECT_EQ(result.err, "tureen: standard output cannot be written\n");
+  }
+}
+
 TEST_F(Program, WrongUsageIsTwoAndAHint) {
   const auto expect = [&](const std::vector<std::string>& arguments, const std::string& words) {
     const ChildResult result = run(arguments);
@@ -58,6 +68,8 @@ TEST_F(Program, WrongUsageIsTwoAndAHint) {
   expect({"render", "scene.off", "-o", "out.jpg"}, "pictures are written as PNG");
   expect({"render", "scene.off", "-o", "out%s.png"}, "no name for pictures");
   expect({"compare", "a.png", "b.png", "--metric", "psnr"}, "did you mean psnr_db?");
+  expect({"compare", "a.png", "b.png", "--pixel-tolerance", "nan"},
+         "--pixel-tolerance: nan is not a number");
 }
 
 TEST_F(Program, ABadInputIsThreeAndAPlace) {

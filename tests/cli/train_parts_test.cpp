@@ -139,6 +139,26 @@ TEST(ConfigOptions, KeepTheProportionOfTrianglesToBeginWith) {
   EXPECT_GE(with_options(base, options).initial_triangles, 1);
 }
 
+TEST(ConfigOptions, AreRefusedByTheNumberThatWasTyped) {
+  const auto refusal = [](std::optional<std::int64_t> ConfigOptions::*option, std::int64_t value) {
+    ConfigOptions options;
+    options.*option = value;
+    try {
+      with_options({}, options);
+    } catch (const UsageError& error) {
+      return error.reason();
+    }
+    return std::string("none");
+  };
+  using testing::StartsWith;
+  EXPECT_THAT(refusal(&ConfigOptions::triangles, 99'999'999'999),
+              StartsWith("triangles: 99999999999 is not from 1 to 4000000 ("));
+  EXPECT_THAT(refusal(&ConfigOptions::steps, -99'999'999'999),
+              StartsWith("steps: -99999999999 is not from 1 to 10000000 ("));
+  EXPECT_THAT(refusal(&ConfigOptions::batch, 1LL << 40), StartsWith("batch: 1099511627776 is not"));
+  EXPECT_THAT(refusal(&ConfigOptions::level, 1LL << 40), StartsWith("max_level: 1099511627776 is"));
+}
+
 TEST(ConfigOptions, LowerWhatWouldBeAboveTheLevel) {
   ConfigOptions options;
   options.level = 1;

@@ -64,6 +64,33 @@ TEST_F(Train, MakesASoupAndAllThatBelongsToIt) {
   }
 }
 
+TEST_F(Train, MeasuresItsOwnDrawingWhereTheDeviceCannotDrawTheTestViews) {
+  write_split("train", 8, 0, true);
+  // As wide and as low as the trainer takes them; llvmpipe and most devices draw 16,384 pixels a
+  // side.
+  constexpr int width = 32767, height = 11;
+  const Camera wide = look_at({4, 0, 0}, {0, 0, 0}, {0, 0, 1}, 0.7, width, height);
+  fs::create_directories(folder / "ball/test");
+  write_png("ball/test/wide.png", Image8(width, height, glm::u8vec4(255)));
+  nlohmann::json document = test::transforms_of(wide);
+  document["frames"].push_back(test::frame_of("test/wide.png", wide));
+  write("ball/transforms_test.json", document.dump());
+
+  const ChildResult result = train("ball.glb", {"--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::ordered_json::parse(result.out);
+  if (json["test"]["drawn_by"] != "trainer") GTEST_SKIP() << "this device draws so many pixels";
+  EXPECT_THAT(result.err, HasSubstr("The soup could not be drawn by the runtime, so the trainer's "
+                                    "own drawing was measured: "));
+  EXPECT_EQ(json["test"]["psnr_db"], json["trainer_psnr_db"]);
+  EXPECT_GT(json["trainer_psnr_db"], 0);
+  EXPECT_TRUE(exists("ball.glb"));
+  // Without OpenGL that is the reason.
+  if (run({"render", "ball.glb", "-o", "ball.png"}).exit_code == 0) {
+    EXPECT_THAT(result.err, HasSubstr("a picture of 32767x11 is larger than this device draws"));
+  }
+}
+
 TEST_F(Train, EqualSeedsGiveEqualSoupsOnAnyNumberOfThreads) {
   make_dataset();
   ASSERT_EQ(train("a.glb").exit_code, 0);

@@ -425,6 +425,17 @@ TEST(DiffSoupExport, WithoutMetaTheViewersDefaultsHold) {
   EXPECT_THAT(scene.info.notes, Contains(HasSubstr("meta.json is missing")));
 }
 
+TEST(DiffSoupExport, AnImageOfAnotherLevelThanWasAssumedIsRefusedByThat) {
+  const TemporaryFolder folder;
+  write_diffsoup_export(random_scene(9, 2, 3), folder / "a");
+  write_text(folder / "a/meta.json", "{}");
+  EXPECT_THAT(refusal(folder / "a"),
+              HasSubstr("rows expected (meta.json names no level: 5 is assumed)"));
+  fs::remove(folder / "a/meta.json");
+  EXPECT_THAT(refusal(folder / "a"),
+              HasSubstr("rows expected (meta.json is missing: level 5 is assumed)"));
+}
+
 class DiffSoupDamage : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Files, DiffSoupDamage,
                          ::testing::Values("mesh.ply", "lut0.png", "lut1.png", "mlp_weights.json",

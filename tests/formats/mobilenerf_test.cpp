@@ -10,6 +10,7 @@
 #include "formats/format_testing.hpp"
 #include "formats/obj.hpp"
 #include "formats/png.hpp"
+#include "formats/scene_file.hpp"
 #include "formats/truncation.hpp"
 
 namespace tureen {
@@ -223,6 +224,14 @@ TEST(Obj, TruncationAndDamageAreSurvived) {
   const auto bytes = std::as_bytes(std::span(one_quad));
   EXPECT_GT(testing::survive_truncation(bytes, read).refused, 0u);
   EXPECT_GT(testing::survive_damage(bytes, read).refused, 0u);
+}
+
+TEST(MobileNerf, AMeshOfAnotherProgramIsToldWhatAnObjIsReadAs) {
+  const TemporaryFolder folder;
+  write_text(folder / "mesh.OBJ", "v 0 0 0\n");
+  EXPECT_THAT(input_error([&] { read_scene(folder / "mesh.OBJ"); }),
+              AllOf(HasSubstr("mesh.OBJ: "), HasSubstr("a part of a MobileNeRF scene"),
+                    HasSubstr("mlp.json")));
 }
 
 TEST(MobileNerf, TruncatedFilesAreSurvived) {

@@ -107,5 +107,27 @@ TEST(PlyHeader, RefusesByLineAndReason) {
             "a.ply:1048557: no 'end_header' within the first 1 MiB");
 }
 
+TEST(PlyHeader, SaysThatItIsTooLongWhereverALineIsCut) {
+  const std::string line = "property int x\n";
+  std::string lines;
+  while (lines.size() < (1 << 20)) lines += line;
+  for (std::size_t shift = 0; shift < line.size(); ++shift) {
+    const std::string said = message("ply\nformat ascii 1.0\ncomment " + std::string(shift, '-') +
+                                     "\nelement a 0\n" + lines + "end_header\n");
+    EXPECT_TRUE(said.ends_with(": no 'end_header' within the first 1 MiB")) << said;
+  }
+}
+
+// A search of all earlier ones for each took eight seconds.
+TEST(PlyHeader, TakesVeryManyElements) {
+  std::string text = "ply\nformat ascii 1.0\n";
+  for (int i = 0; i < 60000; ++i) text += "element e" + std::to_string(i) + " 0\n";
+  const PlyHeader header = read(text + "end_header\n");
+  ASSERT_EQ(header.elements.size(), 60000u);
+  EXPECT_EQ(header.elements.back().name, "e59999");
+  EXPECT_EQ(header.elements.back().line, 60002u);
+  EXPECT_EQ(message(text + "element e0 0\nend_header\n"), "a.ply:60003: a second element 'e0'");
+}
+
 }  // namespace
 }  // namespace tureen

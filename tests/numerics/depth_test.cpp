@@ -170,8 +170,12 @@ TEST(Numerics, D2_WinnersDoNotDependOnTheNearPlane) {
               winner[i] = face;
             });
     }
-    recorder.add(
-        {.at = gap, .naive = differing(winners[0], winners[1]), .ours = ours, .tolerance = 0});
+    const double naive = differing(winners[0], winners[1]);
+    // A tenth of the catalogue's step of a key at this depth, 1.2e-3 of 10: many layers share one.
+    if (gap < 1.2e-5) {
+      EXPECT_GT(naive, 0) << gap;
+    }
+    recorder.add({.at = gap, .naive = naive, .ours = ours, .tolerance = 0});
   }
 }
 

@@ -122,11 +122,17 @@ TEST(Numerics, O1_RestartedMomentsKick) {
   for (int i = steady_from - averaged; i < steady_from; ++i)
     steady += carried[std::size_t(i)].mean / averaged;
   const double logits = double(state.model.logits.size());
-  for (const int since : {1, 2, 10, 100}) {
+  struct Row {
+    int since;
+    double kick;  // the catalogue's mean step in rates after a restart, of two digits
+  };
+  for (const auto& [since, kick] : {Row{1, 1.00}, Row{2, 0.64}, Row{10, 0.27}, Row{100, 0.18}}) {
     const auto at = std::size_t(steady_from + since - 1);
     // Four standard errors, which chance exceeds once in 16,000 times, of the difference of two
     // means, each of all logits: the steady one, of many steps, is the better known.
     const double standard_error = carried[at].deviation * std::sqrt(2 / logits);
+    EXPECT_NEAR(restarted[at].mean, kick, 0.005 + 4 * restarted[at].deviation / std::sqrt(logits))
+        << since;
     recorder.add({.at = double(since),
                   .naive = std::abs(restarted[at].mean - steady),
                   .ours = std::abs(carried[at].mean - steady),
@@ -140,6 +146,8 @@ TEST(Numerics, O2_GradientsNextToNothingMoveNothing) {
        .parameter = "gradient",
        .unit = "step in rates",
        .naive = "an epsilon of 1e-15"});
+  // The tolerance below is by this epsilon, whatever it is.
+  EXPECT_GE(defaults.epsilon, 1e-8f);
   for (const float gradient : {1e-44f, 1e-30f, 1e-20f, 1e-16f, 1e-14f, 1e-12f}) {
     float value = 0, first = 0, second = 0;
     kernels::adam(step_at(1), gradient, value, first, second);

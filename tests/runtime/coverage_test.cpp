@@ -130,8 +130,9 @@ TEST_P(Coverage, IsTheSameWhateverIsLeftOut) {
   for (std::size_t i = 0; i < generic.pixels.size(); ++i)
     for (int c = 0; c < 3; ++c)
       off += std::abs(int(special.pixels[i][c]) - int(generic.pixels[i][c])) > 1 ? 1 : 0;
-  // A depth or a coverage at the edge of a step may fall to the other side in float.
-  EXPECT_LE(off, generic.pixels.size() / 1000);
+  // A depth or a coverage at the edge of a step may fall to the other side in float: here none did,
+  // nor in the clouds of seeds 2 to 12. Three pixels in all channels for another rasteriser.
+  EXPECT_LE(off, 9u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Everywhere, Coverage, testing::ValuesIn(every_context),

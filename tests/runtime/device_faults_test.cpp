@@ -211,8 +211,9 @@ TEST(OlderDrivers, DrawTheSameWithoutWhatTheyLack) {
   std::size_t other = 0;
   for (std::size_t i = 0; i < whole.pixels.size(); ++i)
     other += whole.pixels[i] != with_less.pixels[i];
-  // 24 fixed bits of depth decide other ties than reversed floats where two triangles cross.
-  EXPECT_LE(other, whole.pixels.size() / 500);
+  // 24 fixed bits of depth decide other ties than reversed floats where two triangles cross: in
+  // none of the 6144 pixels of this cloud, nor of seeds 2 to 12. A few for another Mesa.
+  EXPECT_LE(other, 3u);
 }
 
 TEST(OlderDrivers, TooOldOrNoneAtAllIsToldWithTheVersion) {

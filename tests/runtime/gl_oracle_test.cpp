@@ -243,6 +243,8 @@ TEST(GlOracleSingle, LlvmpipeInterpolatesOverTheUnsnappedTriangle) {
   const auto worst = [&](Attributes attributes) {
     return test::agreement(snapped_oracle(soup, camera, attributes), drawn).worst;
   };
+  // Steps of 8 bits: 0.76 and 22.8 here, below 2 by a factor of 2.6 and above 4 by 5.7. Seeds 2 to
+  // 12 have 0.73 to 1.2 and, but for 3.3 of seed 7, 8.8 to 73.
   EXPECT_LT(worst(Attributes::unsnapped), 2.0 / 255);
   EXPECT_GT(worst(Attributes::snapped), 4.0 / 255);
 }

@@ -334,7 +334,9 @@ TEST_P(Inspections, AlphaShowsAlsoWhatIsCutOut) {
     std::size_t others = 0, cut_out = 0;
     for (std::size_t i = 0; i < faces.size(); ++i)
       others += faces[i] != (hits[i].empty() ? no_face : hits[i].front().face);
-    EXPECT_LE(others, faces.size() / 2000) << "the nearest face, whether it exists there or not";
+    // Depths that float cannot tell apart, vertices that snap otherwise: none, one pixel at most in
+    // 66 other scenes. Three of 30,000 are the rate of H10 (docs/numerics.md).
+    EXPECT_LE(others, faces.size() / 10000) << "the nearest face, whether it exists there or not";
     expect_shown(
         scenery, shown,
         [&](int, int, const Hit& hit) {
@@ -449,7 +451,9 @@ TEST_P(Inspections, WireframesOutlineWholeTriangles) {
     }
   EXPECT_GT(lines, compared / 50);
   EXPECT_LT(lines, compared * 3 / 4);
-  EXPECT_LE(off, compared / 1000) << "seed " << scenery.seed;
+  // What float decides is left out above: no pixel of 25,089 is off, nor of seeds 16 to 26. A few
+  // for a rasteriser that interpolates otherwise.
+  EXPECT_LE(off, 5u) << "seed " << scenery.seed;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Inspections, testing::ValuesIn(every_context),

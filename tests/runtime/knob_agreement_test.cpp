@@ -187,8 +187,9 @@ TEST_P(KnobScale, SamplesAreTheOracles) {
     ASSERT_EQ(faces.size(), oracle.face.size());
     std::size_t other = 0;
     for (std::size_t i = 0; i < faces.size(); ++i) other += faces[i] != oracle.face[i];
-    // 1e-4 of so few samples is none at all; float depths and alphas may flip two.
-    EXPECT_LE(other, 2u + faces.size() / 5000) << scale;
+    // Float depths and alphas may flip a sample: here none does, with seeds 8 to 18 one at most of
+    // 40,136. Three times that for another rasteriser.
+    EXPECT_LE(other, 3u) << scale;
   }
 }
 

@@ -90,7 +90,7 @@ TEST_P(OracleImages, DoNotChangeWhenSceneAndCameraMoveTogether) {
     const Difference change = difference(here, render_oracle(soup_, offset, moved));
     EXPECT_EQ(change.faces, 0u) << "2^" << k;
     // The camera's translation is rounded at 2^20 * 2^-53 = 1e-10; textures of a face seen
-    // edge-on magnify that.
+    // edge-on magnify that, to 2.4e-7 here and 2.4e-6 at most with 11 other seeds: a quarter.
     EXPECT_LT(change.largest, 1e-5) << "2^" << k;
   }
 }
@@ -105,9 +105,11 @@ TEST_P(OracleImages, DoNotChangeWithTheSceneScaled) {
     const Difference change = difference(here, render_oracle(scaled, no_origin, far));
     const bool exact = std::abs(std::frexp(scale, std::array<int, 1>{}.data())) == 0.5f;
     // By a power of two nothing rounds. Otherwise vertices move by 6e-8 of themselves, 1e-5 pixel:
-    // hardly a centre changes sides.
-    EXPECT_LE(change.faces, exact ? 0u : 2u) << scale;
-    EXPECT_LE(change.largest, exact ? 0.0 : 1e-3) << scale;
+    // no centre changes sides, nor does one with 11 other seeds. Colours change by 2.3e-5 at most,
+    // of a lattice, and the budget is four times that; two of 11 other seeds exceed it, by up
+    // to 6.6e-4.
+    EXPECT_EQ(change.faces, 0u) << scale;
+    EXPECT_LE(change.largest, exact ? 0.0 : 1e-4) << scale;
   }
 }
 
@@ -195,7 +197,8 @@ TEST(OracleImage, CoincidentFacesAreWonByTheLowerIndex) {
   }
 }
 
-// Snapping moves edges by at most 1/512 pixel: few centres change sides.
+// Snapping moves edges by at most 1/512 pixel: few centres change sides, 2 of 19,200 here and 5 at
+// most with 11 other seeds. The budget is three times that.
 TEST(OracleImage, SnappedCoverageStaysCloseToExact) {
   const TriangleSoup soup = test::random_soup(51, {.faces = 200, .size = 0.3});
   test::Random random(52);
@@ -204,7 +207,7 @@ TEST(OracleImage, SnappedCoverageStaysCloseToExact) {
   const OracleImage snapped =
       render_oracle(soup, no_origin, camera, {.rays = {.coverage = Coverage::snapped}});
   const Difference change = difference(exact, snapped);
-  EXPECT_LT(change.faces, exact.face.size() / 100);
+  EXPECT_LE(change.faces, 15u);
   EXPECT_EQ(change.largest, 0.0);  // face colours are constant
 }
 

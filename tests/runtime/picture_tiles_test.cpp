@@ -200,8 +200,9 @@ TEST(PictureTiles, APictureBeyondTheDeviceShowsWhatTheOracleSees) {
     covered += expected.pixels[i] != glm::u8vec4(0, 0, 0, 255);
   }
   EXPECT_GT(covered, expected.pixels.size() / 20);
-  // Edges whose corners snap otherwise: a row of 21,384 pixels crosses some hundred of them.
-  EXPECT_LE(off, expected.pixels.size() / 2000);
+  // None, nor with seeds 5 to 15. The rows cross edges 159 times in all; the coarsest grid that GL
+  // allows, 1/16 pixel, would move each by up to 1/32 pixel: past five centres.
+  EXPECT_LE(off, 5u);
 }
 
 TEST(PictureTiles, AResolutionScaleIsRefused) {

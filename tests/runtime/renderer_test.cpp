@@ -68,11 +68,20 @@ TEST(Renderer, ASoupFarFromTheOriginLooksTheSame) {
     moved.view_from_world[3] =
         glm::dvec4(glm::dmat3(camera.view_from_world) * -(camera.eye() + offset), 1.0);
     const Image8 image = draw(context, soup, offset, moved);
-    std::size_t off = 0;
-    for (std::size_t i = 0; i < image.pixels.size(); ++i)
-      off += image.pixels[i] != expected.pixels[i] ? 1 : 0;
-    // The camera's matrix is good to 2^-53 of the offset: 2^-25 units, 1e-5 pixels at 2^28.
-    EXPECT_LE(off, image.pixels.size() / 1000) << "2^" << exponent;
+    std::size_t off = 0, off_by_more = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+      const glm::ivec4 difference =
+          abs(glm::ivec4(image.pixels[i]) - glm::ivec4(expected.pixels[i]));
+      const int largest = std::max({difference.r, difference.g, difference.b, difference.a});
+      off += largest > 0;
+      off_by_more += largest > 1;
+    }
+    // The camera's matrix is good to 2^-53 of the offset: 2^-25 units, 1e-5 pixels at 2^28. That
+    // rounds some colours to the next step: at 2^28 of 50 pixels, of 20 to 66 with seeds 6 to 16,
+    // for which one in a thousand, 76, has little to spare; at 2^22 of none, of 3 at most.
+    EXPECT_LE(off, exponent == 28 ? image.pixels.size() / 1000 : 9u) << "2^" << exponent;
+    // An edge or an alpha that falls to the other side: none, with other seeds one at most.
+    EXPECT_LE(off_by_more, 3u) << "2^" << exponent;
   }
 }
 

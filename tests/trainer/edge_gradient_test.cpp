@@ -171,20 +171,23 @@ const Corners wall = {glm::dvec3(-30, -30, -10), glm::dvec3(30, -30, -10), glm::
 const Corners tilted = {glm::dvec3(-1.1, -0.9, -2.0), glm::dvec3(1.2, -0.6, -2.6),
                         glm::dvec3(0.1, 1.0, -1.8)};
 
+// Where a pair of neighbours passes over a corner of the triangle it sees one edge instead of two:
+// some tenths of a pixel of edges of about 80. The mean over 300 grids is off by 2.7e-4 of the
+// derivative at most, over these tests, all motions and 8 seeds of the grids. The budget is 3.7
+// times that.
+constexpr int phases = 300;
+constexpr double most_error = 1e-3;
+
 // The gathered gradient against the derivative of a loss by each motion.
 void expect_derivatives(const Corners& gathered, const Corners& corners,
                         const std::function<double(const Corners&)>& loss) {
   for (const Motion& motion : motions()) {
     const Corners velocity = motion.velocity(corners);
     const double expected = derivative(corners, velocity, loss);
-    EXPECT_NEAR(along(gathered, velocity), expected, 0.01 * std::abs(expected)) << motion.name;
+    EXPECT_NEAR(along(gathered, velocity), expected, most_error * std::abs(expected))
+        << motion.name;
   }
 }
-
-// Where a pair of neighbours passes over a corner of the triangle it sees one edge instead of two:
-// some tenths of a pixel of edges of about 80. The mean over 300 grids has a standard error below
-// 0.3 %. So 1 % of the derivative.
-constexpr int phases = 300;
 
 TEST(EdgeGradient, AnEdgeOverTheBackgroundIsThatOfTheArea) {
   test::Faces faces(floats({tilted}));
@@ -238,11 +241,12 @@ TEST(EdgeGradient, ATexturedTriangleTakesItsTextureAlong) {
       const double by_y = (dv * u.x - du * v.x) / determinant;
       return covered(after, {a - by_x * after[0].x - by_y * after[0].y - background, by_x, by_y});
     });
-    // Edges and texture pull against each other: 1 % of what the corners' gradients could do.
+    // Edges and texture pull against each other: a part of what the corners' gradients could do, of
+    // which 7.7e-5 are measured at most, over 8 seeds of the grids. The budget is 6 times that.
     double scale = 0;
     for (std::size_t k = 0; k < 3; ++k)
       scale += glm::length(gradient[0][k]) * glm::length(velocity[k]);
-    EXPECT_NEAR(along(gradient[0], velocity), expected, 0.01 * scale) << motion.name;
+    EXPECT_NEAR(along(gradient[0], velocity), expected, 5e-4 * scale) << motion.name;
   }
 }
 
@@ -336,7 +340,8 @@ TEST_P(IntersectionAt, MovesAsTheFacesDo) {
         derivative(crossing.b, by_b, [&](const Corners& moved) { return loss(crossing.a, moved); });
     // What the motion along the depth alone does is the scale where a motion does little. Of 160
     // pixels the line crosses the last one on each side has no neighbour to half: 0.6 % beside the
-    // sampling error.
+    // sampling error. Both together are 0.48 % at most, at 45 degrees, over 8 seeds of the grids:
+    // the budget is three times that.
     const double scale =
         std::abs(derivative(crossing.a, motions()[2].velocity(crossing.a),
                             [&](const Corners& moved) { return loss(moved, crossing.b); }));

@@ -1,10 +1,19 @@
-// A window whose device is reset: it ends with that error, and what people would miss is kept. The
-// display is that of window_test.cpp's environment, the reset a function in the driver's place.
+// A window whose device is reset ends with that error, and what people would miss is kept; one
+// whose device has too little memory says so and goes on. The display is that of window_test.cpp's
+// environment, what the device lacks a function in the driver's place.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <utility>
 
+#include "cli/child.hpp"
+#include "formats/input.hpp"
+#include "formats/output.hpp"
+#include "formats/png.hpp"
 #include "runtime/gl/api.hpp"
 #include "soup/error.hpp"
 #include "viewer/application.hpp"
@@ -13,7 +22,9 @@ namespace tureen::viewer {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::StartsWith;
 using testing::ThrowsMessage;
 
 GLenum GLAD_API_PTR tell_of_reset() { return GL_INNOCENT_CONTEXT_RESET; }
@@ -70,6 +81,148 @@ TEST_F(LostDevice, IsToldAlsoWhereNothingCanBeKept) {
   EXPECT_THAT([&] { application.run(); },
               ThrowsMessage<ContextError>(HasSubstr("the graphics device was reset")));
   EXPECT_EQ(read_settings(folder / "viewer.json").window, glm::ivec2(480, 320));
+}
+
+// -- Too little memory for a picture --------------------------------------------------------------
+
+/// The longest side of a target that the device has memory for: enough for 400 x 300 with four
+/// samples a pixel and for 600 x 450 with one, not with four.
+constexpr int most_pixels_a_side = 900;
+
+constexpr const char* no_picture =
+    "The picture cannot be drawn: the device has no memory for the targets of a picture of this "
+    "size";
+
+PFNGLCHECKFRAMEBUFFERSTATUSPROC own_status = nullptr;  // the driver's
+
+GLenum GLAD_API_PTR refuse_large_targets(GLenum target) {
+  GLint texture = 0, bound = 0, width = 0, height = 0;
+  glGetFramebufferAttachmentParameteriv(target, GL_COLOR_ATTACHMENT0,
+                                        GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME, &texture);
+  glGetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
+  glBindTexture(GL_TEXTURE_2D, GLuint(texture));
+  glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &width);
+  glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_HEIGHT, &height);
+  glBindTexture(GL_TEXTURE_2D, GLuint(bound));
+  return std::max(width, height) > most_pixels_a_side ? GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT
+                                                      : own_status(target);
+}
+
+class SmallDevice : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+  }
+  void TearDown() override {
+    if (own_status) glad_glCheckFramebufferStatus = std::exchange(own_status, nullptr);
+  }
+
+  /// The example from its first camera, without panels.
+  ApplicationOptions options(glm::ivec2 window) {
+    ApplicationOptions options;
+    options.scene = fs::path(TUREEN_SOURCE_DIR) / "examples/soup.glb";
+    options.pictures = folder;
+    session = {.window = window, .events = {}};
+    wait();
+    press(Key::h);
+    press(Key::right_bracket);
+    return options;
+  }
+  void add(Event event) {
+    const double before = session.events.empty() ? 0 : session.events.back().seconds;
+    session.events.push_back({before + 0.02, std::move(event)});
+  }
+  void wait() { add(AwaitRest{}); }
+  void press(Key key) {
+    add(KeyChanged{key, true});
+    add(KeyChanged{key, false});
+  }
+  /// A picture of the window, once all is at rest.
+  void look(const std::string& name) {
+    wait();
+    add(WindowPictured{name + ".png"});
+  }
+
+  /// Runs the session on a device that has less; returns the errors that are shown at its end.
+  std::vector<std::string> run(ApplicationOptions options) {
+    options.replay = session;
+    Application application(options);
+    own_status = std::exchange(glad_glCheckFramebufferStatus, refuse_large_targets);
+    application.run();
+    return application.errors();
+  }
+
+  /// Of the window's lower half: messages lie in the upper one.
+  void expect_same_picture(const std::string& name, const std::string& expected_name) const {
+    const auto lower_half = [&](const std::string& each) {
+      Input input = Input::open(folder / (each + ".png"));
+      const Image8 image = read_image(input);
+      return std::vector(image.pixels.begin() + image.height / 2 * image.width, image.pixels.end());
+    };
+    const std::vector<glm::u8vec4> actual = lower_half(name), expected = lower_half(expected_name);
+    ASSERT_EQ(actual.size(), expected.size());
+    std::size_t off = 0, scene = 0;
+    for (std::size_t i = 0; i < actual.size(); ++i) {
+      off += actual[i] != expected[i];
+      scene += expected[i] != expected.front();
+    }
+    EXPECT_EQ(off, 0u) << "pixels of " << actual.size();
+    // The example fills more than a third of it from where it is seen here.
+    EXPECT_GT(scene, actual.size() / 4) << "pixels that are not empty";
+  }
+
+  const fs::path folder = fs::path(testing::TempDir()) / "small_device" /
+                          testing::UnitTest::GetInstance()->current_test_info()->name();
+  Session session;
+};
+
+TEST_F(SmallDevice, DrawsOneSampleAPixelWhereMoreDoNotFit) {
+  ApplicationOptions supersampled = options({400, 300});
+  supersampled.drawing.supersampling = 2;
+  look("small");
+  add(Resized{600, 450});
+  look("large");
+  EXPECT_THAT(run(supersampled), ElementsAre(StartsWith(no_picture)));
+  const std::string scene = supersampled.scene.string();
+  const test::ChildResult plain = test::Child({"render", scene, "--camera", scene + ":0", "--size",
+                                               "600x450", "-o", "plain.png"},
+                                              folder, TUREEN_HEADLESS_PROGRAM)
+                                      .wait();
+  ASSERT_EQ(plain.exit_code, 0) << plain.err;
+  expect_same_picture("large", "plain");
+}
+
+TEST_F(SmallDevice, ShowsThePictureAgainInAWindowThatIsSmallAgain) {
+  const ApplicationOptions resized = options({400, 300});
+  look("before");
+  add(Resized{1000, 500});
+  wait();
+  add(Resized{400, 300});
+  look("after");
+  EXPECT_THAT(run(resized), ElementsAre(StartsWith(no_picture)));
+  expect_same_picture("after", "before");
+}
+
+TEST_F(SmallDevice, PutsAPhotographThatIsTooLargeAsideAndShowsThePicture) {
+  // A photograph larger than the device draws; it would be shown as it is, plainly green.
+  constexpr int width = 1000, height = 500;
+  fs::create_directory(folder / "photographs");
+  write_file(folder / "photographs/green.png",
+             encode_png(Image8(width, height, glm::u8vec4(0, 255, 0, 255))));
+  const nlohmann::json pose{{1, 0, 0, 0}, {0, 0, -1, -6}, {0, 1, 0, 1}, {0, 0, 0, 1}};
+  const nlohmann::json frame{{"file_path", "green.png"}, {"transform_matrix", pose}};
+  std::ofstream(folder / "photographs/transforms.json") << nlohmann::json{
+      {"fl_x", width}, {"fl_y", width}, {"cx", width / 2},         {"cy", height / 2},
+      {"w", width},    {"h", height},   {"frames", {frame, frame}}};
+  ApplicationOptions compared = options({600, 450});
+  compared.dataset = folder / "photographs";
+  look("before");
+  press(Key::c);
+  look("after");
+  EXPECT_THAT(run(compared), ElementsAre(StartsWith("The photograph cannot be compared: the device "
+                                                    "has no memory for the targets")));
+  expect_same_picture("after", "before");
 }
 
 }  // namespace
