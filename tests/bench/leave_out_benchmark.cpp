@@ -4,6 +4,7 @@
 // timed by the processor time of all its threads, which other programs hardly disturb.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -12,7 +13,6 @@
 #include "runtime/benchmark.hpp"
 #include "runtime/navigation.hpp"
 #include "runtime/renderer.hpp"
-#include "soup/error.hpp"
 #include "support/cutout_cloud.hpp"
 #include "support/trait_soups.hpp"
 
@@ -131,12 +131,8 @@ void measure_scene(const gl::Context& context, const Settings& settings,
     compare(context, settings, "all of them", name, soup, cameras, {.specialise = false});
 }
 
-}  // namespace
-}  // namespace tureen::test
-
-int main(int argc, char** argv) {
-  using namespace tureen;
-  test::Settings settings;
+int run(int argc, char** argv) {
+  Settings settings;
   CLI::App app("What each thing that a plan leaves out gains.");
   app.add_option("scenes", settings.scenes, "real scenes to measure, too");
   app.add_option("--rounds", settings.rounds, "how often the eight views are gone through");
@@ -145,18 +141,26 @@ int main(int argc, char** argv) {
   app.add_option("--width", settings.width);
   app.add_option("--height", settings.height);
   CLI11_PARSE(app, argc, argv);
+  const gl::Context context = gl::Context::create({});
+  std::printf("%s, %d x %d, %s\n\n", context.capabilities().renderer.c_str(), settings.width,
+              settings.height,
+              context.capabilities().software ? "processor time" : "time by the wall");
+  std::puts(
+      "| left out | scene | kept ms | left out ms | times | spread | gains | kept MiB | left out "
+      "MiB |");
+  std::puts("|---|---|---|---|---|---|---|---|---|");
+  if (!settings.real_scenes_only) measure_traits(context, settings);
+  for (const auto& path : settings.scenes) measure_scene(context, settings, path);
+  return 0;
+}
+
+}  // namespace
+}  // namespace tureen::test
+
+int main(int argc, char** argv) {
   try {
-    const gl::Context context = gl::Context::create({});
-    std::printf("%s, %d x %d, %s\n\n", context.capabilities().renderer.c_str(), settings.width,
-                settings.height,
-                context.capabilities().software ? "processor time" : "time by the wall");
-    std::puts(
-        "| left out | scene | kept ms | left out ms | times | spread | gains | kept MiB | left out "
-        "MiB |");
-    std::puts("|---|---|---|---|---|---|---|---|---|");
-    if (!settings.real_scenes_only) test::measure_traits(context, settings);
-    for (const auto& path : settings.scenes) test::measure_scene(context, settings, path);
-  } catch (const Error& error) {
+    return tureen::test::run(argc, argv);
+  } catch (const std::exception& error) {
     std::fprintf(stderr, "leave_out_benchmark: %s\n", error.what());
     return 1;
   }
