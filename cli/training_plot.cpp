@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "cli/html_page.hpp"
 #include "cli/plot_axis.hpp"
@@ -25,7 +26,8 @@ struct Box {
   double left, top, width, height;
 };
 
-constexpr double picture_width = 960;  // as in training_plot_beginning
+constexpr double picture_width = 960;
+static_assert(std::string_view(training_plot_beginning).ends_with(" 960 "));
 constexpr double panel_height = 290;
 constexpr double legend_row = 22;
 constexpr Box loss_box{64, 52, 382, panel_height};

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cli/figures.hpp"
+#include "cli/gnuplot.hpp"
 #include "cli/html_page.hpp"
+#include "cli/plot_axis.hpp"
 #include "cli/report.hpp"
 #include "formats/output.hpp"
 
@@ -46,6 +49,7 @@ std::string device_of(const Growth& growth) {
 cli::Plot series_plot(const Growth& growth, const Axis& axis) {
   std::string data, plots;
   int color = 0;
+  double low = std::numeric_limits<double>::infinity(), high = 0;  // milliseconds
   for (const char* kind : kinds) {
     ++color;
     std::vector<std::vector<double>> measured, model;
@@ -54,8 +58,10 @@ cli::Plot series_plot(const Growth& growth, const Axis& axis) {
       if (point->series != axis.series) continue;
       measured.push_back({axis.value(*point), point->sample.ms, point->sample.ms,
                           std::max(point->p95_ms, point->sample.ms)});
-      if (fit != growth.fits.end())
-        model.push_back({axis.value(*point), fit->second.predict(point->sample)});
+      low = std::min(low, point->sample.ms);
+      high = std::max({high, point->sample.ms, point->p95_ms});
+      if (fit == growth.fits.end()) continue;
+      model.push_back({axis.value(*point), fit->second.predict(point->sample)});
     }
     if (measured.empty()) continue;
     data += cli::plot_data(fmt::format("measured{}", color), measured);
@@ -69,7 +75,9 @@ cli::Plot series_plot(const Growth& growth, const Axis& axis) {
   return {
       .title = fmt::format("Frame time against {}", axis.series),
       .script =
-          data + "set logscale xy\nset key top left\nset ylabel 'ms a frame'\nset xlabel " +
+          data + "set logscale xy\nset key top left\nset ylabel 'ms a frame'\n" +
+          // Less than a decade may have none of gnuplot's own ticks.
+          cli::plot_ticks('y', cli::PlotAxis::logarithmic(low, high, 8)) + "set xlabel " +
           cli::plot_text(axis.label) +
           "\nset autoscale fix\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\nplot " +
           plots};

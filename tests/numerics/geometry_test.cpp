@@ -20,7 +20,6 @@
 #include "soup/lint.hpp"
 #include "support/agreement.hpp"
 #include "support/random.hpp"
-#include "support/shader_probe.hpp"
 #include "trainer/backend.hpp"
 #include "trainer/cuda/device_picture.hpp"
 #include "trainer/kernels/fragments.hpp"
@@ -109,39 +108,6 @@ TEST(Numerics, G1_FacesWithoutAreaShowNothing) {
         naive += changed;
       }
     recorder.add({.at = size, .naive = double(naive), .ours = ours, .tolerance = 0});
-  }
-}
-
-TEST(Numerics, G1b_NeedlesHaveANormal) {
-  Recorder recorder({.stressed = "the normal of needles whose edges have a product of 0 in floats, "
-                                 "though not exactly: face_corners.glsl",
-                     .parameter = "the edges' slope",
-                     .unit = "the length's difference from 1",
-                     .naive = "the product divided by its length",
-                     .naive_fails_from = 0.1});
-  const Probe probe(shared_context().capabilities().api,
-                    "#include \"face_corners.glsl\"\n"
-                    "vec4 probe(vec4 x) { return vec4(unit_normal(vec3(1.0, x.x, 0.0), "
-                    "vec3(x.y, x.z, 0.0)), 0.0); }",
-                    {{"TEXEL_ROW_BITS", "4"}, {"TEXEL_LAYER_BITS", "4"}});
-  Random random(12);
-  for (const float slope : {0.1f, 0.3f, 0.7f, 0.9f}) {
-    std::vector<glm::vec4> needles;
-    double naive = infinity;
-    while (needles.size() < 100) {
-      const auto along = float(random.uniform(0.3, 0.9));
-      const float across = slope * along;
-      if (double(across) == double(slope) * double(along)) continue;  // without area in truth, too
-      needles.emplace_back(slope, along, across, 0);
-      const double length =
-          glm::length(glm::normalize(glm::cross(glm::vec3(1, slope, 0), {along, across, 0})));
-      naive = std::min(naive, worse(std::abs(length - 1), 0));
-    }
-    double ours = 0;
-    for (const glm::vec4& normal : probe.run(needles))
-      ours = worse(ours, std::abs(glm::length(glm::dvec3(normal)) - 1));
-    // As V1c, of a device that makes another number than 0 of the product, by one rounding of two.
-    recorder.add({.at = slope, .naive = naive, .ours = ours, .tolerance = (3 * 0.5 + 3) * epsilon});
   }
 }
 
