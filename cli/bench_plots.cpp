@@ -160,8 +160,15 @@ std::vector<Figure> ratio_bars(const BenchResult& result) {
   }
   if (lines.empty()) return {};
   std::string labels;
-  for (std::size_t i = 0; i < places.size(); ++i)
+  std::size_t longest = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
     labels += fmt::format("{}{} {}", i ? ", " : "", plot_text(places[i]), i);
+    longest = std::max(longest, places[i].size());
+  }
+  // Rotated by 30 degrees a label reaches 0.87 of its length to the left of its bars. Room for all
+  // of it, as if the bars stood at the axis; never less than the axis' own numbers and name take,
+  // and with names that no plot has room for a quarter of the width.
+  const std::size_t margin = std::clamp<std::size_t>(longest * 87 / 100 + 1, 10, 30);
   const std::string title = fmt::format("{}: times as fast as '{}'", result.scene.name, reference);
   return {{plot_identifier("ratios"),
            fmt::format("How many times as fast as '{}', cameras and sizes side by side. {}.",
@@ -175,7 +182,7 @@ std::vector<Figure> ratio_bars(const BenchResult& result) {
                          "set arrow from graph 0, first 1 to graph 1, first 1 nohead "
                          "linecolor rgb '#636c76' front\n"
                          "set xrange [-0.6:" +
-                         fmt::format("{}", double(places.size()) - 0.4) + "]\n"),
+                         fmt::format("{}]\nset lmargin {}\n", double(places.size()) - 0.4, margin)),
             960, 520}}};
 }
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -175,6 +176,21 @@ TEST(BenchPlots, NameTheAdversarialViewsAndNumberOthers) {
   const std::string script = bench_plots(made)[1].plot.script;
   EXPECT_THAT(script, HasSubstr(R"(("inside" 0, "far" 1, "grazing" 2, "most overdraw" 3))"));
   EXPECT_THAT(script, Not(HasSubstr("set xlabel 'view'")));
+}
+
+/// Of the first label that is rotated: letters of 13 pixels are about half as wide.
+TEST(BenchPlots, RatiosHaveRoomForTheirLabels) {
+  BenchResult made = result();
+  for (BenchMeasurement& m : made.measurements) m.camera_set = "hemisphere:16";
+  const std::vector<Figure> plots = bench_plots(made);
+  ASSERT_EQ(plots.back().file, "ratios");
+  const auto svg = draw_plot(plots.back().plot, PlotFormat::svg);
+  if (!svg) GTEST_SKIP() << "no gnuplot";
+  std::smatch label;
+  ASSERT_TRUE(std::regex_search(*svg, label,
+                                std::regex(R"re(translate\(([0-9.]+),[0-9.]+\) rotate\(-30\))re")));
+  const double letters = double(std::string("hemisphere:16 1280x720").size());
+  EXPECT_GT(std::stod(label[1]), 0.87 * 0.5 * 13 * letters);
 }
 
 TEST(BenchPlots, OneViewAndOneConfigurationNeedFewer) {
