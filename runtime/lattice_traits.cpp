@@ -88,22 +88,28 @@ LatticeTraits measure(const LatticeTexture& texture, std::span<const std::uint32
                     texture.texels);
 }
 
-double color_gain(const LatticeTexture& texture) {
-  if (!texture.mlp) return 1.0;
-  const ColorMlp& mlp = *texture.mlp;
+double network_gain(const ColorMlp& mlp, int first, int end) {
   double gain = 0.25;
   for (const DenseLayer& layer : mlp.layers) {
+    const bool of_features = &layer == &mlp.layers.front();
+    const int begin = of_features ? first : 0;
+    const int columns = of_features ? std::min(end, mlp.feature_count()) : layer.inputs;
     double largest = 0;
-    // Of the first layer only the feature columns matter: the direction does not change.
-    const int columns = &layer == &mlp.layers.front() ? mlp.feature_count() : layer.inputs;
     for (int o = 0; o < layer.outputs; ++o) {
       double sum = 0;
-      for (int i = 0; i < columns; ++i)
+      for (int i = begin; i < columns; ++i)
         sum += std::abs(double(layer.weights[std::size_t(o) * layer.inputs + i]));
       largest = std::max(largest, sum);
     }
     gain *= largest;
   }
+  return gain;
+}
+
+double color_gain(const LatticeTexture& texture) {
+  if (!texture.mlp) return 1.0;
+  const ColorMlp& mlp = *texture.mlp;
+  const double gain = network_gain(mlp, 0, mlp.feature_count());
   // (1 - r) base + r mlp: base moves by one, mlp by its gain, r by the difference of the two <= 1.
   return mlp.blend_channel ? std::max(1.0, gain) + 1.0 : gain;
 }

@@ -26,9 +26,13 @@ struct LatticeTraits {
 /// Looks at `faces` of a soup with this texture. O(texels).
 LatticeTraits measure(const LatticeTexture& texture, std::span<const std::uint32_t> faces);
 
-/// How much a change of the features by one can change the colour: an upper bound (the product of
-/// the layers' largest absolute row sums, the sigmoid's slope 1/4, and the blend). 1 without an
-/// MLP.
+/// How much a change by one of the features `first` .. `end` - 1 (those that it has no input for
+/// count nothing) can change what the network predicts, not yet blended: an upper bound (the
+/// product of the layers' largest absolute row sums and the sigmoid's slope 1/4).
+double network_gain(const ColorMlp& mlp, int first, int end);
+
+/// How much a change of the features by one can change the colour: an upper bound (the network's
+/// gain and the blend). 1 without an MLP.
 double color_gain(const LatticeTexture& texture);
 
 }  // namespace tureen

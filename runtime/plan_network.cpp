@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/lattice_traits.hpp"
 #include "runtime/plan_draft.hpp"
 #include "runtime/view_dependence.hpp"
 
@@ -32,16 +33,20 @@ void keep_reading(FeatureRange& range) {
   if (range.low == range.high) range.low = std::nextafter(range.low, -1.0f);
 }
 
-/// Where the network takes over altogether, the base colour need not be blended in.
+/// Where the network takes over altogether, the base colour need not be blended in. The blend
+/// channel then counts as 1 in the network's inputs, too: (1 - r) base + r mlp(r) becomes mlp(1),
+/// which moves a colour by at most 1 - r and by what 1 - r moves the network.
 void leave_out_base_color(PlanDraft& draft, const ColorMlp& mlp, FeatureRanges& ranges) {
   if (!mlp.blend_channel) return;
-  FeatureRange& range = ranges[std::size_t(*mlp.blend_channel)];
-  const bool replaces = range.low >= 1.0f - half_step && range.high <= 1.0f + half_step;
-  if (!replaces || !draft.may(LeaveOut::base_color)) return keep_reading(range);
+  const int channel = *mlp.blend_channel;
+  FeatureRange& range = ranges[std::size_t(channel)];
+  const double from_one = std::max(std::abs(1.0 - range.low), std::abs(1.0 - range.high));
+  const double moves = from_one * (1.0 + network_gain(mlp, channel, channel + 1));
+  if (!(moves <= double(half_step)) || !draft.may(LeaveOut::base_color)) return keep_reading(range);
   draft.leave_out(LeaveOut::base_color,
                   formatted("blending with the base colour, the blend channel is never below %.5f "
-                            "(1 - 1/510 = 0.99804 allowed)",
-                            double(range.low)));
+                            "and that moves no colour by more than %.5f (1/510 = 0.00196 allowed)",
+                            double(range.low), moves));
   range = {1.0f, 1.0f};
 }
 
