@@ -82,7 +82,7 @@ void add_measurements(BenchResult& result, std::vector<BenchMeasurement> measure
 BenchResult run(const Options& options) {
   BenchResult result;
   result.date = utc_now();
-  result.program = {program_version(), program_commit(), options.arguments};
+  result.program = {program_version(), program_commit(), options.arguments, program_build()};
   result.machine = this_machine();
   result.protocol.rounds = options.rounds;
 
@@ -100,6 +100,7 @@ BenchResult run(const Options& options) {
   const gl::Context context = gl::Context::create({.backend = options.contestants.drawing.backend});
   throw_if_interrupted();
   result.device = device_of(context);
+  result.machine.rasteriser_threads = rasteriser_threads_of(result.device.renderer);
   const std::function<double()> clock = choose_clock(options, result);
   const Contestants contestants = make_contestants(options.contestants, context, scene);
   result.notes.insert(result.notes.end(), contestants.notes.begin(), contestants.notes.end());
@@ -109,6 +110,7 @@ BenchResult run(const Options& options) {
                                     .most_seconds = options.seconds,
                                     .clock = clock,
                                     .folder = options.reports.folder}));
+  if (const double peak = peak_mib(); peak > 0) result.peak_mib = peak;
   for (const auto& contestant : contestants.list) {
     contestant->tell_plan();
     result.configurations.push_back(contestant->configuration);
@@ -120,6 +122,9 @@ BenchResult run(const Options& options) {
 void check_arguments(const CLI::App& command, const Options& options) {
   if (options.imports.empty()) {
     if (options.scene.path.empty()) throw UsageError("SCENE is required, or --import");
+    if (options.reports.fail_slower && options.rounds < least_rounds)
+      throw UsageError(fmt::format(
+          "--fail-slower wants {} rounds: of fewer nobody knows the spread", least_rounds));
     return;
   }
   require_no_measuring(command, {"--import", "--output", "--csv", "--plots", "--against",
@@ -154,8 +159,10 @@ void add_bench(CLI::App& program, Action& action, std::vector<std::string> argum
       R"(The plan, our pipeline with nothing left out and the published pipeline (where it can draw the
 scene) take turns frame by frame, each warmed up until its times are stable, each frame ended when
 the device has finished; first of all the plan is held against itself (A/A). "best ms" is the
-smallest of the rounds' medians, which ratios are taken of; what differs by less than twice the A/A
-spread is called equal. Loading is told apart.
+smallest of the rounds' medians, which ratios are taken of; what differs by less than twice the
+spread, the largest of the A/A spread and of those of its rounds, is called equal, and of fewer than
+3 rounds no difference is claimed. The 99th percentile and the 1 % low want 100 samples (a view in a
+round each). Loading is told apart.
 
 Examples:
   tureen bench soup.glb                                   eight views from above at 1280x720

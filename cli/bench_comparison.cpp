@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "cli/bench_words.hpp"
+
 namespace tureen::cli {
 
 namespace {
@@ -32,10 +34,10 @@ BenchRatio ratio_of(const BenchMeasurement& now, const BenchMeasurement& then) {
                     .then_ms = then.frame_ms.min_of_medians,
                     .now_ms = now.frame_ms.min_of_medians};
   result.ratio = result.then_ms > 0 ? result.now_ms / result.then_ms : 1;
-  result.spread =
-      std::max({now.aa_spread, then.aa_spread, now.frame_ms.spread, then.frame_ms.spread});
-  result.differs =
-      result.now_ms != result.then_ms && differ(result.now_ms, result.then_ms, result.spread);
+  const double aa_spread = std::max(now.aa_spread, then.aa_spread);
+  result.spread = spread_between(now.frame_ms, then.frame_ms, aa_spread);
+  result.verdict = verdict_on(now.frame_ms, then.frame_ms, aa_spread);
+  result.rounds = std::min(now.frame_ms.rounds, then.frame_ms.rounds);
   result.same_pixels = now.pixels_hash == then.pixels_hash;
   return result;
 }
@@ -59,6 +61,11 @@ std::vector<std::string> circumstances_of(const BenchResult& now, const BenchRes
   compare("another machine", machine(now), machine(then));
   compare("another driver", driver(now), driver(then));
   compare("another context", now.device.context, then.device.context);
+  if (now.machine.rasteriser_threads && then.machine.rasteriser_threads)
+    compare("another number of rasteriser threads", std::to_string(*now.machine.rasteriser_threads),
+            std::to_string(*then.machine.rasteriser_threads));
+  if (!now.program.build.empty() && !then.program.build.empty())
+    compare("another build", now.program.build, then.program.build);
   compare("another commit", now.program.commit, then.program.commit);
   compare("another clock", now.protocol.clock, then.protocol.clock);
   return result;
@@ -82,12 +89,9 @@ BenchComparison compare_benches(const BenchResult& now, const BenchResult& then)
 std::vector<BenchRatio> slower_than(const BenchComparison& comparison, double percent) {
   std::vector<BenchRatio> result;
   for (const BenchRatio& ratio : comparison.ratios)
-    if (ratio.differs && ratio.ratio > 1 + percent / 100) result.push_back(ratio);
+    if (ratio.verdict == Verdict::slower && ratio.ratio > 1 + percent / 100)
+      result.push_back(ratio);
   return result;
-}
-
-const char* verdict(const BenchRatio& ratio) {
-  return !ratio.differs ? "equal" : ratio.ratio > 1 ? "slower" : "faster";
 }
 
 std::vector<std::string> comparison_lines(const BenchComparison& comparison) {
@@ -100,9 +104,11 @@ std::vector<std::string> comparison_lines(const BenchComparison& comparison) {
     name_width = std::max(name_width, name(ratio).size());
   for (const BenchRatio& ratio : comparison.ratios)
     lines.push_back(fmt::format(
-        "{:<{}}  {:9.3f} ms then, {:9.3f} ms now, {:.3f} times as long: {} (spread {:.1f} %){}",
-        name(ratio), name_width, ratio.then_ms, ratio.now_ms, ratio.ratio, verdict(ratio),
-        100 * ratio.spread, ratio.same_pixels ? "" : "; another picture"));
+        "{:<{}}  {:9.3f} ms then, {:9.3f} ms now, {:.3f} times as long: {} ({}){}", name(ratio),
+        name_width, ratio.then_ms, ratio.now_ms, ratio.ratio,
+        verdict_text(ratio.verdict, ratio.rounds),
+        ratio.spread ? fmt::format("spread {:.1f} %", 100 * *ratio.spread) : "too few for a spread",
+        ratio.same_pixels ? "" : "; another picture"));
   lines.insert(lines.end(), comparison.circumstances.begin(), comparison.circumstances.end());
   lines.insert(lines.end(), comparison.unmatched.begin(), comparison.unmatched.end());
   return lines;

@@ -2,7 +2,7 @@
 // be compared at all.
 #pragma once
 
-#include <span>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,18 +13,18 @@ namespace tureen::cli {
 /// What both results measured: one configuration with one set of cameras at one size.
 struct BenchRatio {
   std::string configuration, camera_set, size;
-  double then_ms = 0, now_ms = 0;  // min_of_medians
-  double ratio = 1;                // now / then: above 1 is slower
-  /// What the same thing measured twice may differ by: the largest of the A/A spreads and of the
-  /// spreads of the rounds, of both results.
-  double spread = 0;
-  bool differs = false;      // by twice the spread at least
+  double then_ms = 0, now_ms = 0;     // min_of_medians
+  double ratio = 1;                   // now / then: above 1 is slower
+  std::optional<double> spread = {};  // spread_between() the two, with the larger A/A spread
+  Verdict verdict = Verdict::unknown;
+  int rounds = 0;            // of the shorter of the two
   bool same_pixels = false;  // the two drew the same picture, bit for bit
 };
 
 struct BenchComparison {
   std::vector<BenchRatio> ratios;  // in the order of the new result
-  /// Sentences on what else than the program changed or may have: scene, machine, driver, commit.
+  /// Sentences on what else than the program changed or may have: scene, machine, driver, commit,
+  /// build. What an older file does not tell is no change.
   std::vector<std::string> circumstances;
   /// What only one of the two measured, a line each.
   std::vector<std::string> unmatched;
@@ -37,8 +37,5 @@ std::vector<BenchRatio> slower_than(const BenchComparison& comparison, double pe
 
 /// Lines of text, a table first; for a terminal.
 std::vector<std::string> comparison_lines(const BenchComparison& comparison);
-
-/// "faster", "slower", "equal": what a ratio means.
-const char* verdict(const BenchRatio& ratio);
 
 }  // namespace tureen::cli

@@ -49,8 +49,8 @@ class Contestant {
 
 struct Contestants {
   std::vector<std::unique_ptr<Contestant>> list;  // the first is what ratios refer to
-  double peak_mib = 0;                            // of the process, when the first was ready
-  std::vector<std::string> notes;                 // who cannot take part, and why
+  double peak_mib = 0;             // of the process, when the first was ready to draw
+  std::vector<std::string> notes;  // who cannot take part, and why
 };
 
 /// Plans and uploads for each; the times are in Contestant::configuration. With --no-specialise or

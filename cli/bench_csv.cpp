@@ -22,6 +22,11 @@ std::string number(Number value) {
   return fmt::format("{}", value);
 }
 
+/// Of p99 or the 1 % low; empty where that would be the slowest sample.
+std::string slowest_percent(const BenchMeasurement& m, double figure) {
+  return tells_slowest_percent(m.frame_ms) ? number(figure) : std::string();
+}
+
 /// A column of the measurement, or of what all measurements have in common.
 template <class Get>
 Column of(const char* name, Get get) {
@@ -52,17 +57,17 @@ const std::vector<Column>& columns() {
       of("width", [](M m) { return number(m.width); }),
       of("height", [](M m) { return number(m.height); }),
       of("views", [](M m) { return number(m.views); }),
-      of("rounds", [](M m) { return number(m.rounds); }),
+      of("rounds", [](M m) { return number(m.frame_ms.rounds); }),
       of("frames", [](M m) { return number(m.frames); }),
       of("mean_ms", [](M m) { return number(m.frame_ms.mean); }),
       of("median_ms", [](M m) { return number(m.frame_ms.median); }),
       of("p95_ms", [](M m) { return number(m.frame_ms.p95); }),
-      of("p99_ms", [](M m) { return number(m.frame_ms.p99); }),
+      of("p99_ms", [](M m) { return slowest_percent(m, m.frame_ms.p99); }),
       of("min_of_medians_ms", [](M m) { return number(m.frame_ms.min_of_medians); }),
       of("spread", [](M m) { return number(m.frame_ms.spread); }),
       of("aa_spread", [](M m) { return number(m.aa_spread); }),
       of("fps", [](M m) { return number(m.fps); }),
-      of("low_1_percent_fps", [](M m) { return number(m.frame_ms.low_1_percent_fps); }),
+      of("low_1_percent_fps", [](M m) { return slowest_percent(m, m.frame_ms.low_1_percent_fps); }),
       of("stable", [](M m) { return std::string(m.stable ? "true" : "false"); }),
       of("gpu_ms", [](M m) { return m.gpu_ms ? number(*m.gpu_ms) : std::string(); }),
       of("pixels_hash", [](M m) { return m.pixels_hash; }),
@@ -74,6 +79,12 @@ const std::vector<Column>& columns() {
       of_all("date", [](R r) { return r.date; }),
       of_all("driver", [](R r) { return r.device.version; }),
       {"plan", plan_of},
+      of_all("build", [](R r) { return r.program.build; }),
+      of_all("rasteriser_threads",
+             [](R r) {
+               const std::optional<int>& threads = r.machine.rasteriser_threads;
+               return threads ? number(*threads) : std::string();
+             }),
   };
   return all;
 }

@@ -84,7 +84,7 @@ void report_several(const BenchReportOptions& reports, const std::vector<DeviceB
 }
 
 void say_result(const BenchResult& result) {
-  say(result.scene.name + ", " + result.machine.cpu + ", " + result.date + ":");
+  say(result.scene.name + ", " + result.date + ":");
   say_list("Notes:", result.notes);
   for (const std::string& line : bench_table(result)) say(line);
   say("");

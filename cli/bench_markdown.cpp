@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/bench_plots.hpp"
+#include "cli/bench_words.hpp"
 
 namespace tureen::cli {
 
@@ -23,25 +23,30 @@ std::string markdown_cell(const std::string& text) {
 
 std::string bench_markdown(const BenchResult& result) {
   std::string text = fmt::format(
-      "{}, {} triangles; {}{}, {}, {} cores; commit {}, {}. Times: "
-      "{}.\n\n",
-      markdown_cell(result.scene.name), counted(result.scene.triangles),
-      markdown_cell(result.device.renderer), result.device.software ? " (software)" : "",
-      markdown_cell(result.machine.cpu), result.machine.cores, markdown_cell(result.program.commit),
-      result.date, markdown_cell(result.protocol.clock));
+      "{}, {} triangles; {}{}, {}; {}, {}. Times: {}. {}\n\n", markdown_cell(result.scene.name),
+      counted(result.scene.triangles), markdown_cell(result.device.renderer),
+      result.device.software ? " (software)" : "", markdown_cell(machine_text(result.machine)),
+      markdown_cell(build_text(result.program)), result.date, markdown_cell(result.protocol.clock),
+      ratio_sentence);
   text += fmt::format(
-      "| cameras | size | configuration | median ms | best ms | p95 ms | p99 ms | FPS | 1 % low | "
-      "A/A spread | times as fast as {} |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+      "| cameras | size | configuration | rounds | frames | median ms | best ms | p95 ms | p99 ms "
+      "| "
+      "FPS | 1 % low | A/A spread | spread | times as fast as {} |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
       markdown_cell(reference_configuration(result)));
+  bool restless = false;
   for (const BenchMeasurement& m : result.measurements) {
-    const double ratio = times_as_fast(result, m);
-    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {:.1f} | {:.1f} | {:.1f} % | {} |\n",
-                        markdown_cell(m.camera_set), markdown_cell(m.size),
-                        markdown_cell(m.configuration), ms(m.frame_ms.median),
-                        ms(m.frame_ms.min_of_medians), ms(m.frame_ms.p95), ms(m.frame_ms.p99),
-                        m.fps, m.frame_ms.low_1_percent_fps, 100 * m.aa_spread,
-                        ratio > 0 ? fmt::format("{:.2f}", ratio) : "");
+    const FrameStatistics& times = m.frame_ms;
+    restless |= !m.stable;
+    text += fmt::format(
+        "| {} | {} | {}{} | {} | {} | {} | {} | {} | {} | {:.1f} | {} | {:.1f} % | {} | {} |\n",
+        markdown_cell(m.camera_set), markdown_cell(m.size), markdown_cell(m.configuration),
+        m.stable ? "" : restless_mark, times.rounds, m.frames, ms(times.median),
+        ms(times.min_of_medians), ms(times.p95), slowest_percent_text(times, ms(times.p99)), m.fps,
+        slowest_percent_text(times, fmt::format("{:.1f}", times.low_1_percent_fps)),
+        100 * m.aa_spread, spread_text(times), times_as_fast_text(result, m));
   }
+  if (restless) text += std::string("\n") + restless_sentence + "\n";
   return text;
 }
 

@@ -8,7 +8,7 @@
 namespace tureen::cli {
 
 /// A sentence on where it was measured, then a table: a measurement a row, ratios to
-/// reference_configuration().
+/// reference_configuration(), and under it what marks mean.
 std::string bench_markdown(const BenchResult& result);
 
 /// As the text of a cell: what would end it is escaped.

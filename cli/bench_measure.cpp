@@ -46,7 +46,6 @@ BenchMeasurement described(const EntrantResult& entrant, const BenchmarkResult& 
   measurement.width = views.cameras.front().width;
   measurement.height = views.cameras.front().height;
   measurement.views = int(views.cameras.size());
-  measurement.rounds = result.rounds;
   measurement.frames_per_sample = result.frames_per_sample;
   measurement.frames = int(entrant.times.ms.size()) * result.frames_per_sample;
   measurement.frame_ms = statistics_of(entrant.times);

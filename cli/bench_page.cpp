@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "cli/bench_plots.hpp"
+#include "cli/bench_words.hpp"
 #include "cli/html_page.hpp"
 
 namespace tureen::cli {
@@ -35,28 +35,30 @@ void measurements(HtmlPage& page, const BenchResult& result) {
   page.section("Frame times");
   page.paragraph(fmt::format(
       "Milliseconds a frame. Configurations took turns frame by frame; \"best\" is the smallest "
-      "of the rounds' medians, of which the ratios to '{}' are taken. A difference below twice the "
-      "A/A spread, which is one configuration measured against itself, means nothing. FPS is 1000 "
-      "divided by the mean.",
-      reference_configuration(result)));
+      "of the rounds' medians, of which the ratios to '{}' are taken; {} The A/A spread is one "
+      "configuration measured against itself. FPS is 1000 divided by the mean.",
+      reference_configuration(result), ratio_sentence));
   if (result.device.software)
     page.paragraph(
         "The device is a software rasteriser: these times say nothing about graphics hardware.");
   std::vector<std::vector<std::string>> rows;
   for (const BenchMeasurement& m : result.measurements) {
-    const double ratio = times_as_fast(result, m);
+    const FrameStatistics& times = m.frame_ms;
     rows.push_back({m.configuration, m.camera_set, m.size, fmt::format("{}x{}", m.width, m.height),
-                    ms(m.frame_ms.median), ms(m.frame_ms.min_of_medians), ms(m.frame_ms.p95),
-                    ms(m.frame_ms.p99), fmt::format("{:.1f}", m.fps),
-                    fmt::format("{:.1f}", m.frame_ms.low_1_percent_fps), percent(m.aa_spread),
-                    percent(m.frame_ms.spread), counted(std::uint64_t(m.frames)),
-                    ratio > 0 ? fmt::format("{:.2f}", ratio) : "", m.gpu_ms ? ms(*m.gpu_ms) : "",
-                    m.stable ? "" : "the warm-up never came to rest"});
+                    counted(std::uint64_t(times.rounds)), counted(std::uint64_t(m.frames)),
+                    ms(times.median), ms(times.min_of_medians), ms(times.p95),
+                    slowest_percent_text(times, ms(times.p99)), fmt::format("{:.1f}", m.fps),
+                    slowest_percent_text(times, fmt::format("{:.1f}", times.low_1_percent_fps)),
+                    percent(m.aa_spread), spread_text(times), times_as_fast_text(result, m),
+                    m.gpu_ms ? ms(*m.gpu_ms) : "",
+                    m.stable ? "" : "its warm-up had not come to rest"});
   }
   page.table({{"configuration", Column::text},
               {"cameras", Column::text},
               {"size", Column::text},
               {"pixels"},
+              {"rounds"},
+              {"frames"},
               {"median"},
               {"best"},
               {"p95"},
@@ -65,7 +67,6 @@ void measurements(HtmlPage& page, const BenchResult& result) {
               {"1 % low"},
               {"A/A spread"},
               {"spread"},
-              {"frames"},
               {"times as fast"},
               {"GPU"},
               {"", Column::text}},
@@ -79,10 +80,13 @@ void passes(HtmlPage& page, const BenchResult& result) {
     std::string parts;
     for (const auto& [name, time] : m.passes_ms)
       parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", name, ms(time));
-    if (!parts.empty()) rows.push_back({m.configuration, m.camera_set, m.size, parts});
-    if (!m.passes_reason.empty() &&
-        std::find(reasons.begin(), reasons.end(), m.passes_reason) == reasons.end())
+    if (!parts.empty()) {
+      if (!m.passes_reason.empty()) parts += " (" + m.passes_reason + ")";
+      rows.push_back({m.configuration, m.camera_set, m.size, parts});
+    } else if (!m.passes_reason.empty() &&
+               std::find(reasons.begin(), reasons.end(), m.passes_reason) == reasons.end()) {
       reasons.push_back(m.passes_reason);
+    }
   }
   if (rows.empty() && reasons.empty()) return;
   page.section("Passes");
@@ -102,8 +106,8 @@ void comparison(HtmlPage& page, const BenchPage& extra) {
   std::vector<std::vector<std::string>> rows;
   for (const BenchRatio& r : extra.comparison->ratios)
     rows.push_back({r.configuration, r.camera_set, r.size, ms(r.then_ms), ms(r.now_ms),
-                    fmt::format("{:.3f}", r.ratio), percent(r.spread), verdict(r),
-                    r.same_pixels ? "the same" : "another"});
+                    fmt::format("{:.3f}", r.ratio), r.spread ? percent(*r.spread) : not_known,
+                    verdict_text(r.verdict, r.rounds), r.same_pixels ? "the same" : "another"});
   page.table({{"configuration", Column::text},
               {"cameras", Column::text},
               {"size", Column::text},
@@ -123,6 +127,8 @@ void load(HtmlPage& page, const BenchResult& result) {
               {"the plan", ms(result.load.plan_ms) + " ms"},
               {"upload and shaders", ms(result.load.upload_ms) + " ms"},
               {"peak memory of the process", fmt::format("{:.0f} MiB", result.load.peak_mib)},
+              {"and after all measurements",
+               result.peak_mib ? fmt::format("{:.0f} MiB", *result.peak_mib) : not_known},
               {"memory on the device", fmt::format("{:.1f} MiB", result.load.device_mib)}});
 }
 
@@ -144,14 +150,14 @@ void circumstances(HtmlPage& page, const BenchResult& result) {
   page.facts(
       {{"scene", fmt::format("{} ({}), {} triangles, {}", result.scene.name, result.scene.path,
                              counted(result.scene.triangles), result.scene.appearance)},
-       {"machine", fmt::format("{}, {} cores, {:.0f} MiB", result.machine.cpu, result.machine.cores,
-                               result.machine.memory_mib)},
+       {"machine",
+        fmt::format("{}, {:.0f} MiB", machine_text(result.machine), result.machine.memory_mib)},
        {"renderer", result.device.renderer + (result.device.software ? ", software" : "")},
        {"vendor", result.device.vendor},
        {"driver", result.device.version},
        {"context", result.device.context},
        {"program",
-        fmt::format("tureen {}, commit {}", result.program.version, result.program.commit)},
+        fmt::format("tureen {}, {}", result.program.version, build_text(result.program))},
        {"date", result.date},
        {"clock", result.protocol.clock},
        {"rounds", fmt::format("{}", result.protocol.rounds)},

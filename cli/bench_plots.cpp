@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <limits>
 
+#include "cli/bench_words.hpp"
 #include "runtime/camera_sets.hpp"
 
 namespace tureen::cli {
@@ -171,7 +172,8 @@ std::vector<Figure> ratio_bars(const BenchResult& result) {
   const std::size_t margin = std::clamp<std::size_t>(longest * 87 / 100 + 1, 10, 30);
   const std::string title = fmt::format("{}: times as fast as '{}'", result.scene.name, reference);
   return {{plot_identifier("ratios"),
-           fmt::format("How many times as fast as '{}', cameras and sizes side by side. {}.",
+           fmt::format("How many times as fast as '{}', cameras and sizes side by side; as "
+                       "measured, also where a spread explains it or is not known. {}.",
                        reference, device_of(result)),
            {title,
             lines.script("set title " + plot_text(title) +
@@ -187,21 +189,6 @@ std::vector<Figure> ratio_bars(const BenchResult& result) {
 }
 
 }  // namespace
-
-std::string reference_configuration(const BenchResult& result) {
-  const std::vector<std::string> names = configurations(result);
-  if (std::find(names.begin(), names.end(), "published") != names.end()) return "published";
-  return names.empty() ? std::string() : names.front();
-}
-
-double times_as_fast(const BenchResult& result, const BenchMeasurement& measurement) {
-  const std::string reference = reference_configuration(result);
-  for (const BenchMeasurement& m : result.measurements)
-    if (m.configuration == reference && m.camera_set == measurement.camera_set &&
-        m.size == measurement.size && measurement.frame_ms.min_of_medians > 0)
-      return m.frame_ms.min_of_medians / measurement.frame_ms.min_of_medians;
-  return 0;
-}
 
 std::vector<Figure> bench_plots(const BenchResult& result) {
   std::vector<Figure> plots;

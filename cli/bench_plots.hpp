@@ -15,10 +15,4 @@ namespace tureen::cli {
 /// Texts from the result reach gnuplot as texts only.
 std::vector<Figure> bench_plots(const BenchResult& result);
 
-/// The configuration that ratios are taken of: "published" where it was measured, else the first.
-std::string reference_configuration(const BenchResult& result);
-
-/// How many times as fast as the reference in the same place; 0 where that was not measured.
-double times_as_fast(const BenchResult& result, const BenchMeasurement& measurement);
-
 }  // namespace tureen::cli

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "cli/bench_comparison.hpp"
@@ -131,6 +132,12 @@ ExitCode report_bench(const BenchReportOptions& options, const BenchResult& now,
   }
 
   if (!options.fail_slower || !comparison) return ExitCode::done;
+  const auto unknown =
+      std::count_if(comparison->ratios.begin(), comparison->ratios.end(),
+                    [](const BenchRatio& ratio) { return ratio.verdict == Verdict::unknown; });
+  if (unknown > 0)
+    say(fmt::format("--fail-slower cannot judge {} of {}: fewer than {} rounds then or now",
+                    unknown, comparison->ratios.size(), least_rounds));
   const std::vector<BenchRatio> slower = slower_than(*comparison, *options.fail_slower);
   for (const BenchRatio& ratio : slower)
     say(fmt::format("slower than allowed: {}, {}, {}: {:.3f} times as long", ratio.configuration,

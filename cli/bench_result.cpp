@@ -9,9 +9,15 @@ namespace {
 
 constexpr const char* format_name = "tureen bench";
 
+/// p99 or the 1 % low; null where that would be the slowest sample.
+Json slowest_percent(const FrameStatistics& ms, double figure) {
+  return tells_slowest_percent(ms) ? Json(figure) : Json(nullptr);
+}
+
 Json to_json(const FrameStatistics& ms) {
-  return {{"mean", ms.mean}, {"median", ms.median}, {"p95", ms.p95},
-          {"p99", ms.p99},   {"spread", ms.spread}, {"min_of_medians", ms.min_of_medians}};
+  return {{"mean", ms.mean},     {"median", ms.median},
+          {"p95", ms.p95},       {"p99", slowest_percent(ms, ms.p99)},
+          {"spread", ms.spread}, {"min_of_medians", ms.min_of_medians}};
 }
 
 Json to_json(const BenchConfiguration& configuration) {
@@ -31,12 +37,13 @@ Json to_json(const BenchMeasurement& measurement) {
           {"width", measurement.width},
           {"height", measurement.height},
           {"views", measurement.views},
-          {"rounds", measurement.rounds},
+          {"rounds", measurement.frame_ms.rounds},
           {"frames_per_sample", measurement.frames_per_sample},
           {"frames", measurement.frames},
           {"frame_ms", to_json(measurement.frame_ms)},
           {"fps", measurement.fps},
-          {"low_1_percent_fps", measurement.frame_ms.low_1_percent_fps},
+          {"low_1_percent_fps",
+           slowest_percent(measurement.frame_ms, measurement.frame_ms.low_1_percent_fps)},
           {"aa_spread", measurement.aa_spread},
           {"stable", measurement.stable},
           {"passes_ms", passes},
@@ -47,14 +54,20 @@ Json to_json(const BenchMeasurement& measurement) {
           {"picture", measurement.picture ? Json(*measurement.picture) : Json(nullptr)}};
 }
 
-FrameStatistics frame_statistics(const JsonView& view, const JsonView& low_1_percent_fps) {
-  return {.mean = view["mean"].number(),
-          .median = view["median"].number(),
-          .p95 = view["p95"].number(),
-          .p99 = view["p99"].number(),
-          .min_of_medians = view["min_of_medians"].number(),
-          .spread = view["spread"].number(),
-          .low_1_percent_fps = low_1_percent_fps.number()};
+double number(const JsonView& view) { return view.number(); }
+
+FrameStatistics frame_statistics(const JsonView& measurement) {
+  const JsonView ms = measurement["frame_ms"];
+  const int rounds = integer(measurement["rounds"]);
+  return {.mean = ms["mean"].number(),
+          .median = ms["median"].number(),
+          .p95 = ms["p95"].number(),
+          .p99 = unless_null(ms["p99"], number).value_or(0),
+          .min_of_medians = ms["min_of_medians"].number(),
+          .spread = ms["spread"].number(),
+          .low_1_percent_fps = unless_null(measurement["low_1_percent_fps"], number).value_or(0),
+          .rounds = rounds,
+          .samples = std::size_t(rounds) * std::size_t(integer(measurement["views"]))};
 }
 
 BenchConfiguration configuration(const JsonView& view) {
@@ -75,17 +88,15 @@ std::vector<std::pair<std::string, double>> passes(const JsonView& view) {
 
 BenchMeasurement measurement(const JsonView& view) {
   const auto text = [](const JsonView& each) { return each.text(); };
-  const auto number = [](const JsonView& each) { return each.number(); };
   return {.configuration = view["configuration"].text(),
           .camera_set = view["camera_set"].text(),
           .size = view["size"].text(),
           .width = integer(view["width"]),
           .height = integer(view["height"]),
           .views = integer(view["views"]),
-          .rounds = integer(view["rounds"]),
           .frames_per_sample = integer(view["frames_per_sample"]),
           .frames = integer(view["frames"]),
-          .frame_ms = frame_statistics(view["frame_ms"], view["low_1_percent_fps"]),
+          .frame_ms = frame_statistics(view),
           .fps = view["fps"].number(),
           .aa_spread = view["aa_spread"].number(),
           .stable = boolean(view["stable"]),
@@ -104,26 +115,28 @@ Json to_json(const BenchResult& result) {
   for (const BenchConfiguration& each : result.configurations)
     configurations.push_back(to_json(each));
   for (const BenchMeasurement& each : result.measurements) measurements.push_back(to_json(each));
-  return {{"format", format_name},
-          {"version", bench_result_version},
-          {"date", result.date},
-          {"program", to_json(result.program)},
-          {"scene", to_json(result.scene)},
-          {"machine", to_json(result.machine)},
-          {"device", to_json(result.device)},
-          {"protocol",
-           {{"clock", result.protocol.clock},
-            {"rounds", result.protocol.rounds},
-            {"aa_spread", result.protocol.aa_spread}}},
-          {"load",
-           {{"read_ms", result.load.read_ms},
-            {"plan_ms", result.load.plan_ms},
-            {"upload_ms", result.load.upload_ms},
-            {"peak_mib", result.load.peak_mib},
-            {"device_mib", result.load.device_mib}}},
-          {"configurations", configurations},
-          {"measurements", measurements},
-          {"notes", result.notes}};
+  Json json{{"format", format_name},
+            {"version", bench_result_version},
+            {"date", result.date},
+            {"program", to_json(result.program)},
+            {"scene", to_json(result.scene)},
+            {"machine", to_json(result.machine)},
+            {"device", to_json(result.device)},
+            {"protocol",
+             {{"clock", result.protocol.clock},
+              {"rounds", result.protocol.rounds},
+              {"aa_spread", result.protocol.aa_spread}}},
+            {"load",
+             {{"read_ms", result.load.read_ms},
+              {"plan_ms", result.load.plan_ms},
+              {"upload_ms", result.load.upload_ms},
+              {"peak_mib", result.load.peak_mib},
+              {"device_mib", result.load.device_mib}}},
+            {"configurations", configurations},
+            {"measurements", measurements},
+            {"notes", result.notes}};
+  if (result.peak_mib) json["peak_mib"] = *result.peak_mib;
+  return json;
 }
 
 BenchResult bench_result_from_json(const std::string& text, const std::string& file) {
@@ -131,6 +144,7 @@ BenchResult bench_result_from_json(const std::string& text, const std::string& f
   const JsonView root(document, file);
   require_format(root, format_name, bench_result_version, "no result of tureen bench");
   const JsonView protocol = root["protocol"], load = root["load"];
+  const std::optional<JsonView> peak = root.find("peak_mib");
   return {.date = root["date"].text(),
           .program = program_of(root["program"]),
           .scene = scene_of(root["scene"]),
@@ -146,7 +160,8 @@ BenchResult bench_result_from_json(const std::string& text, const std::string& f
                    .device_mib = load["device_mib"].number()},
           .configurations = list(root["configurations"], configuration),
           .measurements = list(root["measurements"], measurement),
-          .notes = texts(root["notes"])};
+          .notes = texts(root["notes"]),
+          .peak_mib = peak ? std::optional(peak->number()) : std::nullopt};
 }
 
 const BenchConfiguration* find_configuration(const BenchResult& result, const std::string& name) {

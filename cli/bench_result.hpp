@@ -15,12 +15,14 @@
 namespace tureen::cli {
 
 /// Of the file's layout. A reader refuses a larger one.
-inline constexpr int bench_result_version = 1;
+/// 2: p99 and low_1_percent_fps may be null, and there are keys that not every file has.
+inline constexpr int bench_result_version = 2;
 
 struct BenchProgram {
   std::string version;                 // "0.1.0"
   std::string commit = "unknown";      // what git describes
   std::vector<std::string> arguments;  // as typed, from "bench" on
+  std::string build = {};              // program_build(); empty where nobody told
 };
 
 struct BenchScene {
@@ -49,7 +51,7 @@ struct BenchLoad {
   double read_ms = 0;    // the file, until the soup is in memory
   double plan_ms = 0;    // make_plan
   double upload_ms = 0;  // buffers, textures and shaders, until the device has finished
-  double peak_mib = 0;   // largest resident set of the process when that was done
+  double peak_mib = 0;   // largest resident set of the process when that was done, without targets
   double device_mib = 0;
 };
 
@@ -70,16 +72,16 @@ struct BenchMeasurement {
   int width = 0;           // of the first view, as height
   int height = 0;
   int views = 0;
-  int rounds = 0;
   int frames_per_sample = 1;
-  int frames = 0;  // timed ones: views * rounds * frames_per_sample
-  FrameStatistics frame_ms;
-  double fps = 0;        // 1000 / mean
-  double aa_spread = 0;  // of the first configuration against itself, with these cameras
-  bool stable = true;    // the warm-up came to rest
+  int frames = 0;            // timed ones: views * rounds * frames_per_sample
+  FrameStatistics frame_ms;  // with its rounds and samples
+  double fps = 0;            // 1000 / mean
+  double aa_spread = 0;      // of the first configuration against itself, with these cameras
+  bool stable = true;        // the warm-up came to rest
 
   /// What the device says of its passes, a mean over the views in milliseconds: (name, ms) in the
-  /// order of the frame. Empty where its timers do not count, and then the reason.
+  /// order of the frame. Empty where its timers do not count, and then the reason, which there is,
+  /// too, where they are the lesser part of a frame.
   std::vector<std::pair<std::string, double>> passes_ms;
   std::string passes_reason;
   /// All passes together by the device's own clock, to be held against frame_ms.
@@ -101,6 +103,9 @@ struct BenchResult {
   std::vector<BenchConfiguration> configurations;
   std::vector<BenchMeasurement> measurements;
   std::vector<std::string> notes;  // on reading the scene and cameras, on what was left out
+  /// Largest resident set of the process after all measurements: with targets, and with everybody
+  /// who took part. Nothing where it cannot be told.
+  std::optional<double> peak_mib = {};
 };
 
 Json to_json(const BenchResult& result);

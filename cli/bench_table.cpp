@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "cli/bench_words.hpp"
+
 namespace tureen::cli {
 
 namespace {
@@ -19,8 +21,7 @@ bool same_views(const BenchMeasurement& a, const BenchMeasurement& b) {
 
 std::string compared(const BenchMeasurement& each, const BenchMeasurement& first) {
   if (&each == &first) return "1.00";
-  const double a = each.frame_ms.min_of_medians, b = first.frame_ms.min_of_medians;
-  return differ(a, b, first.aa_spread) ? fmt::format("{:.2f}", a / b) : "equal";
+  return ratio_text(each.frame_ms.min_of_medians / first.frame_ms.min_of_medians, each, first);
 }
 
 std::string passes_text(const BenchMeasurement& measurement) {
@@ -36,7 +37,7 @@ void add_heading(std::vector<std::string>& lines, const BenchMeasurement& first)
   };
   std::string heading =
       fmt::format("{} x {}, {}: {}, {}", first.width, first.height, first.camera_set,
-                  counted_text(first.views, "view"), counted_text(first.rounds, "round"));
+                  counted_text(first.views, "view"), counted_text(first.frame_ms.rounds, "round"));
   if (first.frames_per_sample > 1)
     heading += fmt::format(" of {} frames a view", first.frames_per_sample);
   lines.push_back("");
@@ -49,12 +50,16 @@ void add_heading(std::vector<std::string>& lines, const BenchMeasurement& first)
 void add_row(std::vector<std::string>& lines, const BenchMeasurement& each,
              const BenchMeasurement& first) {
   const FrameStatistics& ms = each.frame_ms;
-  lines.push_back(fmt::format(
-      "  {:<13} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7}", each.configuration,
-      ms_text(ms.min_of_medians), ms_text(ms.mean), ms_text(ms.median), ms_text(ms.p95),
-      ms_text(ms.p99), fps_text(each.fps), fps_text(ms.low_1_percent_fps), compared(each, first)));
-  if (!each.passes_ms.empty())
+  lines.push_back(
+      fmt::format("  {:<13} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7}", each.configuration,
+                  ms_text(ms.min_of_medians), ms_text(ms.mean), ms_text(ms.median), ms_text(ms.p95),
+                  slowest_percent_text(ms, ms_text(ms.p99)), fps_text(each.fps),
+                  slowest_percent_text(ms, fps_text(ms.low_1_percent_fps)), compared(each, first)));
+  if (!each.passes_ms.empty()) {
     lines.push_back(fmt::format("  {:<13} {}", "", "by the device's clock: " + passes_text(each)));
+    if (!each.passes_reason.empty())
+      lines.push_back(fmt::format("  {:<13} {}", "", each.passes_reason));
+  }
   if (!each.stable)
     lines.push_back(fmt::format("  {:<13} {}", "", "its warm-up did not come to rest"));
 }
@@ -63,7 +68,7 @@ void add_row(std::vector<std::string>& lines, const BenchMeasurement& each,
 void add_pass_reasons(std::vector<std::string>& lines, const BenchResult& result) {
   std::vector<std::string> said;
   for (const BenchMeasurement& each : result.measurements)
-    if (!each.passes_reason.empty() && each.configuration != "copy" &&
+    if (each.passes_ms.empty() && !each.passes_reason.empty() && each.configuration != "copy" &&
         std::find(said.begin(), said.end(), each.passes_reason) == said.end())
       said.push_back(each.passes_reason);
   if (!said.empty()) lines.push_back("");
@@ -77,12 +82,18 @@ std::vector<std::string> bench_table(const BenchResult& result) {
   lines.push_back(
       fmt::format("{} ({}){}", result.device.renderer, result.device.context,
                   result.device.software ? ": software, never to be compared with hardware" : ""));
+  lines.push_back(machine_text(result.machine));
+  if (const std::string& build = result.program.build; !build.empty() && build != "release")
+    lines.push_back("A " + build +
+                    " build: its checks take time in every frame, compare it with no other.");
   const BenchLoad& load = result.load;
+  const std::string peak =
+      result.peak_mib ? fmt::format(", {:.0f} MiB after all frames", *result.peak_mib) : "";
   lines.push_back(
-      fmt::format("{} triangles: read {} ms, plan {} ms, upload {} ms; peak {:.0f} MiB, on the "
-                  "device {:.1f} MiB",
+      fmt::format("{} triangles: read {} ms, plan {} ms, upload {} ms; peak {:.0f} MiB before the "
+                  "first frame{}; on the device {:.1f} MiB",
                   counted(result.scene.triangles), ms_text(load.read_ms), ms_text(load.plan_ms),
-                  ms_text(load.upload_ms), load.peak_mib, load.device_mib));
+                  ms_text(load.upload_ms), load.peak_mib, peak, load.device_mib));
   lines.push_back("Times: " + result.protocol.clock);
   const BenchMeasurement* first = nullptr;
   for (const BenchMeasurement& each : result.measurements) {

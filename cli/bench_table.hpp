@@ -9,8 +9,8 @@
 namespace tureen::cli {
 
 /// Lines: where it ran, what loading cost, then a table for each set of views and size. Ratios are
-/// of min_of_medians and refer to the first configuration; "equal" where they differ by less than
-/// twice the A/A spread.
+/// of min_of_medians and refer to the first configuration; ratio_text() (cli/bench_words.hpp) says
+/// where they mean nothing.
 std::vector<std::string> bench_table(const BenchResult& result);
 
 }  // namespace tureen::cli

@@ -1,5 +1,6 @@
 #include "cli/machine.hpp"
 
+#include <cstdlib>
 #include <fstream>
 #include <thread>
 
@@ -33,6 +34,18 @@ Machine this_machine() {
   if (const std::string total = value_of("/proc/meminfo", "MemTotal"); !total.empty())
     machine.memory_mib = std::strtod(total.c_str(), nullptr) / 1024;  // "8048576 kB"
   return machine;
+}
+
+std::optional<int> rasteriser_threads_of(const std::string& renderer) {
+  if (renderer.find("llvmpipe") == std::string::npos) return {};
+  const int cores = int(std::thread::hardware_concurrency());
+  if (const char* asked = std::getenv("LP_NUM_THREADS")) {
+    constexpr long most = 1 << 16;  // more than any machine has, and an int
+    char* end = nullptr;
+    const long threads = std::strtol(asked, &end, 0);
+    if (end != asked && threads >= 0 && threads <= most) return int(threads);
+  }
+  return cores > 1 ? cores : 0;
 }
 
 double peak_mib() {

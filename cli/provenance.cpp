@@ -5,8 +5,10 @@
 namespace tureen::cli {
 
 Json to_json(const BenchProgram& program) {
-  return {
+  Json json{
       {"version", program.version}, {"commit", program.commit}, {"arguments", program.arguments}};
+  if (!program.build.empty()) json["build"] = program.build;
+  return json;
 }
 
 Json to_json(const BenchScene& scene) {
@@ -17,7 +19,9 @@ Json to_json(const BenchScene& scene) {
 }
 
 Json to_json(const Machine& machine) {
-  return {{"cpu", machine.cpu}, {"cores", machine.cores}, {"memory_mib", machine.memory_mib}};
+  Json json{{"cpu", machine.cpu}, {"cores", machine.cores}, {"memory_mib", machine.memory_mib}};
+  if (machine.rasteriser_threads) json["rasteriser_threads"] = *machine.rasteriser_threads;
+  return json;
 }
 
 Json to_json(const BenchDevice& device) {
@@ -32,9 +36,11 @@ Json to_json(const BenchDevice& device) {
 constexpr std::size_t longest_text = 4096;
 
 BenchProgram program_of(const JsonView& view) {
+  const std::optional<JsonView> build = view.find("build");
   return {.version = text_within(view["version"], longest_text),
           .commit = text_within(view["commit"], longest_text),
-          .arguments = texts(view["arguments"])};
+          .arguments = texts(view["arguments"]),
+          .build = build ? text_within(*build, longest_text) : std::string()};
 }
 
 BenchScene scene_of(const JsonView& view) {
@@ -45,9 +51,12 @@ BenchScene scene_of(const JsonView& view) {
 }
 
 Machine machine_of(const JsonView& view) {
-  return {.cpu = text_within(view["cpu"], longest_text),
-          .cores = integer(view["cores"]),
-          .memory_mib = number_in(view["memory_mib"], 0, 1e12)};
+  Machine machine{.cpu = text_within(view["cpu"], longest_text),
+                  .cores = integer(view["cores"]),
+                  .memory_mib = number_in(view["memory_mib"], 0, 1e12)};
+  if (const auto threads = view.find("rasteriser_threads"))
+    machine.rasteriser_threads = integer(*threads);
+  return machine;
 }
 
 BenchDevice device_of(const JsonView& view) {

@@ -10,4 +10,8 @@ const char* program_version();
 /// from the commit; "unknown" outside of git.
 const char* program_commit();
 
+/// "release"; "debug" where assertions and queries of OpenGL's errors take time in every frame,
+/// "sanitized" where every access to memory does.
+const char* program_build();
+
 }  // namespace tureen::cli

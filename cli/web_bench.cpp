@@ -74,11 +74,11 @@ BenchMeasurement shared_part(const JsonView& view) {
   shared.width = count_of(view["width"]);
   shared.height = count_of(view["height"]);
   shared.size = fmt::format("{}x{}", shared.width, shared.height);
-  shared.rounds = int(first.size());
+  shared.frame_ms.rounds = int(first.size());
   shared.views = int(first.at(0).size());
   shared.frames_per_sample = count_of(view["frames_per_sample"]);
-  const std::uint64_t frames =
-      std::uint64_t(shared.rounds) * std::uint64_t(shared.views) * shared.frames_per_sample;
+  const std::uint64_t frames = std::uint64_t(shared.frame_ms.rounds) * std::uint64_t(shared.views) *
+                               shared.frames_per_sample;
   if (frames > std::uint64_t(std::numeric_limits<int>::max()))
     view["frames_per_sample"].fail("more frames than anybody draws");
   shared.frames = int(frames);
@@ -108,14 +108,14 @@ void add_measurements(const JsonView& view, BenchResult& result) {
         entrant["configuration"].fail("took part already");
     measurement.stable = boolean(entrant["stable"]);
     measurement.pixels_hash = hash_of(entrant["pixels_hash"]);
-    const FrameTimes times =
-        frame_times(entrant["frame_ms"], std::size_t(shared.views), std::size_t(shared.rounds));
+    const FrameTimes times = frame_times(entrant["frame_ms"], std::size_t(shared.views),
+                                         std::size_t(shared.frame_ms.rounds));
     measurement.frame_ms = statistics_of(times);
     measurement.fps = 1000 / measurement.frame_ms.mean;
     measurement.views_ms = view_medians(times);
     result.measurements.push_back(std::move(measurement));
   }
-  result.protocol.rounds = std::max(result.protocol.rounds, shared.rounds);
+  result.protocol.rounds = std::max(result.protocol.rounds, shared.frame_ms.rounds);
   result.protocol.aa_spread = std::max(result.protocol.aa_spread, shared.aa_spread);
 }
 

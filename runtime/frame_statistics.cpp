@@ -69,8 +69,13 @@ FrameStatistics statistics_of(const FrameTimes& times) {
   result.min_of_medians = medians.front();
   result.spread = relative_difference(percentile(medians, 75), medians.front());
   result.low_1_percent_fps = 1000 / mean(std::span(ordered).last(slow));
+  result.rounds = int(times.rounds());
+  result.samples = times.ms.size();
   return result;
 }
+
+// By nearest rank the 99th of a hundred samples is the first that is not the slowest.
+bool tells_slowest_percent(const FrameStatistics& ms) { return ms.samples >= 100; }
 
 std::vector<double> view_medians(const FrameTimes& times) {
   std::vector<double> result;
@@ -92,6 +97,18 @@ double series_spread(const FrameTimes& first, const FrameTimes& second) {
   return std::max(of_smallest, median(differences));
 }
 
-bool differ(double a, double b, double spread) { return relative_difference(a, b) >= 2 * spread; }
+std::optional<double> spread_between(const FrameStatistics& a, const FrameStatistics& b,
+                                     double aa_spread) {
+  if (std::min(a.rounds, b.rounds) < least_rounds) return {};
+  return std::max({aa_spread, a.spread, b.spread});
+}
+
+Verdict verdict_on(const FrameStatistics& a, const FrameStatistics& b, double aa_spread) {
+  const std::optional<double> spread = spread_between(a, b, aa_spread);
+  if (!spread) return Verdict::unknown;
+  const double ours = a.min_of_medians, theirs = b.min_of_medians;
+  if (ours == theirs || relative_difference(ours, theirs) < 2 * *spread) return Verdict::equal;
+  return ours < theirs ? Verdict::faster : Verdict::slower;
+}
 
 }  // namespace tureen

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,7 +47,14 @@ struct FrameStatistics {
   double spread = 0;
   /// Frames a second at the pace of the slowest one in a hundred (at least one).
   double low_1_percent_fps = 0;
+  int rounds = 0;  // that all of this is said of
+  std::size_t samples =
+      0;  // in them, one a view and round; the mean of its frames where it has several
 };
+
+/// Whether p99 and low_1_percent_fps are more than the slowest sample: there are a hundred. Where a
+/// sample is several frames, both are of their means, in which a single slow frame shows less.
+bool tells_slowest_percent(const FrameStatistics& ms);
 
 /// Asserts that there is a whole round.
 FrameStatistics statistics_of(const FrameTimes& times);
@@ -60,8 +68,21 @@ std::vector<double> view_medians(const FrameTimes& times);
 /// Asserts that both have as many rounds.
 double series_spread(const FrameTimes& first, const FrameTimes& second);
 
-/// Whether the difference of two min_of_medians is one that the spread does not explain:
-/// |a - b| >= 2 spread of the smaller.
-bool differ(double a, double b, double spread);
+/// Of fewer rounds no spread is known. Two medians lie within a fifth of their standard deviation
+/// one time in nine by mere chance, three of them one time in ninety (of normal ones), and what
+/// lies so near would call any noise a difference.
+inline constexpr int least_rounds = 3;
+
+/// By how much two series may differ, as a fraction, though they time the same thing: the largest
+/// of the A/A spread and of the spreads of their own rounds. Nothing where one of them has fewer
+/// than least_rounds.
+std::optional<double> spread_between(const FrameStatistics& a, const FrameStatistics& b,
+                                     double aa_spread);
+
+enum class Verdict { unknown, equal, faster, slower };
+
+/// What the min_of_medians say of `a` against `b`, wherever two are compared: equal where they lie
+/// apart by less than twice spread_between() of the smaller; unknown where that is.
+Verdict verdict_on(const FrameStatistics& a, const FrameStatistics& b, double aa_spread);
 
 }  // namespace tureen

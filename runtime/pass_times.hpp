@@ -17,13 +17,15 @@ struct PassTimes {
   /// (pass, milliseconds a frame) in the order of the frame; empty where the device's clock does
   /// not count.
   std::vector<std::pair<std::string, double>> ms;
-  std::string reason;            // why there are none, a sentence; empty where there are
+  /// Why there are none, or what is to be said beside them, a sentence; empty where they are all.
+  std::string reason;
   std::optional<double> gpu_ms;  // all passes of a frame together
 };
 
-/// The passes as they are, or a refusal where their sum is more than `wall_ms`, the mean time of
-/// such a frame with nothing else in flight, can hold. Less than that is no contradiction: then the
-/// processor is what the frame waits for.
+/// The passes as they are, or a refusal where their sum is nothing, or more than `wall_ms`, the
+/// mean time of such a frame with nothing else in flight, can hold. Less than that is no
+/// contradiction, the frame may wait for the processor; but where it is less than half, the reason
+/// says so.
 PassTimes believed(std::vector<std::pair<std::string, double>> passes, double wall_ms);
 
 /// Draws every camera `repeats` times with timers and once more as often without, for the wall

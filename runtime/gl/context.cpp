@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <stdexcept>
 
 #include "runtime/gl/api.hpp"
@@ -146,9 +147,7 @@ Capabilities query_capabilities(Api api) {
   result.clip_control = has_clip_control(api, version);
   result.multi_draw = has_multi_draw(api);
   result.timer_queries = has_timer_queries(api);
-  result.software = contains(result.renderer, "llvmpipe") ||
-                    contains(result.renderer, "softpipe") ||
-                    contains(result.renderer, "SwiftShader");
+  result.software = draws_in_software(result.renderer);
   result.max_texture_size = integer_of(GL_MAX_TEXTURE_SIZE);
   GLint viewport[2] = {0, 0};
   glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
@@ -164,6 +163,15 @@ Capabilities query_capabilities(Api api) {
 }
 
 }  // namespace
+
+bool draws_in_software(const std::string& renderer) {
+  // Mesa's two, Chromium's, what Windows has without a driver (WARP, and OpenGL 1.1), and macOS'.
+  constexpr const char* names[] = {"llvmpipe",    "softpipe",
+                                   "SwiftShader", "Microsoft Basic Render Driver",
+                                   "GDI Generic", "Apple Software Renderer"};
+  return std::any_of(std::begin(names), std::end(names),
+                     [&](const char* name) { return contains(renderer, name); });
+}
 
 void throw_if_lost() {
 #ifndef __EMSCRIPTEN__  // a canvas has events for that

@@ -31,7 +31,7 @@ struct Capabilities {
   bool multi_draw = false;
   bool timer_queries =
       false;              // timestamps can be had; whether they mean anything is another matter
-  bool software = false;  // llvmpipe, softpipe or SwiftShader: timer queries mislead there
+  bool software = false;  // draws_in_software: timer queries mislead there
   int max_texture_size = 0;
   int max_picture_side = 0;  // the widest and highest frame that can be drawn
   int max_array_layers = 0;
@@ -41,6 +41,9 @@ struct Capabilities {
   /// rising, each once. Neither API promises more than 4.
   std::vector<int> sample_counts;
 };
+
+/// Whether the processor draws where GL_RENDERER is this: llvmpipe, SwiftShader and their like.
+bool draws_in_software(const std::string& renderer);
 
 class Context {
  public:

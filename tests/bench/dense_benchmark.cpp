@@ -1,8 +1,10 @@
 // Frame times of a large opaque soup, the whole scene in the frame: our plan against a renderer as
 // plain as they come, in turns. Only the ratio means anything on another machine.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
 
 #include "bench/dense_soup.hpp"
 #include "bench/plain_renderer.hpp"
@@ -40,9 +42,31 @@ std::size_t differing_pixels(const Image8& a, const Image8& b) {
   return count;
 }
 
+const char* difference_text(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::unknown:
+      return "too few rounds to know";
+    case Verdict::equal:
+      return "no";
+    case Verdict::faster:
+    case Verdict::slower:
+      return "yes";
+  }
+  return "";
+}
+
+std::string spread_text(const FrameStatistics& statistics) {
+  if (statistics.rounds < least_rounds) return "–";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f %%", 100 * statistics.spread);
+  return text;
+}
+
 struct Options {
   std::size_t triangles = 2000000;
-  int rounds = 3, width = 1280, height = 720;
+  // 10 rounds of 8 views and 6 turns (four renderers, and the first against itself) are 480 frames:
+  // 70 s where they take 0.15 s each.
+  int rounds = 10, width = 1280, height = 720;
   bool processor_time = false;
 };
 
@@ -50,6 +74,8 @@ void measure(const Scene& base, const Options& options) {
   const auto& [triangles, rounds, width, height, processor_time] = options;
   const TriangleSoup soup = dense_soup(std::get<TriangleSoup>(base.primitives), triangles);
   const gl::Context context = gl::Context::create({});
+  if (processor_time && !context.capabilities().software)
+    throw UsageError("--processor-time says nothing of " + context.capabilities().renderer);
   PlainRenderer plain(soup);
   const glm::vec4 black(0, 0, 0, 1);
   Renderer whole(context, soup, glm::dvec3(0),
@@ -76,13 +102,23 @@ void measure(const Scene& base, const Options& options) {
   for (const std::string& sentence : ours.plan().sentences) std::printf("- %s\n", sentence.c_str());
   std::printf("- %zu of %d pixels of the last view differ from the plain renderer's\n",
               differing_pixels(plain.read_color(), ours.read_color()), width * height);
-  std::printf("\n| renderer | ms | spread | times as fast as plain |\n|---|---|---|---|\n");
-  const double baseline = statistics_of(result.entrants[0].times).min_of_medians;
+  std::printf(
+      "\n| renderer | ms | spread | times as fast as plain | by more than twice the spread |\n"
+      "|---|---|---|---|---|\n");
+  const FrameStatistics baseline = statistics_of(result.entrants[0].times);
   for (const EntrantResult& entrant : result.entrants) {
     const FrameStatistics statistics = statistics_of(entrant.times);
-    std::printf("| %s | %.1f | %.1f %% | %.2f |\n", entrant.name.c_str(), statistics.min_of_medians,
-                100 * statistics.spread, baseline / statistics.min_of_medians);
+    std::printf("| %s%s | %.1f | %s | %.2f | %s |\n", entrant.name.c_str(),
+                entrant.stable ? "" : "†", statistics.min_of_medians,
+                spread_text(statistics).c_str(),
+                baseline.min_of_medians / statistics.min_of_medians,
+                &entrant == &result.entrants[0]
+                    ? ""
+                    : difference_text(verdict_on(statistics, baseline, result.aa_spread)));
   }
+  if (std::any_of(result.entrants.begin(), result.entrants.end(),
+                  [](const EntrantResult& entrant) { return !entrant.stable; }))
+    std::puts("\n† Its warm-up had not come to rest when times began to count.");
 }
 
 }  // namespace

@@ -2,13 +2,13 @@
 // out: docs/leaving-out.md gives these counts as the reason.
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "formats/scene_file.hpp"
-#include "soup/error.hpp"
 #include "soup/lattice.hpp"
 #include "soup/lattice_levels.hpp"
 #include "support/random.hpp"
@@ -105,7 +105,7 @@ int main(int argc, char** argv) {
         "(L3) | of random texels: colour within a step over 256 directions (M3) | texels with a "
         "blend of at most 1/510 (M6) |\n|---|---|---|---|---|---|");
     for (int i = 1; i < argc; ++i) tureen::test::audit(argv[i]);
-  } catch (const tureen::Error& error) {
+  } catch (const std::exception& error) {
     std::fprintf(stderr, "leave_out_audit: %s\n", error.what());
     return 1;
   }

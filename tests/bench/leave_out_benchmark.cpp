@@ -3,9 +3,12 @@
 // whatever their plans leave out. Only the ratios mean anything on another machine. Software GL is
 // timed by the processor time of all its threads, which other programs hardly disturb.
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,9 +34,31 @@ struct Settings {
   }
 };
 
+/// Whether a plan gains by what it leaves out.
+const char* gain_text(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::unknown:
+      return "too few rounds to know";
+    case Verdict::equal:
+      return "no";
+    case Verdict::faster:
+      return "yes";
+    case Verdict::slower:
+      return "loses";
+  }
+  return "";
+}
+
+std::string spread_text(std::optional<double> spread) {
+  if (!spread) return "–";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f %%", 100 * *spread);
+  return text;
+}
+
 /// Two preferences of one scene against each other. Prints how many times as long a frame takes
-/// without what the first leaves out.
-void compare(const gl::Context& context, const Settings& settings, const char* row,
+/// without what the first leaves out, and says whether both warm-ups came to rest.
+bool compare(const gl::Context& context, const Settings& settings, const char* row,
              const std::string& scene, const TriangleSoup& soup, std::span<const Camera> cameras,
              const PlanPreferences& kept) {
   Renderer with(context, soup, glm::dvec3(0.0));
@@ -48,15 +73,15 @@ void compare(const gl::Context& context, const Settings& settings, const char* r
   const BenchmarkResult result = run_benchmark(entrants, cameras, options);
   const FrameStatistics fast = statistics_of(result.entrants[0].times),
                         slow = statistics_of(result.entrants[1].times);
-  const double spread = std::max({result.aa_spread, fast.spread, slow.spread});
-  std::printf("| %s | %s | %.2f | %.2f | %.3f | %.1f %% | %s | %.1f | %.1f |\n", row, scene.c_str(),
-              slow.min_of_medians, fast.min_of_medians, slow.min_of_medians / fast.min_of_medians,
-              100 * spread,
-              !differ(slow.min_of_medians, fast.min_of_medians, spread) ? "no"
-              : slow.min_of_medians > fast.min_of_medians               ? "yes"
-                                                                        : "loses",
+  const auto mark = [&](std::size_t which) { return result.entrants[which].stable ? "" : "†"; };
+  std::printf("| %s | %s | %.2f%s | %.2f%s | %.3f | %s | %s | %.1f | %.1f |\n", row, scene.c_str(),
+              slow.min_of_medians, mark(1), fast.min_of_medians, mark(0),
+              slow.min_of_medians / fast.min_of_medians,
+              spread_text(spread_between(fast, slow, result.aa_spread)).c_str(),
+              gain_text(verdict_on(fast, slow, result.aa_spread)),
               double(without.device_bytes()) / (1 << 20), double(with.device_bytes()) / (1 << 20));
   std::fflush(stdout);
+  return result.entrants[0].stable && result.entrants[1].stable;
 }
 
 bool is_of_the_network(LeaveOut what) {
@@ -90,7 +115,7 @@ TriangleSoup large_soup(LeaveOut what, const Scene& cloud) {
   return soup;
 }
 
-void measure_traits(const gl::Context& context, const Settings& settings) {
+bool measure_traits(const gl::Context& context, const Settings& settings) {
   const Scene cloud = cutout_cloud({.width = settings.width, .height = settings.height});
   // A network shows what it costs where it runs on every pixel and little else is done.
   const Scene wall = cutout_cloud({.triangles = 1500,
@@ -98,15 +123,17 @@ void measure_traits(const gl::Context& context, const Settings& settings) {
                                    .coverage = CloudCoverage::all,
                                    .width = settings.width,
                                    .height = settings.height});
+  bool at_rest = true;
   for (const LeaveOutName& row : leave_out_names()) {
     if (!settings.wants(row.what)) continue;
     const Scene& base = is_of_the_network(row.what) ? wall : cloud;
-    compare(context, settings, row.name, "made for it", large_soup(row.what, base), base.cameras,
-            {.leave_out = LeaveOutSet::all().without(row.what)});
+    at_rest &= compare(context, settings, row.name, "made for it", large_soup(row.what, base),
+                       base.cameras, {.leave_out = LeaveOutSet::all().without(row.what)});
   }
+  return at_rest;
 }
 
-void measure_scene(const gl::Context& context, const Settings& settings,
+bool measure_scene(const gl::Context& context, const Settings& settings,
                    const std::filesystem::path& path) {
   Scene scene = read_scene(path);
   const TriangleSoup& soup = opaque_soup(scene);
@@ -123,34 +150,47 @@ void measure_scene(const gl::Context& context, const Settings& settings,
   }
   const std::string name = path.stem().string();
   const LeaveOutSet left_out = make_plan(soup, device_limits(context.capabilities())).left_out;
+  bool at_rest = true;
   for (const LeaveOutName& row : leave_out_names())
     if (left_out.has(row.what) && settings.wants(row.what))
-      compare(context, settings, row.name, name, soup, cameras,
-              {.leave_out = LeaveOutSet::all().without(row.what)});
+      at_rest &= compare(context, settings, row.name, name, soup, cameras,
+                         {.leave_out = LeaveOutSet::all().without(row.what)});
   if (settings.rows.empty())
-    compare(context, settings, "all of them", name, soup, cameras, {.specialise = false});
+    at_rest &=
+        compare(context, settings, "all of them", name, soup, cameras, {.specialise = false});
+  return at_rest;
+}
+
+std::vector<std::string> row_names() {
+  std::vector<std::string> names;
+  for (const LeaveOutName& row : leave_out_names()) names.emplace_back(row.name);
+  return names;
 }
 
 int run(int argc, char** argv) {
   Settings settings;
   CLI::App app("What each thing that a plan leaves out gains.");
   app.add_option("scenes", settings.scenes, "real scenes to measure, too");
-  app.add_option("--rounds", settings.rounds, "how often the eight views are gone through");
-  app.add_option("--rows", settings.rows, "these alone, by name")->delimiter(',');
+  app.add_option("--rounds", settings.rounds, "how often the eight views are gone through")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--rows", settings.rows, "these alone, by name")
+      ->delimiter(',')
+      ->check(CLI::IsMember(row_names()));
   app.add_flag("--real-only", settings.real_scenes_only, "no scenes made for the purpose");
-  app.add_option("--width", settings.width);
-  app.add_option("--height", settings.height);
+  app.add_option("--width", settings.width)->check(CLI::PositiveNumber);
+  app.add_option("--height", settings.height)->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
   const gl::Context context = gl::Context::create({});
-  std::printf("%s, %d x %d, %s\n\n", context.capabilities().renderer.c_str(), settings.width,
-              settings.height,
+  std::printf("%s, %d x %d, %d rounds, %s\n\n", context.capabilities().renderer.c_str(),
+              settings.width, settings.height, settings.rounds,
               context.capabilities().software ? "processor time" : "time by the wall");
   std::puts(
       "| left out | scene | kept ms | left out ms | times | spread | gains | kept MiB | left out "
       "MiB |");
   std::puts("|---|---|---|---|---|---|---|---|---|");
-  if (!settings.real_scenes_only) measure_traits(context, settings);
-  for (const auto& path : settings.scenes) measure_scene(context, settings, path);
+  bool at_rest = settings.real_scenes_only || measure_traits(context, settings);
+  for (const auto& path : settings.scenes) at_rest &= measure_scene(context, settings, path);
+  if (!at_rest) std::puts("\n† Its warm-up had not come to rest when times began to count.");
   return 0;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <memory>
 #include <vector>
 
@@ -119,5 +120,10 @@ int main(int argc, char** argv) {
   const auto number = [&](int index, int otherwise) {
     return argc > index ? std::max(1, std::atoi(argv[index])) : otherwise;
   };
-  return tureen::test::run(number(1, 400), number(2, 400), number(3, 20), number(4, 3));
+  try {
+    return tureen::test::run(number(1, 400), number(2, 400), number(3, 20), number(4, 3));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "training_benchmark: %s\n", error.what());
+    return 1;
+  }
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <thread>
 
 #include "cli/photographs_fixture.hpp"
@@ -55,6 +56,8 @@ TEST_F(Bench, SaysAllThatItsSchemaWants) {
   EXPECT_EQ(json["program"]["arguments"][0], "bench");
   EXPECT_EQ(json["device"]["software"], true);
   EXPECT_EQ(json["protocol"]["rounds"], 1);
+  EXPECT_GE(json["peak_mib"], json["load"]["peak_mib"]) << "with its targets";
+  EXPECT_NE(json["program"]["build"], "");
   for (const char* time : {"read_ms", "upload_ms", "peak_mib", "device_mib"})
     EXPECT_GT(json["load"][time], 0) << time;
   for (const auto& each : json["measurements"]) {
@@ -65,6 +68,18 @@ TEST_F(Bench, SaysAllThatItsSchemaWants) {
     EXPECT_GT(each["frame_ms"]["min_of_medians"], 0);
     EXPECT_DOUBLE_EQ(each["fps"], 1000 / each["frame_ms"]["mean"].get<double>());
   }
+}
+
+TEST_F(Bench, SaysWithHowManyThreadsLlvmpipeDraws) {
+  const std::vector<std::string> arguments{"--only", "tureen", "-o", "two"};
+  setenv("LP_NUM_THREADS", "2", 1);
+  const nlohmann::json two = bench_json(arguments);
+  setenv("LP_NUM_THREADS", "1", 1);
+  const ChildResult one = bench({"--only", "tureen", "--against", "two/bench.json"});
+  unsetenv("LP_NUM_THREADS");
+  ASSERT_THAT(two["device"]["renderer"].get<std::string>(), HasSubstr("llvmpipe"));
+  EXPECT_EQ(two["machine"]["rasteriser_threads"], 2);
+  EXPECT_THAT(one.err, HasSubstr("another number of rasteriser threads: 1, then 2"));
 }
 
 TEST_F(Bench, SoftwareIsTimedByTheProcessorsClockAlone) {
@@ -214,6 +229,7 @@ TEST_F(Bench, RefusesWhatMakesNoSense) {
       {{"--only", "publish"}, 2, "not 'publish'; did you mean published?"},
       {{"--only", "copy,copy"}, 2, "names copy twice"},
       {{"no_dataset", "--cameras", "dataset"}, 3, "no_dataset"},
+      {{"--against", "old.json", "--fail-slower", "5"}, 2, "--fail-slower wants 3 rounds"},
   };
   for (const Refusal& refusal : refusals) {
     SCOPED_TRACE(refusal.says);

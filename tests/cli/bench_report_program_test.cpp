@@ -16,7 +16,7 @@ class BenchFiles : public test::Program {
  protected:
   ChildResult bench(std::vector<std::string> more) const {
     std::vector<std::string> arguments{"bench",  "scene.off", "--context", "osmesa",
-                                       "--size", "32x18",     "--rounds",  "1",
+                                       "--size", "32x18",     "--rounds",  "3",
                                        "--only", "tureen",    "--cameras", "orbit:2"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(arguments);

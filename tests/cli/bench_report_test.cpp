@@ -12,6 +12,7 @@
 #include "cli/bench_page.hpp"
 #include "cli/bench_plots.hpp"
 #include "cli/bench_reports.hpp"
+#include "cli/bench_words.hpp"
 #include "formats/format_testing.hpp"
 #include "formats/output.hpp"
 #include "soup/error.hpp"
@@ -25,6 +26,7 @@ using test::Markup;
 using ::testing::Contains;
 using ::testing::Each;
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -42,7 +44,6 @@ BenchMeasurement measurement(const std::string& configuration, const std::string
           .width = width,
           .height = 360,
           .views = 3,
-          .rounds = 5,
           .frames_per_sample = 1,
           .frames = 15,
           .frame_ms = {.mean = 1.02 * ms,
@@ -51,7 +52,9 @@ BenchMeasurement measurement(const std::string& configuration, const std::string
                        .p99 = 1.3 * ms,
                        .min_of_medians = ms,
                        .spread = 0.01,
-                       .low_1_percent_fps = 1000 / (1.3 * ms)},
+                       .low_1_percent_fps = 1000 / (1.3 * ms),
+                       .rounds = 5,
+                       .samples = 15},
           .fps = 1000 / (1.02 * ms),
           .aa_spread = 0.02,
           .stable = true,
@@ -109,12 +112,12 @@ std::vector<std::vector<std::string>> parse_csv(const std::string& text) {
 
 TEST(BenchCsv, HasTheseColumns) {
   const auto lines = parse_csv(bench_csv(result()));
-  EXPECT_THAT(lines[0],
-              ElementsAre("configuration", "camera_set", "size", "width", "height", "views",
-                          "rounds", "frames", "mean_ms", "median_ms", "p95_ms", "p99_ms",
-                          "min_of_medians_ms", "spread", "aa_spread", "fps", "low_1_percent_fps",
-                          "stable", "gpu_ms", "pixels_hash", "scene", "triangles", "renderer",
-                          "cpu", "commit", "date", "driver", "plan"));
+  EXPECT_THAT(lines[0], ElementsAre("configuration", "camera_set", "size", "width", "height",
+                                    "views", "rounds", "frames", "mean_ms", "median_ms", "p95_ms",
+                                    "p99_ms", "min_of_medians_ms", "spread", "aa_spread", "fps",
+                                    "low_1_percent_fps", "stable", "gpu_ms", "pixels_hash", "scene",
+                                    "triangles", "renderer", "cpu", "commit", "date", "driver",
+                                    "plan", "build", "rasteriser_threads"));
   ASSERT_EQ(lines.size(), 9u);
   for (const auto& line : lines) EXPECT_EQ(line.size(), lines[0].size());
   EXPECT_THAT(std::vector(lines[1].begin(), lines[1].begin() + 8),
@@ -122,6 +125,21 @@ TEST(BenchCsv, HasTheseColumns) {
   EXPECT_EQ(lines[1][26], "4.5 driver 9");
   EXPECT_EQ(lines[1][27], "M1: no <network>");
   EXPECT_EQ(lines[2][27], "") << "the plan is the configuration's own";
+}
+
+TEST(BenchCsv, IsEmptyWhereNothingIsKnown) {
+  BenchResult told = result();
+  told.program.build = "release";
+  told.machine.rasteriser_threads = 2;
+  told.measurements[1].frame_ms.samples = 120;
+  const auto lines = parse_csv(bench_csv(told));
+  EXPECT_EQ(lines[1][11], "") << "the p99 of 15 samples";
+  EXPECT_EQ(lines[1][16], "") << "their 1 % low";
+  EXPECT_DOUBLE_EQ(std::stod(lines[2][11]), told.measurements[1].frame_ms.p99);
+  EXPECT_DOUBLE_EQ(std::stod(lines[2][16]), told.measurements[1].frame_ms.low_1_percent_fps);
+  EXPECT_EQ(lines[1][28], "release");
+  EXPECT_EQ(lines[1][29], "2");
+  EXPECT_EQ(parse_csv(bench_csv(result()))[1][29], "");
 }
 
 TEST(BenchCsv, KeepsDigitsAndAwkwardNames) {
@@ -146,11 +164,48 @@ TEST(BenchMarkdown, IsATableWhateverTheNamesAre) {
     std::size_t bars = 0;
     for (std::size_t i = 0; i < line.size(); ++i)
       bars += line[i] == '|' && (i == 0 || line[i - 1] != '\\');
-    EXPECT_EQ(bars, 12u) << line;
+    EXPECT_EQ(bars, 15u) << line;
     ++rows;
   }
   EXPECT_EQ(rows, 2 + all.measurements.size());
   EXPECT_THAT(bench_markdown(all), HasSubstr("| 4.00 |"));
+}
+
+TEST(BenchMarkdown, SaysOfHowMuchItsFiguresAre) {
+  BenchResult all = result();
+  all.machine.rasteriser_threads = 3;
+  all.program.build = "release";
+  EXPECT_THAT(bench_markdown(all), HasSubstr("2 cores, 3 rasteriser threads; commit abc1234, "
+                                             "release build, 2026"));
+  EXPECT_THAT(bench_markdown(all),
+              HasSubstr("| 640x360 | tureen | 5 | 15 | 10.1 | 10.0 | 12.0 | – | 98.0 | – | 2.0 % | "
+                        "1.0 % | 4.00 |"));
+  EXPECT_THAT(bench_markdown(all), Not(HasSubstr(restless_mark)));
+  all.measurements[0].frame_ms.samples = 100;
+  all.measurements[0].stable = false;
+  const std::string text = bench_markdown(all);
+  EXPECT_THAT(text, HasSubstr("| tureen† | 5 | 15 | 10.1 | 10.0 | 12.0 | 13.0 | 98.0 | 76.9 |"));
+  EXPECT_THAT(text, EndsWith(std::string("|\n\n") + restless_sentence + "\n"));
+}
+
+TEST(BenchMarkdown, ClaimsNoDifferenceThatASpreadExplainsOrThatHasNone) {
+  BenchResult all = result();
+  all.measurements.resize(2);  // ours and the published, four times as long
+  const auto last_cells = [&] {
+    std::string cells;
+    std::istringstream text(bench_markdown(all));
+    for (std::string line; std::getline(text, line);)
+      if (line.starts_with("| hemisphere"))
+        cells += line.substr(line.rfind('|', line.size() - 2) + 2, 7) + ";";
+    return cells;
+  };
+  EXPECT_EQ(last_cells(), "4.00 |;1.00 |;");
+  all.measurements[1].frame_ms.spread = 1.6;  // of the reference
+  EXPECT_EQ(last_cells(), "equal |;1.00 |;");
+  all.measurements[1].frame_ms.spread = 0;
+  all.measurements[1].frame_ms.rounds = 2;
+  EXPECT_EQ(last_cells(), "2 round;1.00 |;");
+  EXPECT_THAT(bench_markdown(all), HasSubstr("| – | 1.00 |")) << "two rounds have no spread";
 }
 
 // ---- Plots --------------------------------------------------------------------------------------
@@ -241,7 +296,8 @@ TEST(BenchComparison, SaysWhatDiffersByMoreThanTwiceTheSpread) {
   const BenchComparison comparison = compare_benches(now, then);
   ASSERT_EQ(comparison.ratios.size(), 8u);
   std::vector<std::string> verdicts;
-  for (const BenchRatio& ratio : comparison.ratios) verdicts.push_back(verdict(ratio));
+  for (const BenchRatio& ratio : comparison.ratios)
+    verdicts.push_back(verdict_text(ratio.verdict, ratio.rounds));
   EXPECT_THAT(verdicts, ElementsAre("equal", "slower", "faster", "equal", "equal", "equal", "equal",
                                     "equal"));
   EXPECT_NEAR(comparison.ratios[1].ratio, 1.045, 1e-12);
@@ -252,6 +308,33 @@ TEST(BenchComparison, SaysWhatDiffersByMoreThanTwiceTheSpread) {
   EXPECT_THAT(comparison.unmatched, IsEmpty());
   EXPECT_EQ(slower_than(comparison, 4).size(), 1u);
   EXPECT_EQ(slower_than(comparison, 5).size(), 0u) << "20 % with a spread of 30 % proves nothing";
+}
+
+TEST(BenchComparison, ClaimsNothingOfFewRounds) {
+  const BenchResult then = result();
+  BenchResult now = then;
+  for (BenchMeasurement& m : now.measurements) m.frame_ms.min_of_medians *= 9;
+  now.measurements[0].frame_ms.rounds = 1;
+  const BenchComparison comparison = compare_benches(now, then);
+  EXPECT_EQ(comparison.ratios[0].verdict, Verdict::unknown);
+  EXPECT_EQ(comparison.ratios[0].spread, std::nullopt);
+  EXPECT_THAT(comparison_lines(comparison)[0],
+              HasSubstr("9.000 times as long: 1 round (too few for a spread)"));
+  EXPECT_THAT(comparison_lines(comparison)[1], HasSubstr("slower (spread 2.0 %)"));
+  EXPECT_EQ(slower_than(comparison, 0).size(), now.measurements.size() - 1);
+}
+
+TEST(BenchComparison, SaysWhatBuildAndThreadsChanged) {
+  BenchResult then = result();
+  BenchResult now = then;
+  now.program.build = "debug";
+  now.machine.rasteriser_threads = 4;
+  EXPECT_THAT(compare_benches(now, then).circumstances, IsEmpty()) << "an older file";
+  then.program.build = "release";
+  then.machine.rasteriser_threads = 2;
+  EXPECT_THAT(compare_benches(now, then).circumstances,
+              ElementsAre("another number of rasteriser threads: 4, then 2",
+                          "another build: debug, then release"));
 }
 
 TEST(BenchComparison, SaysWhatElseChanged) {
@@ -277,6 +360,32 @@ TEST(BenchComparison, DoesNotPairWhatIsNotTheSame) {
   EXPECT_THAT(comparison.unmatched,
               ElementsAre(StartsWith("only now: tureen"), StartsWith("only now: generic"),
                           StartsWith("only then: tureen"), StartsWith("only then: published")));
+}
+
+TEST(BenchPage, TellsWhatIsNotKnown) {
+  BenchResult all = result();
+  all.measurements.resize(2);
+  all.measurements[0].frame_ms.rounds = 1;
+  all.peak_mib = 77;
+  all.program.build = "debug";
+  all.machine.rasteriser_threads = 3;
+  const BenchComparison comparison = compare_benches(all, all);
+  const std::string html = bench_page(all, {.figures = {},
+                                            .pictures = {},
+                                            .compared_with = "old.json",
+                                            .comparison = &comparison,
+                                            .missing = {}});
+  EXPECT_EQ(check_markup(html).defect, "");
+  for (const char* part : {">1 round<", ">–<", "77 MiB", "debug build", "3 rasteriser threads",
+                           "of fewer than 3 rounds none is known"})
+    EXPECT_THAT(html, HasSubstr(part));
+  EXPECT_THAT(html, Not(HasSubstr(">4.00<"))) << "of one round";
+}
+
+TEST(BenchPage, PutsAReasonBesideThePassesThatAreTheLesserPart) {
+  BenchResult all = result();
+  all.measurements[0].passes_reason = "they miss something";
+  EXPECT_THAT(bench_page(all, {}), HasSubstr("shading 3.000 (they miss something)"));
 }
 
 // ---- The page and the files ---------------------------------------------------------------------
@@ -332,6 +441,11 @@ TEST(BenchReports, WritesTheFolderAndFailsOnlyWhereAsked) {
   EXPECT_EQ(report_bench(options, now, before), ExitCode::done);
   options.fail_slower = 40;
   EXPECT_EQ(report_bench(options, now, before), ExitCode::check_failed);
+  for (BenchMeasurement& m : now.measurements) m.frame_ms.rounds = 2;
+  ::testing::internal::CaptureStderr();
+  EXPECT_EQ(report_bench(options, now, before), ExitCode::done);
+  EXPECT_THAT(::testing::internal::GetCapturedStderr(),
+              HasSubstr("--fail-slower cannot judge 8 of 8: fewer than 3 rounds"));
 }
 
 TEST(BenchReports, ABadFileIsRefusedBeforeAnythingIsMeasured) {

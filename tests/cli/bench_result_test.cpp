@@ -4,6 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <set>
+
+#include "cli/version.hpp"
 #include "soup/error.hpp"
 #include "support/schema.hpp"
 
@@ -20,16 +24,17 @@ BenchResult example() {
                             .width = 640,
                             .height = 360,
                             .views = 3,
-                            .rounds = 5,
                             .frames_per_sample = 7,
-                            .frames = 105,
+                            .frames = 840,
                             .frame_ms = {.mean = 0.1,
                                          .median = 0.2,
                                          .p95 = 0.3,
                                          .p99 = 1.0 / 3,
                                          .min_of_medians = 0.15,
                                          .spread = 0.01,
-                                         .low_1_percent_fps = 2999.5},
+                                         .low_1_percent_fps = 2999.5,
+                                         .rounds = 40,
+                                         .samples = 120},
                             .fps = 10000,
                             .aa_spread = 0.004,
                             .stable = true,
@@ -47,9 +52,12 @@ BenchResult example() {
   software.gpu_ms.reset();
   software.picture.reset();
   return {.date = "2026-01-02T03:04:05Z",
-          .program = {.version = "0.1.0", .commit = "abc1234", .arguments = {"bench", "a.glb"}},
+          .program = {.version = "0.1.0",
+                      .commit = "abc1234",
+                      .arguments = {"bench", "a.glb"},
+                      .build = "debug"},
           .scene = {.name = "a", .path = "x/a.glb", .triangles = 15000, .appearance = "lattice"},
-          .machine = {.cpu = "Some CPU", .cores = 2, .memory_mib = 4096.5},
+          .machine = {.cpu = "Some CPU", .cores = 2, .memory_mib = 4096.5, .rasteriser_threads = 3},
           .device = {.context = "EGL, OpenGL 4.5 core",
                      .renderer = "llvmpipe",
                      .vendor = "Mesa",
@@ -70,7 +78,8 @@ BenchResult example() {
                               .upload_ms = 6,
                               .device_mib = 7}},
           .measurements = {hardware, software},
-          .notes = {"a note"}};
+          .notes = {"a note"},
+          .peak_mib = 8.5};
 }
 
 TEST(BenchResult, ComesBackFromJsonAsItWas) {
@@ -85,6 +94,44 @@ TEST(BenchResult, ComesBackFromJsonAsItWas) {
   EXPECT_FALSE(read.measurements[1].gpu_ms);
   EXPECT_TRUE(read.measurements[1].passes_ms.empty());
   EXPECT_EQ(read.configurations[1].options[1], "published");
+  EXPECT_EQ(read.measurements[0].frame_ms.rounds, 40);
+  EXPECT_EQ(read.measurements[0].frame_ms.samples, 120u);
+  EXPECT_EQ(read.program.build, "debug");
+  EXPECT_EQ(read.machine.rasteriser_threads, 3);
+  EXPECT_EQ(read.peak_mib, 8.5);
+}
+
+TEST(BenchResult, OfTooFewSamplesTheSlowestPercentIsNull) {
+  BenchResult few = example();
+  for (BenchMeasurement& m : few.measurements) {
+    m.frame_ms.rounds = 33;  // of three views
+    m.frame_ms.samples = 99;
+  }
+  const Json written = to_json(few);
+  EXPECT_EQ(test::schema_violations(written, "bench.schema.json"), "");
+  EXPECT_TRUE(written["measurements"][0]["frame_ms"]["p99"].is_null());
+  EXPECT_TRUE(written["measurements"][0]["low_1_percent_fps"].is_null());
+  EXPECT_EQ(to_json(bench_result_from_json(written.dump(), "bench.json")), written);
+}
+
+/// What `tureen bench` wrote when its files were of version 1.
+nlohmann::json of_version_1() {
+  nlohmann::json document = to_json(example());
+  document["version"] = 1;
+  document["program"].erase("build");
+  document["machine"].erase("rasteriser_threads");
+  document.erase("peak_mib");
+  document["measurements"][0]["rounds"] = 5;  // 15 samples, and a number all the same
+  return document;
+}
+
+TEST(BenchResult, OlderFilesAreRead) {
+  const BenchResult read = bench_result_from_json(of_version_1().dump(), "bench.json");
+  EXPECT_EQ(read.program.build, "");
+  EXPECT_FALSE(read.machine.rasteriser_threads);
+  EXPECT_FALSE(read.peak_mib);
+  EXPECT_EQ(read.measurements[0].frame_ms.p99, 1.0 / 3);
+  EXPECT_EQ(test::schema_violations(to_json(read), "bench.schema.json"), "");
 }
 
 TEST(BenchResult, FollowsItsSchema) {
@@ -103,11 +150,14 @@ std::vector<nlohmann::json::json_pointer> all_keys(const nlohmann::json& documen
   return result;
 }
 
-TEST(BenchResult, SchemaAndReaderMissEveryKey) {
+TEST(BenchResult, SchemaAndReaderMissEveryKeyThatAllHave) {
   const nlohmann::json complete = to_json(example());
   const auto keys = all_keys(complete);
   ASSERT_GT(keys.size(), 60u);
+  const std::set<std::string> optional{"/program/build", "/machine/rasteriser_threads",
+                                       "/peak_mib"};
   for (const auto& key : keys) {
+    if (optional.contains(key.to_string())) continue;
     nlohmann::json document = complete;
     document.at(key.parent_pointer()).erase(key.back());
     SCOPED_TRACE(key.to_string());
@@ -142,8 +192,8 @@ TEST(BenchResult, SaysWhatIsWrong) {
   EXPECT_THAT(refusal("[]"), HasSubstr("bench.json: expected an object"));
   EXPECT_THAT(refusal("{\"frames\": []}"), HasSubstr("this is no result of tureen bench"));
   nlohmann::json document = to_json(example());
-  document["version"] = 2;
-  EXPECT_THAT(refusal(document.dump()), HasSubstr("version: version 2 is newer"));
+  document["version"] = bench_result_version + 1;
+  EXPECT_THAT(refusal(document.dump()), HasSubstr("version: version 3 is newer"));
   document = to_json(example());
   document["measurements"][1]["frame_ms"]["p95"] = "fast";
   EXPECT_THAT(refusal(document.dump()), HasSubstr("measurements[1].frame_ms.p95"));
@@ -163,6 +213,45 @@ TEST(Machine, IsKnownAndTakesMemory) {
   EXPECT_NE(machine.cpu, "");
   EXPECT_GT(machine.memory_mib, peak_mib());
   EXPECT_GT(peak_mib(), 1);  // of this test, GoogleTest and all
+#endif
+}
+
+/// LP_NUM_THREADS as given, and after its life as it was.
+class LlvmpipeThreads {
+ public:
+  explicit LlvmpipeThreads(const char* value) {
+    if (const char* old = std::getenv(name)) before_ = old;
+    value ? setenv(name, value, 1) : unsetenv(name);
+  }
+  ~LlvmpipeThreads() { before_ ? setenv(name, before_->c_str(), 1) : unsetenv(name); }
+
+ private:
+  static constexpr const char* name = "LP_NUM_THREADS";
+  std::optional<std::string> before_;
+};
+
+TEST(Machine, KnowsWithHowManyThreadsLlvmpipeDraws) {
+  const std::string llvmpipe = "llvmpipe (LLVM 15.0.6, 256 bits)";
+  const auto with = [&](const char* value) {
+    const LlvmpipeThreads threads(value);
+    return rasteriser_threads_of(llvmpipe);
+  };
+  const int cores = this_machine().cores;
+  const int usual = cores > 1 ? cores : 0;
+  EXPECT_EQ(with(nullptr), usual);
+  EXPECT_EQ(with("7"), 7);
+  EXPECT_EQ(with("0"), 0) << "the thread that calls OpenGL";
+  EXPECT_EQ(with("many"), usual);
+  EXPECT_EQ(with("-1"), usual);
+  const LlvmpipeThreads threads("7");
+  EXPECT_EQ(rasteriser_threads_of("a graphics card"), std::nullopt);
+}
+
+TEST(Version, SaysWhetherThisIsARelease) {
+#if defined NDEBUG && !defined __SANITIZE_ADDRESS__ && !defined __SANITIZE_THREAD__
+  EXPECT_STREQ(program_build(), "release");
+#else
+  EXPECT_STRNE(program_build(), "release");
 #endif
 }
 

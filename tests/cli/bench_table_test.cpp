@@ -21,14 +21,15 @@ BenchMeasurement measurement(const std::string& configuration, const std::string
   result.width = 640;
   result.height = 360;
   result.views = 8;
-  result.rounds = 5;
   result.frame_ms = {.mean = ms + 1,
                      .median = ms,
                      .p95 = ms + 2,
                      .p99 = ms + 3,
                      .min_of_medians = ms,
                      .spread = 0,
-                     .low_1_percent_fps = 1000 / (ms + 3)};
+                     .low_1_percent_fps = 1000 / (ms + 3),
+                     .rounds = 15,
+                     .samples = 120};
   result.fps = 1000 / (ms + 1);
   result.aa_spread = 0.02;
   result.passes_reason = "it is told so";
@@ -54,7 +55,7 @@ TEST(BenchTable, HoldsEachAgainstTheFirstOfItsSize) {
   const std::vector<std::string> lines = bench_table(two_sizes());
   EXPECT_THAT(
       lines,
-      Contains(HasSubstr("640 x 360, orbit:8: 8 views, 5 rounds, A/A spread 2.0 %")).Times(2));
+      Contains(HasSubstr("640 x 360, orbit:8: 8 views, 15 rounds, A/A spread 2.0 %")).Times(2));
   EXPECT_THAT(lines, Contains(AllOf(HasSubstr("tureen "), EndsWith("  1.00"))).Times(2));
   EXPECT_THAT(lines, Contains(MatchesRegex(" *published +52.0 +53.0 +52.0 +54.0 +55.0 .*")))
       << "best, mean, p50, p95, p99";
@@ -62,6 +63,44 @@ TEST(BenchTable, HoldsEachAgainstTheFirstOfItsSize) {
   EXPECT_THAT(lines, Contains(AllOf(HasSubstr("generic "), EndsWith("  equal"))));
   EXPECT_THAT(lines, Contains(AllOf(HasSubstr("published "), EndsWith("  5.20"))));
   EXPECT_THAT(lines, Contains(AllOf(HasSubstr("published "), EndsWith("  0.50"))));
+}
+
+TEST(BenchTable, HoldsRatiosAgainstTheSpreadOfTheRounds) {
+  BenchResult result = two_sizes();
+  result.measurements[2].frame_ms.spread = 2.2;  // 52 is 4.2 times as much more than 10
+  EXPECT_THAT(bench_table(result), Contains(AllOf(HasSubstr("published "), EndsWith("  equal"))));
+  for (BenchMeasurement& each : result.measurements) each.frame_ms.rounds = 1;
+  const std::vector<std::string> lines = bench_table(result);
+  EXPECT_THAT(lines, Contains(AllOf(HasSubstr("published "), EndsWith(" 1 round"))).Times(2));
+  EXPECT_THAT(lines, Not(Contains(EndsWith("equal"))));
+}
+
+TEST(BenchTable, LeavesOutWhatWouldBeTheSlowestSample) {
+  BenchResult result = two_sizes();
+  result.measurements[2].frame_ms.samples = 99;
+  EXPECT_THAT(bench_table(result),
+              Contains(MatchesRegex(" *published +52.0 +53.0 +52.0 +54.0 +– +18.9 +– +5.20")));
+}
+
+TEST(BenchTable, WarnsOfABuildThatIsNoRelease) {
+  BenchResult result = two_sizes();
+  for (const char* fine : {"", "release"}) {
+    result.program.build = fine;
+    EXPECT_THAT(bench_table(result), Not(Contains(HasSubstr("build")))) << fine;
+  }
+  result.program.build = "debug";
+  EXPECT_THAT(bench_table(result), Contains(HasSubstr("A debug build: its checks take time")));
+}
+
+TEST(BenchTable, SaysWhatMemoryIsOfWhen) {
+  BenchResult result = two_sizes();
+  result.load.peak_mib = 40;
+  result.machine.rasteriser_threads = 2;
+  EXPECT_THAT(bench_table(result), Contains(HasSubstr("peak 40 MiB before the first frame; on")));
+  result.peak_mib = 70;
+  EXPECT_THAT(bench_table(result),
+              Contains(HasSubstr("40 MiB before the first frame, 70 MiB after all frames; on")));
+  EXPECT_THAT(bench_table(result), Contains(HasSubstr("2 rasteriser threads")));
 }
 
 TEST(BenchTable, SaysWhyPassesHaveNoTimesOnce) {
@@ -76,6 +115,9 @@ TEST(BenchTable, ShowsThePassesThatTheDeviceTimed) {
   EXPECT_THAT(lines,
               Contains(HasSubstr("by the device's clock: visibility 0.123 ms, shading 7.89 ms")));
   EXPECT_THAT(lines, Not(Contains(HasSubstr("No times of passes"))));
+  result.measurements[0].passes_reason = "they miss something";
+  EXPECT_THAT(bench_table(result), Contains(MatchesRegex(" +they miss something")));
+  EXPECT_THAT(bench_table(result), Not(Contains(HasSubstr("No times of passes"))));
 }
 
 TEST(BenchTable, WarnsOfSoftwareAndOfRestlessness) {

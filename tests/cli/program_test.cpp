@@ -242,6 +242,17 @@ TEST_F(Program, ConvertSlimIsSmallAndSaysWhatItLost) {
   EXPECT_EQ(run({"convert", "part.glb", "other.glb", "--max-error", "1"}).exit_code, 2);
 }
 
+// What slim files are to reach (docs/slim.md), here with nothing but the scene to judge by.
+TEST_F(Program, ConvertSlimMakesTheExampleFourTimesSmallerForATenthOfADecibel) {
+  const std::string example = std::string(TUREEN_SOURCE_DIR) + "/examples/soup.glb";
+  const ChildResult result = run({"convert", example, "slim.glb", "--slim", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_GE(json["times_smaller"], 4);
+  EXPECT_LE(json["loss_db"], 0.1);
+  EXPECT_EQ(json["scene_bytes"], fs::file_size(folder / "slim.glb"));
+}
+
 // --- render ---------------------------------------------------------------------------------
 
 TEST_F(Program, RenderDrawsAndReports) {
@@ -251,8 +262,8 @@ TEST_F(Program, RenderDrawsAndReports) {
            "--target", "0,0,0", "--frames", "5", "--context", "osmesa", "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto json = nlohmann::ordered_json::parse(result.out);
-  EXPECT_THAT(keys(json), ElementsAre("width", "height", "context", "renderer", "triangles",
-                                      "frame_ms", "plan", "output"));
+  EXPECT_THAT(keys(json), ElementsAre("width", "height", "context", "renderer", "software",
+                                      "triangles", "frame_ms", "plan", "output"));
   EXPECT_EQ(json["width"], 64);
   EXPECT_EQ(json["height"], 48);
   EXPECT_EQ(json["triangles"], 3);
@@ -312,8 +323,8 @@ TEST_F(Program, RenderShowsWhatASoupHas) {
   EXPECT_THAT(overdraw.err, HasSubstr("shows overdraw of the soup as it is stored"));
   EXPECT_THAT(overdraw.err, HasSubstr("#611366 2\n"));
   EXPECT_THAT(keys(nlohmann::ordered_json::parse(overdraw.out)),
-              ElementsAre("width", "height", "context", "renderer", "triangles", "frame_ms", "plan",
-                          "output"));
+              ElementsAre("width", "height", "context", "renderer", "software", "triangles",
+                          "frame_ms", "plan", "output"));
   // Two faces at one place above the middle; below it the third lies behind them.
   const Image8 counts = read_png("out.png");
   EXPECT_EQ(counts.at(32, 20), glm::u8vec4(0x61, 0x13, 0x66, 255));

@@ -166,6 +166,31 @@ TEST(TradeoffCandidates, AreWhatCanBeChosen) {
   EXPECT_EQ(all.points[1].departures, 1);
 }
 
+Panel supersampled() {
+  Panel result;
+  result.knobs = tradeoff::antialiasing_knobs(8, {});
+  const std::vector<tradeoff::Configuration> star{{0, 0, 0}, {0, 1, 0}, {0, 2, 0}, {0, 3, 0}};
+  double ms = 5, psnr = 30;
+  for (const tradeoff::Configuration& each : star)
+    result.outcomes.push_back(
+        outcome(each, tradeoff::describe(result.knobs, each), ms *= 2, psnr += 8));
+  return result;
+}
+
+// 8 x 8 samples differ from a reference of 8 x 8 by rounding, whatever they cost.
+TEST(TradeoffCandidates, TheReferencesOwnSamplesAreOnNoFront) {
+  Panel made = supersampled();
+  ASSERT_EQ(made.outcomes[3].name, "8 x 8 samples a pixel");
+  EXPECT_FALSE(is_judged(made, made.outcomes[3]));
+  EXPECT_TRUE(is_judged(made, made.outcomes[2]));
+  find_front(made);
+  EXPECT_THAT(made.front, ElementsAre(0, 1, 2));
+  Panel without = supersampled();
+  without.outcomes.pop_back();
+  find_front(without);
+  EXPECT_EQ(made.hypervolume, without.hypervolume);
+}
+
 TEST(DominantKnob, IsTheOneThatCostsMost) {
   Panel made = panel();
   EXPECT_THAT(dominant_knobs(made), ElementsAre(std::nullopt, std::nullopt, 0u, 1u, 0u));
@@ -205,6 +230,40 @@ TEST(TradeoffPage, HoldsTablesAndEscapesNames) {
   EXPECT_THAT(page, HasSubstr("<svg></svg>"));
   EXPECT_THAT(page, HasSubstr("this device has none"));
   EXPECT_THAT(tradeoff_page(report(), {}), HasSubstr("gnuplot is not installed"));
+}
+
+TEST(TradeoffPage, PhotographsJudgeThePublishedPipelineAndWhatIsEmulated) {
+  TradeoffReport made = report();
+  made.model = {"lego", "test", 4, "valid"};
+  made.study.drawing.outcomes[4].method = Method::emulated;
+  made.drawing_model.resize(6);
+  made.drawing_model[0] = ModelError{27, 0.9, 0.1};
+  made.drawing_model[4] = ModelError{26.75, 0.9, 0.1};
+  made.drawing_model[5] = ModelError{26.5, 0.8, 0.1};
+  std::string page = tradeoff_page(made, {});
+  page.erase(0, page.find("E_model: against photographs"));
+  EXPECT_THAT(page, testing::ContainsRegex("level 2, &quot;4 bits&quot; \\(emulated\\).*-0\\.250"));
+  EXPECT_THAT(page, testing::ContainsRegex("published pipeline.*-0\\.500"));
+  EXPECT_EQ(test::schema_violations(to_json(made), "tradeoff.schema.json"), "");
+}
+
+TEST(TradeoffPage, SaysOfEveryKnobWhetherItMatters) {
+  const std::string page = tradeoff_page(report(), {});
+  const std::size_t antialiasing = page.find("Antialiasing knobs");
+  ASSERT_NE(antialiasing, std::string::npos);
+  EXPECT_THAT(page.substr(0, antialiasing), HasSubstr("slowest / fastest"));
+  EXPECT_THAT(page.substr(antialiasing), HasSubstr("slowest / fastest"));
+}
+
+TEST(WhyNotEmulated, CountsThePixelsThatTheOracleWouldDraw) {
+  Panel made = panel();
+  std::vector<Photograph> photographs(2);
+  for (Photograph& each : photographs) each.camera.width = 100, each.camera.height = 50;
+  EXPECT_EQ(why_not_emulated(made, photographs, 0), std::nullopt) << "nothing is emulated";
+  made.outcomes[3].method = made.outcomes[4].method = Method::emulated;
+  EXPECT_EQ(why_not_emulated(made, photographs, 20000), std::nullopt);
+  EXPECT_THAT(why_not_emulated(made, photographs, 19999).value_or(""),
+              HasSubstr("20,000 pixels of photographs, more than the 19,999 samples"));
 }
 
 TEST(SpreadOut, TakesPhotographsEvenly) {

@@ -208,6 +208,37 @@ TEST(TradeoffScenes, WhatIsADepartureInOneSceneMayBeTheDefaultOfAnother) {
   EXPECT_THAT(means.front, ElementsAre(2, 0));
 }
 
+/// As runs told it that had 8 x 8 samples on their front.
+json with_supersampling(json document) {
+  json& panel = document["antialiasing"];
+  panel["knobs"].push_back({{"key", "supersampling"},
+                            {"title", "supersampling"},
+                            {"settings", {"1", "8"}},
+                            {"time_ratio", 30},
+                            {"psnr_range_db", 22},
+                            {"matters", true}});
+  json& all = panel["configurations"];
+  for (json& each : all) each["knobs"]["supersampling"] = "1";
+  all.push_back(all[0]);
+  json& fine = all.back();
+  fine["name"] = "8 x 8 samples a pixel";
+  fine["knobs"]["supersampling"] = "8";
+  for (const char* key : {"ms", "ms_median", "ms_p95"}) fine[key] = fine[key].get<double>() * 3;
+  fine["e_render"]["psnr_db"] = 58;
+  panel["front"].push_back(2);
+  EXPECT_EQ(test::schema_violations(document, "tradeoff.schema.json"), "");
+  return document;
+}
+
+TEST(TradeoffScenes, TheReferencesOwnSamplesAreOnNoFront) {
+  const TradeoffScenes scenes = join_both(with_supersampling(lego()), with_supersampling(chair()));
+  const TradeoffScenes without = join_both(lego(), chair());
+  EXPECT_THAT(scenes.antialiasing.means.front, ElementsAre(1, 0));
+  EXPECT_EQ(scenes.antialiasing.means.hypervolume, without.antialiasing.means.hypervolume);
+  EXPECT_THAT(scenes.notes, ElementsAre(StartsWith("8 x 8 samples a pixel: drawn at the "
+                                                   "reference's own samples")));
+}
+
 TEST(TradeoffScenes, OrderOfTheFilesChangesNoMean) {
   json other = chair_with_fast_level();
   other["drawing"]["configurations"].erase(3);

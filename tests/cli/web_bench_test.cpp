@@ -9,6 +9,7 @@
 
 #include "cli/bench_devices.hpp"
 #include "cli/bench_table.hpp"
+#include "cli/bench_words.hpp"
 #include "soup/error.hpp"
 #include "support/markup.hpp"
 #include "support/schema.hpp"
@@ -79,7 +80,7 @@ TEST(WebBench, JudgesTimesByTheStatisticsOfEveryBenchmark) {
   EXPECT_EQ(ours.configuration, "tureen");
   EXPECT_EQ(ours.size, "1280x720");
   EXPECT_EQ(ours.views, 3);
-  EXPECT_EQ(ours.rounds, 3);
+  EXPECT_EQ(ours.frame_ms.rounds, 3);
   EXPECT_EQ(ours.frames_per_sample, 4);
   EXPECT_EQ(ours.frames, 36);
   const FrameTimes times{.views = 3, .ms = {2, 3, 4, 2.5, 3.5, 4.5, 2.2, 3.2, 4.2}};
@@ -228,16 +229,18 @@ TEST(DeviceTable, PutsTheSameThingInOneRow) {
   EXPECT_THAT(
       table.rows,
       ElementsAre(ElementsAre(ficus, "hemisphere:3", "1280x720", "tureen", "3.000", "30.0"),
-                  ElementsAre(ficus, "hemisphere:3", "1280x720", "published", "12.0", "12.0"),
+                  ElementsAre(ficus, "hemisphere:3", "1280x720", "published", "12.0†", "12.0†"),
                   ElementsAre(ficus, "hemisphere:3", "640x360", "tureen", "1.500", ""),
                   ElementsAre(ficus, "path", "1280x720", "tureen", "", "30.0"),
-                  ElementsAre(ficus, "path", "1280x720", "published", "", "12.0")));
+                  ElementsAre(ficus, "path", "1280x720", "published", "", "12.0†")));
   EXPECT_THAT(table.devices, ElementsAre(HasSubstr("phone: Adreno (TM) 740, WebGL2, 2.75"),
                                          HasSubstr("laptop: llvmpipe | <fast> (software)")));
 
   EXPECT_THAT(device_lines(table),
               Contains("  ficus (33,417 triangles)  hemisphere:3  640x360   tureen         1.500"));
   const std::string markdown = device_markdown(table);
+  for (const std::string& text : {markdown, device_page(table)})
+    EXPECT_THAT(text, HasSubstr(restless_sentence)) << "published was not at rest";
   EXPECT_THAT(markdown, HasSubstr("llvmpipe \\| \\<fast>"));
   EXPECT_THAT(markdown, HasSubstr("| hemisphere:3 | 1280x720 | tureen | 3.000 | 30.0 |\n"));
   const std::string page = device_page(table);

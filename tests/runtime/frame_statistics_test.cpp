@@ -82,10 +82,49 @@ TEST(FrameStatistics, ALuckyPairOfMinimaHidesNoSpread) {
   EXPECT_DOUBLE_EQ(series_spread(third, fourth), 0.5);
 }
 
-TEST(FrameStatistics, TwiceTheSpreadDiffers) {
-  EXPECT_FALSE(differ(100, 103, 0.02));
-  EXPECT_TRUE(differ(100, 105, 0.02));
-  EXPECT_TRUE(differ(105, 100, 0.02));
+FrameStatistics best(double ms, double spread = 0, int rounds = 5) {
+  return {.min_of_medians = ms, .spread = spread, .rounds = rounds};
+}
+
+TEST(FrameStatistics, KnowHowManyRoundsAndSamplesTheyAreOf) {
+  const FrameStatistics statistics = statistics_of({.views = 2, .ms = {1, 10, 3, 30, 2, 20}});
+  EXPECT_EQ(statistics.rounds, 3);
+  EXPECT_EQ(statistics.samples, 6u);
+}
+
+TEST(FrameStatistics, AHundredSamplesTellTheSlowestPercent) {
+  std::vector<double> ms(99, 10.0);
+  ms[50] = 60;
+  const FrameStatistics few = statistics_of({.views = 1, .ms = ms});
+  EXPECT_EQ(few.p99, 60) << "the slowest sample and nothing else";
+  EXPECT_FALSE(tells_slowest_percent(few));
+  ms.push_back(10);
+  const FrameStatistics enough = statistics_of({.views = 1, .ms = ms});
+  EXPECT_EQ(enough.p99, 10);
+  EXPECT_TRUE(tells_slowest_percent(enough));
+}
+
+TEST(Verdicts, TwiceTheSpreadIsADifference) {
+  EXPECT_EQ(verdict_on(best(103), best(100), 0.02), Verdict::equal);
+  EXPECT_EQ(verdict_on(best(105), best(100), 0.02), Verdict::slower);
+  EXPECT_EQ(verdict_on(best(100), best(105), 0.02), Verdict::faster);
+  EXPECT_EQ(verdict_on(best(100), best(100), 0), Verdict::equal) << "nothing is twice no spread";
+}
+
+TEST(Verdicts, TheLargestSpreadCounts) {
+  EXPECT_EQ(spread_between(best(1, 0.03), best(1, 0.01), 0.02), 0.03);
+  EXPECT_EQ(spread_between(best(1, 0.01), best(1, 0.03), 0.02), 0.03);
+  EXPECT_EQ(spread_between(best(1, 0.01), best(1, 0.01), 0.02), 0.02);
+  EXPECT_EQ(verdict_on(best(105, 0.03), best(100), 0.02), Verdict::equal);
+  EXPECT_EQ(verdict_on(best(105), best(100, 0.03), 0.02), Verdict::equal);
+}
+
+TEST(Verdicts, FewRoundsHaveNoSpread) {
+  for (const int rounds : {1, 2}) {
+    EXPECT_EQ(spread_between(best(100, 0, rounds), best(900), 0), std::nullopt) << rounds;
+    EXPECT_EQ(verdict_on(best(100), best(900, 0, rounds), 0), Verdict::unknown) << rounds;
+  }
+  EXPECT_EQ(verdict_on(best(100, 0, least_rounds), best(900, 0, least_rounds), 0), Verdict::faster);
 }
 
 }  // namespace

@@ -41,13 +41,39 @@ TEST(BelievedPasses, AreThoseThatTheWallClockHasRoomFor) {
   ASSERT_EQ(good.ms.size(), 2u);
   EXPECT_EQ(good.ms[1].first, "shading");
 
-  // The device waits for the processor: no contradiction.
-  EXPECT_EQ(believed({{"forward", 0.1}}, 3.0).reason, "");
-
   const PassTimes impossible = believed({{"visibility", 1.0}, {"shading", 2.6}}, 3.1);
   EXPECT_THAT(impossible.reason, HasSubstr("3.600 ms for frames that take 3.100 ms"));
   EXPECT_TRUE(impossible.ms.empty());
   EXPECT_FALSE(impossible.gpu_ms);
+}
+
+TEST(BelievedPasses, SayWhereTheyAreTheLesserPartOfAFrame) {
+  EXPECT_EQ(believed({{"visibility", 0.6}, {"shading", 0.9}}, 3.0).reason, "");
+  const PassTimes little = believed({{"forward", 0.1}}, 3.0);
+  EXPECT_THAT(little.reason, HasSubstr("0.100 ms of frames that take 3.000 ms"));
+  EXPECT_THAT(little.reason, HasSubstr("miss some of its own"));
+  ASSERT_EQ(little.ms.size(), 1u) << "the processor may be what the frame waits for";
+  EXPECT_DOUBLE_EQ(little.gpu_ms.value_or(0), 0.1);
+}
+
+TEST(BelievedPasses, AreNotThoseOfAClockThatStandsStill) {
+  const PassTimes nothing = believed({{"visibility", 0.0}, {"shading", 0.0}}, 3.0);
+  EXPECT_THAT(nothing.reason, HasSubstr("0.000 ms for frames that take 3.000 ms"));
+  EXPECT_THAT(nothing.reason, HasSubstr("only the processor's clock counts"));
+  EXPECT_TRUE(nothing.ms.empty());
+  EXPECT_FALSE(nothing.gpu_ms);
+}
+
+TEST(SoftwareRenderers, AreKnownByTheirNames) {
+  for (const char* renderer :
+       {"llvmpipe (LLVM 15.0.6, 256 bits)", "softpipe",
+        "ANGLE (Google, Vulkan 1.3.0 (SwiftShader Device (Subzero) (0x0000C0DE)), SwiftShader "
+        "driver)",
+        "D3D12 (Microsoft Basic Render Driver)", "GDI Generic", "Apple Software Renderer"})
+    EXPECT_TRUE(gl::draws_in_software(renderer)) << renderer;
+  for (const char* renderer : {"NVIDIA GeForce RTX 4090/PCIe/SSE2", "Apple M2", "Adreno (TM) 740",
+                               "D3D12 (Intel(R) UHD Graphics 620)", "unknown"})
+    EXPECT_FALSE(gl::draws_in_software(renderer)) << renderer;
 }
 
 Scene small_cloud() { return test::cutout_cloud({.triangles = 50, .width = 64, .height = 48}); }

@@ -5,95 +5,115 @@
 #include <algorithm>
 #include <map>
 
+#include "cli/bench_words.hpp"
 #include "cli/gnuplot.hpp"
-#include "runtime/frame_statistics.hpp"
 
 namespace tureen::test {
 
 namespace {
 
-std::vector<std::string> configurations(const Json& bench) {
-  std::vector<std::string> names;
-  for (const Json& each : bench.at("configurations")) names.push_back(each.at("name"));
-  return names;
-}
+using cli::BenchMeasurement;
+using cli::BenchResult;
 
-double best_ms(const Json& measurement) { return measurement.at("frame_ms").at("min_of_medians"); }
+BenchResult bench_of(const Measurements& measurements, const std::string& name) {
+  constexpr const char* file = "bench.json";
+  return cli::bench_result_from_json(measurements.text_of(name, file),
+                                     measurements.file(name, file).string());
+}
 
 /// The measurements of one set of cameras at one size, by configuration.
 struct Place {
   std::string cameras, size;
   double aa_spread = 0;
-  std::map<std::string, Json> by_configuration;
+  std::map<std::string, BenchMeasurement> by_configuration = {};
+
+  /// Nullptr where it was not timed.
+  const BenchMeasurement* find(const std::string& configuration) const {
+    const auto found = by_configuration.find(configuration);
+    return found == by_configuration.end() ? nullptr : &found->second;
+  }
 };
 
-std::vector<Place> places_of(const Json& bench) {
+std::vector<Place> places_of(const BenchResult& bench) {
   std::vector<Place> places;
-  for (const Json& m : bench.at("measurements")) {
-    const std::string cameras = m.at("camera_set"), size = m.at("size");
+  for (const BenchMeasurement& m : bench.measurements) {
     auto place = std::find_if(places.begin(), places.end(), [&](const Place& p) {
-      return p.cameras == cameras && p.size == size;
+      return p.cameras == m.camera_set && p.size == m.size;
     });
-    if (place == places.end()) place = places.insert(place, {cameras, size, m.at("aa_spread"), {}});
-    place->by_configuration[m.at("configuration")] = m;
+    if (place == places.end()) place = places.insert(place, {m.camera_set, m.size, m.aa_spread});
+    place->by_configuration[m.configuration] = m;
   }
   return places;
 }
 
-/// Its best time, and how many times as long that is as the first configuration's.
-std::string against_first(const Place& place, const std::string& name, const std::string& first) {
-  const auto own = place.by_configuration.find(name), ours = place.by_configuration.find(first);
-  if (own == place.by_configuration.end() || ours == place.by_configuration.end()) return "–";
-  const double a = best_ms(own->second), b = best_ms(ours->second);
-  return ms_text(a) +
-         (differ(a, b, place.aa_spread) ? fmt::format(" ({:.2f})", a / b) : " (equal)");
+std::string best_text(const BenchMeasurement& m) {
+  return ms_text(m.frame_ms.min_of_medians) + (m.stable ? "" : cli::restless_mark);
 }
 
-std::string bench_table(const Json& bench) {
-  const std::vector<std::string> names = configurations(bench);
-  const std::string& first = names.front();
+/// Its best time, and how many times as long that is as the first configuration's.
+std::string against_first(const Place& place, const std::string& name,
+                          const BenchMeasurement& first) {
+  const BenchMeasurement* own = place.find(name);
+  if (!own) return cli::not_known;
+  const double ratio = own->frame_ms.min_of_medians / first.frame_ms.min_of_medians;
+  return fmt::format("{} ({})", best_text(*own), cli::ratio_text(ratio, *own, first));
+}
+
+/// What the marks of a table mean, behind it; empty where it has none.
+std::string marks_text(const std::string& table) {
+  return table.find(cli::restless_mark) == std::string::npos
+             ? std::string()
+             : std::string(cli::restless_sentence) + "\n\n";
+}
+
+std::string bench_table(const BenchResult& bench) {
+  const std::string& first = bench.configurations.front().name;
   std::vector<std::string> headings{
-      "cameras",      "size",         "A/A spread",      first + " ms",
-      first + " p50", first + " p95", first + " p99 ms", first + " 1 % low FPS"};
-  for (std::size_t i = 1; i < names.size(); ++i) headings.push_back(names[i] + " ms (times)");
+      "cameras",     "size",         "rounds",       "frames",          "A/A spread",
+      first + " ms", first + " p50", first + " p95", first + " p99 ms", first + " 1 % low FPS"};
+  for (std::size_t i = 1; i < bench.configurations.size(); ++i)
+    headings.push_back(bench.configurations[i].name + " ms (times)");
   Table table(headings);
   for (const Place& place : places_of(bench)) {
-    const auto ours = place.by_configuration.find(first);
-    if (ours == place.by_configuration.end()) continue;
-    const Json& m = ours->second;
-    std::vector<std::string> cells{place.cameras,
-                                   place.size,
-                                   percent(place.aa_spread),
-                                   ms_text(best_ms(m)),
-                                   ms_text(m.at("frame_ms").at("median")),
-                                   ms_text(m.at("frame_ms").at("p95")),
-                                   ms_text(m.at("frame_ms").at("p99")),
-                                   fmt::format("{:.1f}", m.at("low_1_percent_fps").get<double>())};
-    for (std::size_t i = 1; i < names.size(); ++i)
-      cells.push_back(against_first(place, names[i], first));
+    const BenchMeasurement* ours = place.find(first);
+    if (!ours) continue;
+    const FrameStatistics& ms = ours->frame_ms;
+    std::vector<std::string> cells{
+        place.cameras,
+        place.size,
+        std::to_string(ms.rounds),
+        std::to_string(ours->frames),
+        percent(place.aa_spread),
+        best_text(*ours),
+        ms_text(ms.median),
+        ms_text(ms.p95),
+        cli::slowest_percent_text(ms, ms_text(ms.p99)),
+        cli::slowest_percent_text(ms, fmt::format("{:.1f}", ms.low_1_percent_fps))};
+    for (std::size_t i = 1; i < bench.configurations.size(); ++i)
+      cells.push_back(against_first(place, bench.configurations[i].name, *ours));
     table.line(cells);
   }
-  return table.text();
+  return table.text() + marks_text(table.text());
 }
 
-std::string bench_device(const Json& bench) {
-  const Json& device = bench.at("device");
-  return fmt::format("{}{}; {}.", device.at("renderer").get<std::string>(),
-                     device.at("software").get<bool>() ? ", software" : "",
-                     bench.at("protocol").at("clock").get<std::string>());
+/// How it was measured; which machine and commit, the section's head says.
+std::string bench_device(const BenchResult& bench) {
+  std::string text = bench.device.renderer + (bench.device.software ? ", software" : "");
+  if (const auto& threads = bench.machine.rasteriser_threads)
+    text += fmt::format(", rasteriser threads: {}", *threads);
+  if (!bench.program.build.empty()) text += "; " + bench.program.build + " build";
+  return text + "; " + bench.protocol.clock + ".";
 }
 
 }  // namespace
 
 Section bench_section(const Measurements& measurements, const std::string& name) {
-  const Json bench = measurements.json(name, "bench.json");
+  const BenchResult bench = bench_of(measurements, name);
   Section section{.name = name, .text = head(measurements, {name}), .plots = {}};
-  section.text +=
-      fmt::format("{} triangles; ", bench.at("scene").at("triangles").get<std::uint64_t>()) +
-      bench_device(bench) +
-      " Times are the smallest of the rounds' medians; in brackets how many times as "
-      "long as the first.\n\n" +
-      bench_table(bench);
+  section.text += fmt::format("{} triangles; ", bench.scene.triangles) + bench_device(bench) +
+                  " Times are the smallest of the rounds' medians; in brackets how many times as "
+                  "long as the first: " +
+                  cli::ratio_sentence + "\n\n" + bench_table(bench);
   std::map<std::string, int> sizes;
   for (const Place& place : places_of(bench)) ++sizes[place.cameras];
   for (const auto& [cameras, count] : sizes) {
@@ -102,26 +122,29 @@ Section bench_section(const Measurements& measurements, const std::string& name)
     add_plot(section, measurements.file(name, file),
              "Frame time against pixels, cameras " + cameras);
   }
-  add_plot(section, measurements.file(name, "ratios.svg"), "Times as fast");
+  add_plot(section, measurements.file(name, "ratios.svg"),
+           "Times as fast, as measured: also where a spread explains it");
   return section;
 }
 
 Section stages_section(const Measurements& measurements, const std::vector<std::string>& names) {
   Section section{.name = "stages", .text = head(measurements, names), .plots = {}};
-  section.text += bench_device(measurements.json(names.front(), "bench.json")) + "\n\n";
-  Table table({"scene", "cameras", "size", "A/A spread", "fragment ms", "compute ms (times)"});
+  section.text += bench_device(bench_of(measurements, names.front())) + " In brackets " +
+                  cli::ratio_sentence + "\n\n";
+  Table table({"scene", "cameras", "size", "rounds", "frames", "A/A spread", "fragment ms",
+               "compute ms (times)"});
   for (const std::string& name : names) {
-    const Json bench = measurements.json(name, "bench.json");
-    const std::vector<std::string> stages = configurations(bench);
-    if (stages.size() < 2) continue;
+    const BenchResult bench = bench_of(measurements, name);
+    if (bench.configurations.size() < 2) continue;
+    const std::string &first = bench.configurations[0].name, &second = bench.configurations[1].name;
     for (const Place& place : places_of(bench))
-      if (const auto fragment = place.by_configuration.find(stages[0]);
-          fragment != place.by_configuration.end())
+      if (const BenchMeasurement* fragment = place.find(first))
         table.line({name.substr(std::string("stages-").size()), place.cameras, place.size,
-                    percent(place.aa_spread), ms_text(best_ms(fragment->second)),
-                    against_first(place, stages[1], stages[0])});
+                    std::to_string(fragment->frame_ms.rounds), std::to_string(fragment->frames),
+                    percent(place.aa_spread), best_text(*fragment),
+                    against_first(place, second, *fragment)});
   }
-  section.text += table.text();
+  section.text += table.text() + marks_text(table.text());
   return section;
 }
 

@@ -8,7 +8,8 @@
 
 namespace tureen::test {
 
-/// A row a set of cameras and size: times of the first configuration, and of the others against it.
+/// A row a set of cameras and size: rounds, frames and times of the first configuration, and the
+/// others against it. What is not known, or had not come to rest, is marked.
 Section bench_section(const Measurements& measurements, const std::string& name);
 
 /// The shading pass as a fragment and as a compute shader, all scenes in one table.
