@@ -88,5 +88,43 @@ TEST(LayeredSoup, MakesTheFragmentsThatItSays) {
     }
 }
 
+/// Mean of the lengths of all edges, in units of the positions.
+double mean_edge(const Scene& scene) {
+  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  double sum = 0;
+  for (const glm::uvec3 face : soup.triangles)
+    for (int k = 0; k < 3; ++k)
+      sum += glm::distance(glm::dvec3(soup.positions[face[k]]),
+                           glm::dvec3(soup.positions[face[(k + 1) % 3]]));
+  return sum / double(3 * soup.triangles.size());
+}
+
+TEST(LayeredSoup, LongerCellsHaveLongerEdgesAlone) {
+  const double compact = mean_edge(layered_soup({.triangles = 65536}));
+  for (const double elongation : {4.0, 16.0}) {
+    SCOPED_TRACE(elongation);
+    const LayeredSoupOptions options{.triangles = 65536, .elongation = elongation};
+    const Scene scene = layered_soup(options);
+    const auto& soup = std::get<TriangleSoup>(scene.primitives);
+    EXPECT_GE(soup.triangles.size(), 65536u);
+    // Cells are whole: rows of 30 leave some more of them.
+    EXPECT_LT(soup.triangles.size(), 65536 * 1.01);
+    // Every triangle is half a cell.
+    const glm::dvec3 corners[] = {soup.positions[0], soup.positions[1], soup.positions[2]};
+    const glm::dvec3 size = glm::max(glm::max(corners[0], corners[1]), corners[2]) -
+                            glm::min(glm::min(corners[0], corners[1]), corners[2]);
+    EXPECT_NEAR(size.x / size.y / elongation, 1, 0.02) << "whole cells, as above";
+    double area = 0;
+    for (const glm::uvec3 face : soup.triangles)
+      area += 0.5 * projected_area(scene.cameras[0], soup, face);
+    // Positions are floats, edges of a thin triangle a part of it.
+    EXPECT_NEAR(area / layered_soup_fragments(options, 1280, 720), 1, 1e-4);
+    // Both sides and the diagonal of a cell of the same area; whole cells, as above.
+    const double along = std::sqrt(elongation), across = 1 / along;
+    EXPECT_NEAR(mean_edge(scene) / compact,
+                (along + across + std::hypot(along, across)) / (2 + std::sqrt(2.0)), 0.02);
+  }
+}
+
 }  // namespace
 }  // namespace tureen::test

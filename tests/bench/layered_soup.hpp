@@ -13,6 +13,9 @@ struct LayeredSoupOptions {
   /// At least; two of them make a cell of a regular grid, so it becomes a few more.
   std::size_t triangles = 65536;
   int layers = 4;
+  /// A cell's width over its height on the picture, about: cells are whole. Triangles remain as
+  /// many and as large, and only their edges become longer. Above 0.
+  double elongation = 1;
   /// Opaque with a colour a face, or cut out: a lattice of level 1 with random features and alpha,
   /// and a random color MLP.
   enum class Kind { opaque, cut_out } kind = Kind::opaque;

@@ -14,26 +14,42 @@ std::string growth_table(const Json& growth, const std::string& series) {
   const auto place = [&](const Json& point) -> std::string {
     if (series == "triangles") return fmt::format("{:.0f}", point.at("triangles").get<double>());
     if (series == "overdraw") return std::to_string(point.at("layers").get<int>());
+    if (series == "shape") return fmt::format("{:.3g}", point.at("elongation").get<double>());
     return fmt::format("{}x{}", point.at("width").get<int>(), point.at("height").get<int>());
   };
   std::vector<std::string> headings{series == "overdraw" ? "layers"
                                     : series == "pixels" ? "size"
+                                    : series == "shape"  ? "width / height of a cell"
                                                          : "triangles"};
   std::map<std::string, std::vector<std::string>> rows;
-  double least = 1, most = 0;
+  std::vector<double> aa_spreads, spreads;
+  std::vector<std::size_t> rounds;
+  int unsettled = 0;
   for (const Json& point : growth.at("points")) {
     if (point.at("series") != series) continue;
     std::vector<std::string>& row = rows[point.at("kind")];
     if (row.empty()) row.push_back(point.at("kind"));
     row.push_back(ms_text(point.at("ms")));
-    least = std::min(least, point.at("aa_spread").get<double>());
-    most = std::max(most, point.at("aa_spread").get<double>());
+    aa_spreads.push_back(point.at("aa_spread"));
+    spreads.push_back(point.at("spread"));
+    rounds.push_back(point.at("round_ms").size());
+    unsettled += point.at("unsettled_rounds").get<int>();
     if (rows.size() == 1) headings.push_back(place(point));
   }
   if (rows.empty()) return {};
   Table table(headings);
   for (const auto& [kind, row] : rows) table.line(row);
-  return table.text() + fmt::format("A/A spreads {} to {}.\n\n", percent(least), percent(most));
+  const auto range = [](const std::vector<double>& values) {
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    return percent(*low) + " to " + percent(*high);
+  };
+  const auto [fewest, most] = std::minmax_element(rounds.begin(), rounds.end());
+  return table.text() +
+         fmt::format(
+             "A/A spreads {}, spreads of the rounds {}; {}{} rounds{}.\n\n", range(aa_spreads),
+             range(spreads), *fewest, *fewest == *most ? "" : fmt::format(" to {}", *most),
+             unsettled ? fmt::format(", {} of all begun before a point was stable", unsettled)
+                       : "");
 }
 
 std::string fits_table(const Json& growth) {
@@ -61,19 +77,21 @@ Section growth_section(const Measurements& measurements, const std::string& name
                   growth.at("software").get<bool>() ? ", software" : "",
                   growth.at("processor_time").get<bool>() ? "processor time of all threads"
                                                           : "the time that passes");
-  for (const char* series : {"triangles", "pixels", "overdraw"}) {
+  for (const char* series : {"triangles", "pixels", "overdraw", "shape"}) {
     section.text += growth_table(growth, series);
     add_plot(section, measurements.file(name, fmt::format("growth-{}.svg", series)),
              fmt::format("Frame time against {}", series));
   }
-  section.text += "The fits, with their standard errors:\n\n" + fits_table(growth);
-  add_plot(section, measurements.file(name, "growth-fit.svg"), "The model against measurements");
-  // What growth_benchmark says of them; costs stand above.
+  if (!growth.at("fits").empty()) {
+    section.text += "The fits, with their standard errors:\n\n" + fits_table(growth);
+    add_plot(section, measurements.file(name, "growth-fit.svg"), "The model against measurements");
+  }
+  // All that growth_benchmark says, also where it could fit nothing, but costs, which stand above.
   std::string line;
   for (const char c : measurements.text(name)) {
     line += c;
     if (c != '\n') continue;
-    if (line.find("the model") != std::string::npos) section.text += "- " + line;
+    if (line.find("a frame costs") == std::string::npos) section.text += "- " + line;
     line.clear();
   }
   section.text += "\n";
