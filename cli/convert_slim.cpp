@@ -71,8 +71,8 @@ void add_slim_arguments(CLI::App& command, SlimArguments& arguments) {
   add_scale_option(command, arguments.photographs)->needs(photographs);
   command
       .add_flag("--keep-unseen", arguments.keep_unseen,
-                "with --slim: keep faces that no recorded camera and no view from above and "
-                "around sees")
+                "with --slim: keep faces that none of 200 recorded cameras and no view from above "
+                "and around sees")
       ->needs(slim);
   command
       .add_flag("--keep-cameras", arguments.keep_cameras,

@@ -167,6 +167,7 @@ ExitCode render(Options options) {
          {"height", first.height},
          {"context", context.description()},
          {"renderer", device.renderer},
+         {"software", device.software},
          {"triangles", soup.triangles.size()},
          {"frame_ms", {{"median", times.median()}, {"p95", times.p95()}, {"n", times.ms.size()}}},
          {"plan", drawn.plan},

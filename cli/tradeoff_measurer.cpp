@@ -103,7 +103,8 @@ void Measurer::time_and_compare(std::vector<Running>& running) {
   for (std::size_t i = first; i < running.size(); ++i) {
     Outcome& outcome = running[i].job.outcome;
     outcome.ms = scaled(statistics_of(result.entrants[i].times), factor);
-    outcome.device_mib = double(running[i].renderer->device_bytes()) / (1 << 20);
+    const Renderer& renderer = *running[i].renderer;
+    outcome.device_mib = double(renderer.device_bytes() + renderer.target_bytes()) / (1 << 20);
     if (!result.entrants[i].stable)
       outcome.warnings.push_back("its times did not come to rest before they were taken");
   }
@@ -113,7 +114,8 @@ void Measurer::time_and_compare(std::vector<Running>& running) {
     panel_.outcomes.push_back(std::move(running[i].job.outcome));
 }
 
-/// Errors of the frames as they were timed: one configuration a core.
+/// Errors of frames that the renderers draw once more, now that they were timed: one configuration
+/// a core.
 void Measurer::compare(std::vector<Running>& running, std::size_t first) {
   const std::size_t most = std::max(1u, std::thread::hardware_concurrency());
   std::vector<std::future<Errors>> errors;

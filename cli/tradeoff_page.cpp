@@ -103,13 +103,14 @@ void add_model(HtmlPage& page, const TradeoffReport& report) {
   if (!report.model) return;
   page.section("E_model: against photographs");
   page.paragraph(
-      "How near the trained model comes to photographs, and how little of that a knob takes. This "
-      "is another error than the one above: never compare the two.");
+      "How near the trained model comes to photographs, and how little of that a knob takes; and "
+      "how near the published pipeline comes. This is another error than the one above: never "
+      "compare the two.");
   std::vector<std::vector<std::string>> rows;
   const auto add = [&](const Panel& panel, const std::vector<std::optional<ModelError>>& list) {
     for (std::size_t i = 0; i < list.size(); ++i)
       if (list[i])
-        rows.push_back({panel.outcomes[i].name, fmt::format("{:.2f}", list[i]->psnr_db),
+        rows.push_back({told_name(panel.outcomes[i]), fmt::format("{:.2f}", list[i]->psnr_db),
                         fmt::format("{:+.3f}", list[i]->psnr_db - list.front()->psnr_db),
                         fmt::format("{:.4f}", list[i]->ssim),
                         report.with_flip ? fmt::format("{:.4f}", list[i]->flip) : "–"});
@@ -142,6 +143,7 @@ std::string tradeoff_page(const TradeoffReport& report, const std::vector<DrawnF
   page.paragraph(
       fmt::format("E_render against the oracle with 8 x 8 samples a pixel; R1 has {:.2f} dB.",
                   study.antialiasing.ideal.psnr_db));
+  add_ranges(page, study.antialiasing);
   add_panel(page, report, study.antialiasing);
   add_model(page, report);
   return page.text();

@@ -5,16 +5,28 @@
 #include <algorithm>
 
 #include "runtime/benchmark.hpp"
+#include "runtime/tradeoff/reference.hpp"
 
 namespace tureen::cli {
 
 const char* name_of(Method method) { return method_names[std::size_t(method)]; }
 
+bool is_judged(const Panel& panel, const Outcome& outcome) {
+  for (std::size_t i = 0; i < panel.knobs.size(); ++i) {
+    const tradeoff::Knob& knob = panel.knobs[i];
+    if (knob.key == tradeoff::supersampling_key &&
+        knob.settings[std::size_t(outcome.configuration[i])].value ==
+            std::to_string(tradeoff::antialiased_samples))
+      return false;
+  }
+  return true;
+}
+
 Candidates candidates(const Panel& panel) {
   Candidates result;
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i) {
     const Outcome& outcome = panel.outcomes[i];
-    if (outcome.method != Method::specialised) continue;
+    if (outcome.method != Method::specialised || !is_judged(panel, outcome)) continue;
     const double ms = outcome.ms.min_of_medians;
     // What the protocol calls different differs by twice the spread (runtime/frame_statistics.hpp).
     result.points.push_back({.ms = ms,

@@ -38,7 +38,7 @@ struct Outcome {
   Method method = Method::specialised;
   /// ms but for spread, of which FrameStatistics::spread says what it is.
   FrameStatistics ms;
-  double device_mib = 0;
+  double device_mib = 0;            // the soup's buffers and textures, and the targets of a view
   RenderError error;                // against References::judge
   std::optional<ExactError> exact;  // drawing knobs alone
   std::vector<std::string> warnings;
@@ -60,12 +60,19 @@ struct Panel {
   std::vector<Skipped> skipped;
   std::vector<std::string> notes;
   double aa_spread = 0;            // the largest of the groups
-  std::vector<std::size_t> front;  // fastest first; of specialised, timed outcomes
+  std::vector<std::size_t> front;  // fastest first; of candidates()
   double hypervolume = 0;          // decades times decibels
 
   /// The reference's own pictures in 8 bits a channel: the best that a screen can show (R1).
   RenderError ideal;
 };
+
+/// Whether the error of an outcome says anything of its knobs. Supersampling at the antialiasing
+/// reference's own samples (tradeoff::antialiased_samples) is measured for its time.
+bool is_judged(const Panel& panel, const Outcome& outcome);
+/// What to say of an outcome that is not.
+inline constexpr const char* not_judged =
+    "drawn at the reference's own samples: its error is rounding alone, and it is on no front";
 
 /// Time and error as the front sees them, of those outcomes that may be on it; `index` says which
 /// outcome each is.

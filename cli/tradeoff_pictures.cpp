@@ -8,13 +8,13 @@
 
 namespace tureen::cli {
 
-namespace {
+void report(const StudyOptions& options, const std::string& task, double fraction) {
+  if (options.progress) options.progress(task, fraction);
+}
 
-/// Runs `work(i, check)` for 0 .. count - 1 on all cores; `check`, called now and then, ends it
-/// when it is to stop. The calling thread reports progress, and may throw doing so.
-template <class Work>
-void on_all_cores(std::size_t count, const std::function<void(double)>& progress,
-                  const Work& work) {
+void on_all_cores(
+    std::size_t count, const std::function<void(double)>& progress,
+    const std::function<void(std::size_t i, const std::function<void(double)>& check)>& work) {
   struct Abandoned {};
   std::atomic<std::size_t> next = 0, done = 0;
   std::atomic<bool> cancelled = false;
@@ -42,12 +42,6 @@ void on_all_cores(std::size_t count, const std::function<void(double)>& progress
     cancelled = true;  // destroying the futures waits for the threads
     throw;
   }
-}
-
-}  // namespace
-
-void report(const StudyOptions& options, const std::string& task, double fraction) {
-  if (options.progress) options.progress(task, fraction);
 }
 
 std::vector<ImageF> oracle_pictures(const StudyScene& scene, const StudyOptions& options,

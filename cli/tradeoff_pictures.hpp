@@ -1,6 +1,8 @@
 // The oracle's pictures for `tureen tradeoff`, drawn on all cores.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +13,13 @@ namespace tureen::cli {
 
 /// Tells options.progress, where somebody listens.
 void report(const StudyOptions& options, const std::string& task, double fraction);
+
+/// Runs `work(i, check)` for 0 .. count - 1 on all cores; `check`, called now and then with
+/// anything, ends it when it is to stop. The calling thread tells `progress` the fraction done;
+/// what that throws ends the work and is thrown, as is what the work throws.
+void on_all_cores(
+    std::size_t count, const std::function<void(double)>& progress,
+    const std::function<void(std::size_t i, const std::function<void(double)>& check)>& work);
 
 /// One picture a camera. With another precision than `exact` the network is emulated. Throws what
 /// options.progress throws, soon after it did.

@@ -197,7 +197,7 @@ void say_model(const TradeoffReport& report) {
   const auto table = [&](const Panel& panel, const std::vector<std::optional<ModelError>>& list) {
     for (std::size_t i = 0; i < list.size(); ++i)
       if (list[i])
-        say(fmt::format("  {:<44}  {:>7.2f} dB  SSIM {:.4f}", panel.outcomes[i].name,
+        say(fmt::format("  {:<44}  {:>7.2f} dB  SSIM {:.4f}", told_name(panel.outcomes[i]),
                         list[i]->psnr_db, list[i]->ssim));
   };
   table(report.study.drawing, report.drawing_model);
@@ -205,6 +205,10 @@ void say_model(const TradeoffReport& report) {
 }
 
 }  // namespace
+
+std::string told_name(const Outcome& outcome) {
+  return outcome.name + (outcome.method == Method::emulated ? " (emulated)" : "");
+}
 
 const char* where_it_looks(const TradeoffReport& report) {
   return report.samples == "device" ? "at the device's own sample points" : "of exact triangles";

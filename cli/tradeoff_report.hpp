@@ -56,6 +56,9 @@ struct TradeoffReport {
   std::vector<std::string> output;            // files that were written
 };
 
+/// The name of an outcome where it stands by itself, as one drawn by the oracle says.
+std::string told_name(const Outcome& outcome);
+
 /// The reference of drawing knobs, in words: "at the device's own sample points".
 const char* where_it_looks(const TradeoffReport& report);
 

@@ -265,6 +265,9 @@ TradeoffScenes join(std::vector<TradeoffRun> runs) {
   }
   scenes.drawing = join_panels(drawing);
   scenes.antialiasing = join_panels(antialiasing);
+  const Panel& means = scenes.antialiasing.means;
+  for (const Outcome& outcome : means.outcomes)
+    if (!is_judged(means, outcome)) scenes.notes.push_back(outcome.name + ": " + not_judged);
   scenes.runs = std::move(runs);
   return scenes;
 }

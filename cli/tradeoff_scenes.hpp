@@ -53,7 +53,7 @@ struct TradeoffScenes {
   std::vector<std::string>
       labels;  // of the runs: the scenes' names, or files where two are the same
   ScenesPanel drawing, antialiasing;
-  std::vector<std::string> notes;   // on what the runs do not have in common
+  std::vector<std::string> notes;   // on what the runs do not have in common, or do not tell
   std::vector<std::string> output;  // files that were written
 };
 

@@ -20,10 +20,12 @@ namespace {
 using tradeoff::Configuration;
 using tradeoff::Knob;
 
-/// What no soup can be drawn with, before anything is uploaded.
+/// What no soup can be drawn with, before anything is uploaded, and what no reference can judge.
 tradeoff::Refusal refusal_of(const std::vector<Knob>& knobs, const TriangleSoup& soup) {
   return [&knobs, &soup](const Configuration& configuration) {
-    return defect(tradeoff::preset_of(knobs, configuration), soup);
+    const RenderPreset preset = tradeoff::preset_of(knobs, configuration);
+    const std::optional<std::string> reason = defect(preset, soup);
+    return reason ? reason : tradeoff::too_fine(preset);
   };
 }
 
@@ -51,10 +53,23 @@ void find_ranges(Panel& panel) {
   for (const Outcome& outcome : panel.outcomes) {
     if (outcome.method == Method::generic || outcome.method == Method::published) continue;
     configurations.push_back(outcome.configuration);
-    measured.push_back(
-        {outcome.has_time() ? outcome.ms.min_of_medians : std::nan(""), outcome.error.psnr_db});
+    measured.push_back({outcome.has_time() ? outcome.ms.min_of_medians : std::nan(""),
+                        is_judged(panel, outcome) ? outcome.error.psnr_db : std::nan("")});
   }
   panel.ranges = tradeoff::knob_ranges(configurations, measured, panel.knobs.size());
+}
+
+/// What follows from the star: which knobs matter, all combinations of these, and the front.
+void finish(const TriangleSoup& soup, const StudyOptions& options, const std::string& task,
+            Measurer& measurer, Panel& panel) {
+  find_ranges(panel);
+  const tradeoff::Design rest =
+      tradeoff::factorial(tradeoff::setting_counts(panel.knobs), panel.ranges,
+                          refusal_of(panel.knobs, soup), options.factorial);
+  note_skipped(panel, rest);
+  measurer.measure(jobs_of(panel.knobs, rest.configurations, true), task);
+  find_front(panel);
+  if (auto warning = spread_warning(panel.aa_spread)) panel.notes.push_back(*std::move(warning));
 }
 
 RenderError ideal_error(const std::vector<ImageF>& reference, bool with_flip) {
@@ -89,9 +104,8 @@ void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& 
       scene.context, scene.soup, scene.origin, scene.counting,
       [&](double fraction) { report(options, "visible triangles", fraction); });
   panel.knobs = tradeoff::drawing_knobs(scene.soup, plan.site, visible);
-  const std::vector<int> settings = tradeoff::setting_counts(panel.knobs);
-  const tradeoff::Refusal refuse = refusal_of(panel.knobs, scene.soup);
-  const tradeoff::Design star = tradeoff::star(settings, refuse);
+  const tradeoff::Design star =
+      tradeoff::star(tradeoff::setting_counts(panel.knobs), refusal_of(panel.knobs, scene.soup));
   note_skipped(panel, star);
 
   Measurer measurer(scene, options, references, panel);
@@ -108,14 +122,7 @@ void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& 
   emulate(scene, options, star.configurations, references, panel);
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i)
     if (panel.outcomes[i].method == Method::published) study.published = i;
-
-  find_ranges(panel);
-  const tradeoff::Design rest =
-      tradeoff::factorial(settings, panel.ranges, refuse, options.factorial);
-  note_skipped(panel, rest);
-  measurer.measure(jobs_of(panel.knobs, rest.configurations, true), "knobs combined");
-  find_front(panel);
-  if (auto warning = spread_warning(panel.aa_spread)) panel.notes.push_back(*std::move(warning));
+  finish(scene.soup, options, "knobs combined", measurer, panel);
 }
 
 void study_antialiasing(const StudyScene& scene, const StudyOptions& options, Study& study) {
@@ -129,9 +136,9 @@ void study_antialiasing(const StudyScene& scene, const StudyOptions& options, St
   note_skipped(panel, star);
   Measurer measurer(scene, options, references, panel);
   measurer.measure(jobs_of(panel.knobs, star.configurations, true), "antialiasing");
-  find_ranges(panel);
-  find_front(panel);
-  if (auto warning = spread_warning(panel.aa_spread)) panel.notes.push_back(*std::move(warning));
+  for (Outcome& outcome : panel.outcomes)
+    if (!is_judged(panel, outcome)) outcome.warnings.emplace_back(not_judged);
+  finish(scene.soup, options, "antialiasing combined", measurer, panel);
 }
 
 }  // namespace

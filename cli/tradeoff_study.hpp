@@ -1,10 +1,10 @@
 // What `tureen tradeoff` measures: time and error of every configuration of an experiment, on one
 // device, with one set of cameras. Says nothing and writes nothing.
 //
-// Time and error are taken of the same renderer: the frames that are compared are those that were
-// timed. Configurations take turns frame by frame (runtime/benchmark.hpp), in groups, each of which
-// the defaults are part of; a group's times are multiplied by what makes those of its defaults the
-// first group's.
+// Time and error are taken of the same renderer: the frames that are compared are drawn by the one
+// that was timed, once more. Configurations take turns frame by frame (runtime/benchmark.hpp), in
+// groups, each of which the defaults are part of; a group's times are multiplied by what makes
+// those of its defaults the first group's.
 #pragma once
 
 #include <functional>

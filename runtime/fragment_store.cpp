@@ -6,6 +6,15 @@
 
 namespace tureen {
 
+namespace {
+
+const TargetFormat& feature_format(RenderPreset::FeatureStorage storage) {
+  return storage == RenderPreset::FeatureStorage::rgba16f ? target_formats::rgba16f
+                                                          : target_formats::rgba8;
+}
+
+}  // namespace
+
 FragmentStore::FragmentStore(FeatureStorage storage, int width, int height, GLuint depth)
     : storage_(storage) {
   if (storage == FeatureStorage::visibility) {
@@ -13,9 +22,7 @@ FragmentStore::FragmentStore(FeatureStorage storage, int width, int height, GLui
     framebuffer_ = make_framebuffer({targets_[0].id()}, depth);
     return;
   }
-  const TargetFormat& format =
-      storage == FeatureStorage::rgba16f ? target_formats::rgba16f : target_formats::rgba8;
-  for (gl::Texture& target : targets_) target = make_target(format, width, height);
+  for (gl::Texture& target : targets_) target = make_target(feature_format(storage), width, height);
   framebuffer_ = make_framebuffer({targets_[0].id(), targets_[1].id()}, depth);
 }
 
@@ -45,6 +52,11 @@ void FragmentStore::bind(const gl::Program& program, int first_unit) const {
     gl::use_texture_sampling(static_cast<unsigned>(unit));
     program.set(of_storage[i], unit);
   }
+}
+
+std::size_t FragmentStore::bytes(FeatureStorage storage, glm::ivec2 size) {
+  return storage == FeatureStorage::visibility ? bytes_of(target_formats::rg32ui, size)
+                                               : 2 * bytes_of(feature_format(storage), size);
 }
 
 GLuint FragmentStore::visibility_framebuffer() const {

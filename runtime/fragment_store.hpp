@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <glm/vec2.hpp>
 
 #include "runtime/gl/program.hpp"
 #include "runtime/plan.hpp"
@@ -28,6 +29,9 @@ class FragmentStore {
   /// For the shading pass: binds the targets to units first_unit.. and sets the samplers of
   /// `program`, in use.
   void bind(const gl::Program& program, int first_unit) const;
+
+  /// What such targets take, without the depth texture.
+  static std::size_t bytes(FeatureStorage storage, glm::ivec2 size);
 
   /// With (slot, barycentrics) as RG32UI, or 0 where features are stored.
   GLuint visibility_framebuffer() const;

@@ -49,6 +49,8 @@ class Pipeline {
   virtual glm::ivec2 sample_size() const = 0;
   /// Buffers and textures of the scene, not the targets.
   virtual std::size_t device_bytes() const = 0;
+  /// The targets that resize() made, by the sizes of their formats.
+  virtual std::size_t target_bytes() const = 0;
 
   /// Which stage shades, where the plan leaves that to measurement and a frame has been drawn.
   virtual std::optional<StageChoice> shading_choice() const { return std::nullopt; }

@@ -25,8 +25,9 @@ void choose_site(PlanDraft& draft) {
     draft.leave_out(LeaveOut::background,
                     "shading of background pixels, the depth test rejects them (exact)");
   if (draft.preferences.specialise && !wanted && plan.site == ShadingSite::forward)
-    draft.leave_out(LeaveOut::shading_pass,
-                    "the shading pass, colours are cheap enough to write at once (exact)");
+    draft.leave_out(
+        LeaveOut::shading_pass,
+        "the shading pass, colours are cheap enough to write at once (exact but for rounding)");
 }
 
 /// After the knobs: features that are stored want another shading pass.

@@ -77,6 +77,10 @@ class PublishedPipeline final : public Pipeline {
     color_framebuffer_ = {};
   }
   std::size_t device_bytes() const override { return geometry_.device_bytes() + lut_bytes_; }
+  std::size_t target_bytes() const override {
+    const glm::ivec2 size = sample_size();
+    return bytes_of(target_formats::depth24, size) + 3 * bytes_of(target_formats::rgba8, size);
+  }
 
  private:
   void draw_features(const FrameCamera& frame, const glm::dmat4& projection,

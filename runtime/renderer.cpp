@@ -178,5 +178,6 @@ void Renderer::leave_context() {
 }
 
 std::size_t Renderer::device_bytes() const { return state_->pipeline->device_bytes(); }
+std::size_t Renderer::target_bytes() const { return state_->pipeline->target_bytes(); }
 
 }  // namespace tureen

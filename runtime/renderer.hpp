@@ -99,6 +99,10 @@ class Renderer {
   /// by which faces between pixels are found, though that lies beside them.
   std::size_t device_bytes() const;
 
+  /// Bytes of the targets of the last frame's size, as their formats say: a driver may take more. 0
+  /// before the first frame.
+  std::size_t target_bytes() const;
+
  private:
   struct State;
   std::unique_ptr<State> state_;

@@ -65,6 +65,9 @@ class ResampledPipeline : public Pipeline {
   GLuint depth_texture() const final { return pipeline_->depth_texture(); }
   glm::ivec2 sample_size() const final { return pipeline_->sample_size(); }
   std::size_t device_bytes() const final { return pipeline_->device_bytes(); }
+  std::size_t target_bytes() const final {
+    return pipeline_->target_bytes() + bytes_of(target_formats::rgba8, size_);
+  }
   std::optional<StageChoice> shading_choice() const final { return pipeline_->shading_choice(); }
   void leave_context() final {
     nothing_.forget();

@@ -15,15 +15,23 @@ namespace tureen {
 
 struct TargetFormat {
   GLenum internal_format, format, type;
+  int bytes;  // a pixel; drivers may take more
 };
 
 namespace target_formats {
-inline constexpr TargetFormat rgba8{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
-inline constexpr TargetFormat rgba16f{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT};  // not on every ES 3.0
-inline constexpr TargetFormat rg32ui{GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT};
-inline constexpr TargetFormat depth24{GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT};
-inline constexpr TargetFormat depth32f{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT};
+inline constexpr TargetFormat rgba8{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+/// Not on every ES 3.0.
+inline constexpr TargetFormat rgba16f{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
+inline constexpr TargetFormat rg32ui{GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 8};
+inline constexpr TargetFormat depth24{GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, 4};
+inline constexpr TargetFormat depth32f{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};
 }  // namespace target_formats
+
+/// What a target of this size takes.
+inline std::size_t bytes_of(const TargetFormat& format, glm::ivec2 size) {
+  return static_cast<std::size_t>(format.bytes) * static_cast<std::size_t>(size.x) *
+         static_cast<std::size_t>(size.y);
+}
 
 /// A texture to draw into; nearest sampling.
 gl::Texture make_target(const TargetFormat& format, int width, int height);

@@ -53,8 +53,7 @@ class TureenPipeline final : public Pipeline {
   void resize(int width, int height) override {
     width_ = width;
     height_ = height;
-    const TargetFormat& depth =
-        plan_.reversed_depth ? target_formats::depth32f : target_formats::depth24;
+    const TargetFormat& depth = depth_format();
     color_ = plan_.shading_stage == ShadingStage::fragment
                  ? make_target(target_formats::rgba8, width, height)
                  : make_image_target(target_formats::rgba8, width, height);
@@ -111,9 +110,23 @@ class TureenPipeline final : public Pipeline {
     return appearance_.device_bytes() + geometry_.device_bytes() +
            (covered_ ? covered_->bytes() : 0);
   }
+  std::size_t target_bytes() const override {
+    const std::size_t color = bytes_of(target_formats::rgba8, sample_size()),
+                      depth = bytes_of(depth_format(), sample_size());
+    if (coverage_)  // its samples, what they are resolved to, and the picture
+      return static_cast<std::size_t>(plan_.coverage_samples) * (color + depth) + 2 * color;
+    return color + depth +
+           (plan_.site == ShadingSite::deferred
+                ? FragmentStore::bytes(plan_.feature_storage, sample_size())
+                : 0);
+  }
 
  private:
   using Constants = std::map<std::string, std::string>;
+
+  const TargetFormat& depth_format() const {
+    return plan_.reversed_depth ? target_formats::depth32f : target_formats::depth24;
+  }
 
   gl::Program program(gl::Api api, const char* vertex, const char* fragment,
                       const Constants& constants) const {

@@ -8,11 +8,24 @@ namespace tureen::tradeoff {
 
 namespace {
 
+/// Whether `whole` turns every knob that `part` turns, and alike.
+bool is_part_of(const Configuration& part, const Configuration& whole) {
+  for (std::size_t knob = 0; knob < part.size(); ++knob)
+    if (part[knob] != 0 && part[knob] != whole[knob]) return false;
+  return true;
+}
+
 void add(Design& design, Configuration configuration, const Refusal& refuse) {
-  if (const std::optional<std::string> reason = refuse(configuration))
-    design.skipped.push_back({std::move(configuration), *reason});
-  else
+  const std::optional<std::string> reason = refuse(configuration);
+  if (!reason) {
     design.configurations.push_back(std::move(configuration));
+    return;
+  }
+  const auto says_it = [&](const Skipped& each) {
+    return is_part_of(each.configuration, configuration);
+  };
+  if (std::none_of(design.skipped.begin(), design.skipped.end(), says_it))
+    design.skipped.push_back({std::move(configuration), *reason});
 }
 
 /// The knob of a configuration of the star, none for the defaults.
@@ -23,13 +36,18 @@ std::optional<std::size_t> turned_knob(const Configuration& configuration) {
 }
 
 /// Combinations of these knobs that turn two of them or more: the others are in the star.
-double combinations(std::span<const int> settings, std::span<const KnobRange> knobs) {
-  double all = 1, single = 1;
-  for (const KnobRange& range : knobs) {
-    all *= settings[range.knob];
-    single += settings[range.knob] - 1;
+Design combinations(std::span<const int> settings, std::span<const KnobRange> knobs,
+                    const Refusal& refuse) {
+  Design design;
+  // Counts through them as an odometer does, the last knob fastest: a part comes before its whole.
+  Configuration configuration(settings.size(), 0);
+  for (;;) {
+    std::size_t at = knobs.size();
+    while (at > 0 && ++configuration[knobs[at - 1].knob] == settings[knobs[at - 1].knob])
+      configuration[knobs[--at].knob] = 0;
+    if (at == 0) return design;
+    if (departures(configuration) >= 2) add(design, configuration, refuse);
   }
-  return all - single;
 }
 
 }  // namespace
@@ -65,8 +83,10 @@ std::vector<KnobRange> knob_ranges(std::span<const Configuration> star,
         fastest = std::min(fastest, measured[i].ms);
         slowest = std::max(slowest, measured[i].ms);
       }
-      best = std::max(best, measured[i].psnr_db);
-      worst = std::min(worst, measured[i].psnr_db);
+      if (!std::isnan(measured[i].psnr_db)) {
+        best = std::max(best, measured[i].psnr_db);
+        worst = std::min(worst, measured[i].psnr_db);
+      }
     }
     ranges[knob] = {knob, slowest / fastest, best - worst};
   }
@@ -81,33 +101,28 @@ Design factorial(std::span<const int> settings, std::span<const KnobRange> range
   std::stable_sort(chosen.begin(), chosen.end(), [](const KnobRange& a, const KnobRange& b) {
     return std::log(a.time_ratio) * a.psnr_db > std::log(b.time_ratio) * b.psnr_db;
   });
-  Design design;
+  std::vector<std::string> notes;
   if (chosen.size() > limits.most_knobs) {
-    design.notes.push_back(std::to_string(chosen.size()) + " knobs matter; the " +
-                           std::to_string(limits.most_knobs) +
-                           " that move time and error most are combined");
+    notes.push_back(std::to_string(chosen.size()) + " knobs matter; the " +
+                    std::to_string(limits.most_knobs) +
+                    " that move time and error most are combined");
     chosen.resize(limits.most_knobs);
   }
   const std::size_t wanted = chosen.size();
-  const double all = combinations(settings, chosen);
-  while (combinations(settings, chosen) > double(limits.most_configurations)) chosen.pop_back();
-  if (chosen.size() < wanted)
-    design.notes.push_back(
-        "all combinations of " + std::to_string(wanted) + " knobs are " +
-        std::to_string(std::size_t(all)) + " configurations, more than the limit of " +
-        std::to_string(limits.most_configurations) + ": " +
-        (chosen.size() < 2 ? std::string("none are measured")
-                           : "only those of the first " + std::to_string(chosen.size()) + " are"));
-
-  // Counts through the combinations as an odometer does, the last knob fastest.
-  Configuration configuration(settings.size(), 0);
-  for (;;) {
-    std::size_t at = chosen.size();
-    while (at > 0 && ++configuration[chosen[at - 1].knob] == settings[chosen[at - 1].knob])
-      configuration[chosen[--at].knob] = 0;
-    if (at == 0) break;
-    if (departures(configuration) >= 2) add(design, configuration, refuse);
+  Design design = combinations(settings, chosen, refuse);
+  const std::size_t all = design.configurations.size();
+  while (design.configurations.size() > limits.most_configurations) {
+    chosen.pop_back();
+    design = combinations(settings, chosen, refuse);
   }
+  if (chosen.size() < wanted)
+    notes.push_back("all combinations of " + std::to_string(wanted) + " knobs are " +
+                    std::to_string(all) + " configurations, more than the limit of " +
+                    std::to_string(limits.most_configurations) + ": " +
+                    (chosen.size() < 2
+                         ? std::string("none are measured")
+                         : "only those of the first " + std::to_string(chosen.size()) + " are"));
+  design.notes = std::move(notes);
   return design;
 }
 

@@ -28,7 +28,8 @@ struct Skipped {
 
 struct Design {
   std::vector<Configuration> configurations;
-  std::vector<Skipped> skipped;    // what cannot be drawn
+  /// What cannot be drawn; of several of which one is part of the others, that one alone.
+  std::vector<Skipped> skipped;
   std::vector<std::string> notes;  // what was left out for other reasons, a sentence each
 };
 
@@ -47,7 +48,7 @@ struct KnobRange {
   bool matters() const { return time_ratio > 1.05 && psnr_db > 0.5; }
 };
 
-/// Time and error of a configuration of the star; NaN milliseconds where time means nothing.
+/// Time and error of a configuration of the star; NaN where one of them means nothing.
 struct Measured {
   double ms = 0;
   double psnr_db = 0;
@@ -64,7 +65,8 @@ struct FactorialLimits {
 
 /// All combinations of the knobs that matter that the star does not have: at most `most_knobs`,
 /// those that move time and error most, by the product of both; where that leaves more
-/// configurations than the limit, the last of these knobs are put back, and a note says so.
+/// configurations than the limit that can be drawn, the last of these knobs are put back, and a
+/// note says so.
 Design factorial(std::span<const int> settings, std::span<const KnobRange> ranges,
                  const Refusal& refuse, const FactorialLimits& limits = {});
 

@@ -135,7 +135,7 @@ std::vector<Knob> antialiasing_knobs(int most_samples, std::span<const int> samp
     scale.settings.push_back({factor == 0.5 ? "0.5" : "0.75",
                               percent_text(factor) + " of the rows and columns",
                               [factor](Preset& preset) { preset.resolution_scale = factor; }});
-  Knob samples{"supersampling", "supersampling", {{"1", "one sample a pixel", unchanged}}};
+  Knob samples{supersampling_key, "supersampling", {{"1", "one sample a pixel", unchanged}}};
   for (int n = 2; n <= most_samples; n *= 2)
     samples.settings.push_back({std::to_string(n),
                                 std::to_string(n) + " x " + std::to_string(n) + " samples a pixel",

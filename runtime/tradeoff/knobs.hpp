@@ -37,6 +37,9 @@ struct Knob {
 std::vector<Knob> drawing_knobs(const TriangleSoup& soup, ShadingSite site,
                                 std::span<const std::uint64_t> visible_pixels);
 
+/// Knob::key of supersampling.
+inline constexpr const char* supersampling_key = "supersampling";
+
 /// Those that decide how many samples a pixel has, and where: resolution scale, supersampling up to
 /// `most_samples` an axis, alpha to coverage of as many samples as the device multisamples with
 /// (DeviceLimits::sample_counts).

@@ -8,7 +8,6 @@ namespace tureen::tradeoff {
 
 namespace {
 
-constexpr int antialiasing = 8;
 constexpr double rays_in_a_strip = 4e6;
 
 /// Rows [first, first + rows) of what the camera sees.
@@ -33,6 +32,14 @@ void set_coverage(OracleImage& image, int supersampling) {
 
 }  // namespace
 
+std::optional<std::string> too_fine(const RenderPreset& preset) {
+  constexpr int own = antialiased_samples * antialiased_samples;
+  const int samples = preset.supersampling * preset.supersampling * preset.alpha_to_coverage;
+  if (preset.supersampling == 1 || samples < own) return {};
+  return "the reference has " + std::to_string(own) + " samples a pixel, and cannot judge " +
+         std::to_string(samples);
+}
+
 int device_subpixel_bits() {
   GLint bits = 0;
   glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
@@ -42,7 +49,7 @@ int device_subpixel_bits() {
 ImageF reference_picture(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera,
                          const ReferenceOptions& options) {
   const bool antialiased = options.samples == Samples::antialiased;
-  const int n = antialiased ? antialiasing : 1;
+  const int n = antialiased ? antialiased_samples : 1;
   // A snapped picture is not cut: where a triangle is clipped depends on the picture's border.
   const int rows = antialiased
                        ? std::clamp(int(rays_in_a_strip / (n * n) / camera.width), 1, camera.height)

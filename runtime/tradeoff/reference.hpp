@@ -3,8 +3,11 @@
 
 #include <functional>
 #include <glm/vec3.hpp>
+#include <optional>
+#include <string>
 
 #include "runtime/oracle/oracle.hpp"
+#include "soup/render_preset.hpp"
 
 namespace tureen::tradeoff {
 
@@ -16,9 +19,17 @@ enum class Samples {
   device,
   /// One a pixel, at its centre, of the triangles as they are.
   exact,
-  /// 8 x 8 a pixel, on a regular grid, of the triangles as they are.
+  /// antialiased_samples^2 a pixel, on a regular grid, of the triangles as they are.
   antialiased,
 };
+
+/// Samples a pixel and axis of Samples::antialiased. Supersampling with as many looks at the very
+/// same points: how it differs from the reference is rounding and says nothing of antialiasing.
+inline constexpr int antialiased_samples = 8;
+
+/// Why Samples::antialiased is no judge of supersampling and alpha to coverage together: they have
+/// as many samples a pixel as it has, or more. Nothing where it is, and for each of them alone.
+std::optional<std::string> too_fine(const RenderPreset& preset);
 
 /// GL_SUBPIXEL_BITS of the context that is current: how finely its device rounds vertices within a
 /// pixel. 8, which nearly all have, where it tells nothing that the oracle could do (1 .. 16).

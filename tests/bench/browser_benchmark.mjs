@@ -102,6 +102,17 @@ async function openingTimes(browser, site, scene) {
   return { first: median(times.map(({ first }) => first)), whole: median(times.map(({ whole }) => whole)) };
 }
 
+/** A scene on a rasteriser: its file for `tureen bench --import`, and its row. */
+async function measureScene(browser, site, rasteriser, path) {
+  const name = basename(path, extname(path)), file = encodeURIComponent(basename(path));
+  console.error(`${name} on ${rasteriser}`);
+  const result = await frames(browser, site, `scenes=${file}`);
+  writeFileSync(join(out, `${name}-${rasteriser}.json`), JSON.stringify(result, null, 1) + '\n');
+  const { device, wasm } = await memory(browser, site, `scenes=${file}`);
+  const { first, whole } = await openingTimes(browser, site, `scene=${file}`);
+  console.log(`| ${name} | ${rasteriser} | ${megabytes(device)} | ${megabytes(wasm)} | ${Math.round(first)} | ${Math.round(whole)} |`);
+}
+
 mkdirSync(out, { recursive: true });
 const folder = siteWith(), server = await serve(folder);
 console.log('| scene | drawn by | on the device, MB | WebAssembly, MB | first picture, ms | whole scene, ms |');
@@ -109,16 +120,11 @@ console.log('|---|---|---|---|---|---|');
 try {
   for (const rasteriser of ['llvmpipe', 'swiftshader']) {
     const browser = await launch(rasteriser);
-    for (const path of scenes) {
-      const name = basename(path, extname(path)), file = encodeURIComponent(basename(path));
-      console.error(`${name} on ${rasteriser}`);
-      const result = await frames(browser, server.address, `scenes=${file}`);
-      writeFileSync(join(out, `${name}-${rasteriser}.json`), JSON.stringify(result, null, 1) + '\n');
-      const { device, wasm } = await memory(browser, server.address, `scenes=${file}`);
-      const { first, whole } = await openingTimes(browser, server.address, `scene=${file}`);
-      console.log(`| ${name} | ${rasteriser} | ${megabytes(device)} | ${megabytes(wasm)} | ${Math.round(first)} | ${Math.round(whole)} |`);
+    try {
+      for (const path of scenes) await measureScene(browser, server.address, rasteriser, path);
+    } finally {
+      await browser.close();
     }
-    await browser.close();
   }
 } finally {
   await server.close();

@@ -8,7 +8,7 @@ usual_parts=(load frames leave_out growth tradeoff slim agreement step browser)
 training_parts=(train-fox train-bottle train-lego train-example ablations)
 all_parts=("${usual_parts[@]}" training "${training_parts[@]}")
 quick='' processor='' check='' ficus='' fox='' photographs='' lego='' bottle=''
-parts=() done_parts=() skipped=() failed=()
+parts=() done_parts=() reported=() skipped=() failed=()
 
 usage() {
   cat <<'END'
@@ -42,7 +42,7 @@ their marks; without a PART all but training:
                  what else training learns from; ../shared/data/rendered/lego and ../shared/data/photos/bottle
                  where they are there
 
-Ctrl-C ends it; parts that were done stay. Exit code 1 where a part failed.
+Ctrl-C ends it; what was done stays in build/bench, and comes into no page. Exit code 1 where a part failed.
 END
 }
 
@@ -106,7 +106,7 @@ measure() {
   command=$(printf '%q ' "$@") # as a shell takes it
   command=${command% }
   say "$name: $command"
-  rm -f "$out/$name.run.json"
+  rm -f "$out/$name.run.json" "$out/$name"/*.svg # plots of an earlier run are not this one's
   "$@" >"$out/$name.txt" 2>"$out/$name.log" </dev/null || status=$?
   if ((status)); then
     tail -n 15 "$out/$name.log" >&2
@@ -131,7 +131,7 @@ find_scenes() {
   local coverage
   for coverage in forty_percent all; do
     local cloud=$out/scenes/cloud_$coverage.glb
-    [[ -e $cloud ]] || "$bin/make_cutout_cloud" "$cloud" --coverage "$coverage" ||
+    "$bin/make_cutout_cloud" "$cloud" --coverage "$coverage" ||
       { skip "the cut-out cloud $coverage, which could not be written"; continue; }
     add_scene "cloud-$coverage" "$cloud"
   done
@@ -156,7 +156,7 @@ part_frames() {
       cloud-*) options=(--cameras "$path" --size 1280x720) ;;
       *) options=(--cameras 'hemisphere:8,adversarial' --sweep) ;;
     esac
-    options+=(--rounds 5 --seconds 120)
+    options+=(--rounds 5 --seconds 300)
     [[ -z $quick ]] || options=(--size 160x90 --rounds 1 --seconds 1)
     [[ -z $processor ]] || options+=(--processor-time)
     measure "frames-$name" "$bin/tureen" bench "$path" "${options[@]}" -o "$out/frames-$name"
@@ -168,11 +168,17 @@ part_frames() {
       -o "$out/frames-fox-photographs"
   done
   measure_stages
-  options=()
   [[ -n $ficus || -n $quick ]] || { skip "frames-dense: the ficus soup is not here, give it with --ficus"; return; }
-  [[ -z $quick ]] || options=(--triangles 50000 --rounds 1 --width 160 --height 90)
-  [[ -z $processor ]] || options+=(--processor-time)
-  measure frames-dense "$bin/dense_benchmark" "${ficus:-examples/soup.glb}" "${options[@]}"
+  local dense=("$bin/dense_benchmark" "${ficus:-examples/soup.glb}")
+  [[ -z $quick ]] || dense+=(--triangles 50000 --rounds 1 --width 160 --height 90)
+  [[ $processor ]] || measure frames-dense "${dense[@]}"
+  if draws_in_software; then measure frames-dense-processor "${dense[@]}" --processor-time; fi
+}
+
+# Whether the processor's time says anything of frames.
+draws_in_software() {
+  "$bin/tureen" render examples/soup.glb --size 16x16 -o "$out/scenes/device.png" --json 2>/dev/null |
+    grep -q '"software": true'
 }
 
 # The shading pass as a fragment and as a compute shader.
@@ -185,7 +191,7 @@ measure_stages() {
   fi
   for i in "${!scene_names[@]}"; do
     [[ ${scene_names[i]} != ficus ]] || continue # shaded forward
-    options=(--cameras hemisphere:4 --rounds 2 --seconds 30)
+    options=(--cameras hemisphere:4 --rounds 5 --seconds 60)
     [[ ${scene_names[i]} != cloud-* ]] || options[1]=${scene_paths[i]}
     [[ -z $quick ]] || options=(--size 160x90 --rounds 1 --seconds 1)
     options+=(--only "tureen-fragment,tureen-compute")
@@ -229,7 +235,7 @@ part_tradeoff() {
   measure tradeoff-scenes "$bin/tureen" tradeoff "${imports[@]}" -o "$out/tradeoff-scenes"
 }
 
-# slim NAME SOUP OPTION..: a slim file of it. As quick as ever: it takes half a minute.
+# slim NAME SOUP OPTION..: a slim file of it. As quick as ever: it takes half a minute or less.
 slim() {
   local name=$1 soup=$2
   shift 2
@@ -327,7 +333,7 @@ make_example_photographs() {
   local views=(--views 90 --test-views 10 --strata 4)
   [[ -z $quick ]] || views=(--views 9 --test-views 1 --strata 1)
   local made_by=$example_photographs.commit
-  [[ -e $made_by && $(<"$made_by") == "$commit" ]] && return
+  [[ $commit != *-dirty && -e $example_photographs && -e $made_by && $(<"$made_by") == "$commit" ]] && return
   rm -rf "$example_photographs" "$made_by"
   measure example-photographs "$bin/make_photographs" "$example_photographs" "${views[@]}" &&
     echo "$commit" >"$made_by"
@@ -404,8 +410,12 @@ if [[ $quick ]]; then
   cp -r docs "$pages"
 fi
 if ((${#done_parts[@]})); then
-  reported=("${done_parts[@]}")
+  for name in "${done_parts[@]}"; do
+    [[ $name == example-photographs ]] || reported+=("$name") # of which nothing is told
+  done
   [[ " ${done_parts[*]}" != *" "@(train|ablation)-* ]] || mapfile -t -O "${#reported[@]}" reported < <(trained_before)
+fi
+if ((${#reported[@]})); then
   "$bin/bench_report" "$out" "$pages" "${reported[@]}" || failed+=("bench_report: $pages is not whole")
 fi
 
@@ -416,7 +426,9 @@ fi
   for name in "${done_parts[@]}"; do echo "- $name: $name.txt, $name.log"; done
   for name in "${skipped[@]}"; do echo "- skipped: $name"; done
   for name in "${failed[@]}"; do echo "- FAILED: $name"; done
-  for page in "$out"/*/*.html; do [[ ! -e $page ]] || echo "- page: ${page#"$out"/}"; done
+  for name in "${done_parts[@]}"; do
+    for page in "$out/$name"/*.html; do [[ ! -e $page ]] || echo "- page: ${page#"$out"/}"; done
+  done
 } >"$out/summary.md"
 cat "$out/summary.md" >&2
 say "All of it is in $PWD/$out, the pages in $pages"

@@ -131,7 +131,7 @@ std::vector<glm::vec4> on_device(const ColorMlp& mlp, MlpWeights kind,
     more.emplace_back(s.features[4], s.features[5], s.features[6], 0);
     more.emplace_back(glm::vec3(s.to_eye), 0);
   }
-  constexpr TargetFormat rgba32f{GL_RGBA32F, GL_RGBA, GL_FLOAT};
+  constexpr TargetFormat rgba32f{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
   glActiveTexture(GL_TEXTURE1);
   const gl::Texture texture = make_target(rgba32f, int(more.size()), 1);
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, int(more.size()), 1, GL_RGBA, GL_FLOAT, more.data());

@@ -262,6 +262,31 @@ TEST(Renderer, AlphaByTheTexelIsAlphaByTheCell) {
     }
 }
 
+TEST(Renderer, TellsWhatItsTargetsTake) {
+  const gl::Context context = gl::Context::create(osmesa);
+  const TriangleSoup soup = random_soup(78, {.kind = Kind::lattice_mlp, .faces = 100, .level = 2});
+  constexpr int width = 160, height = 120;
+  using Storage = RenderPreset::FeatureStorage;
+  // A pixel has 4 bytes of colour, 4 of depth, and what is drawn on the way to it.
+  const std::pair<PlanPreferences, double> bytes_a_pixel[] = {
+      {{.site = ShadingSite::forward}, 4 + 4},
+      {{.site = ShadingSite::deferred}, 4 + 4 + 8},
+      {{.preset = RenderPreset{.feature_storage = Storage::rgba8}}, 4 + 4 + 2 * 4},
+      {{.preset = RenderPreset{.feature_storage = Storage::rgba16f}}, 4 + 4 + 2 * 8},
+      {{.site = ShadingSite::deferred, .preset = RenderPreset{.supersampling = 3}}, 9 * 16 + 4},
+      {{.site = ShadingSite::deferred, .preset = RenderPreset{.resolution_scale = 0.5}}, 4 + 4},
+      {{.preset = RenderPreset{.alpha_to_coverage = 4}}, 4 * (4 + 4) + 4 + 4},
+      {{.pipeline = PipelineKind::published}, 4 + 3 * 4},
+  };
+  for (const auto& [plan, each] : bytes_a_pixel) {
+    SCOPED_TRACE(each);
+    Renderer renderer(context, soup, {}, {.plan = plan});
+    EXPECT_EQ(renderer.target_bytes(), 0u) << "no frame yet";
+    renderer.draw(look_at({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 0.8, width, height));
+    EXPECT_EQ(double(renderer.target_bytes()), each * width * height);
+  }
+}
+
 // A device with small textures needs more layers; nothing else may change.
 TEST(Renderer, SmallTexturesHoldTheSameScene) {
   const gl::Context context = gl::Context::create(osmesa);

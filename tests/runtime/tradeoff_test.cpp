@@ -8,7 +8,9 @@
 #include <set>
 
 #include "runtime/tradeoff/experiment.hpp"
+#include "runtime/tradeoff/knobs.hpp"
 #include "runtime/tradeoff/pareto.hpp"
+#include "runtime/tradeoff/reference.hpp"
 #include "support/random.hpp"
 
 namespace tureen::tradeoff {
@@ -206,6 +208,14 @@ TEST(KnobRanges, CompareEachKnobWithTheDefaults) {
   EXPECT_FALSE(ranges[1].matters());
 }
 
+TEST(KnobRanges, PassOverErrorsThatMeanNothing) {
+  const std::vector<Configuration> star{{0}, {1}, {2}};
+  const std::vector<Measured> measured{{10, 36}, {20, 45}, {40, std::nan("")}};
+  const KnobRange range = knob_ranges(star, measured, 1).front();
+  EXPECT_DOUBLE_EQ(range.psnr_db, 9);
+  EXPECT_DOUBLE_EQ(range.time_ratio, 4);
+}
+
 TEST(Factorial, CombinesTheKnobsThatMatter) {
   const std::vector<int> settings{3, 2, 2};
   const std::vector<KnobRange> ranges{{0, 1.5, 5}, {1, 1.02, 9}, {2, 1.2, 3}};
@@ -255,6 +265,59 @@ TEST(Factorial, SkipsWhatCannotBeDrawn) {
   EXPECT_THAT(design.configurations, IsEmpty());
   ASSERT_THAT(design.skipped, SizeIs(1));
   EXPECT_EQ(design.skipped[0].reason, "not together");
+}
+
+TEST(Factorial, SaysOnceWhatCannotBeDrawnTogetherAndDoesNotCountIt) {
+  const std::vector<int> settings{2, 3, 2};
+  const auto refuse = [](const Configuration& c) -> std::optional<std::string> {
+    if (c[1] != 0 && c[2] != 0) return "fewer and more";
+    return {};
+  };
+  // Of 7 combinations 4 turn both of the knobs that exclude each other.
+  const std::vector<Configuration> drawn{{1, 0, 1}, {1, 1, 0}, {1, 2, 0}};
+  for (const double last_ratio : {1.1, 1.9}) {  // the third knob comes last, then first
+    const std::vector<KnobRange> ranges{{0, 1.5, 5}, {1, 1.4, 5}, {2, last_ratio, 5}};
+    const Design design = factorial(settings, ranges, refuse, {.most_configurations = 3});
+    EXPECT_THAT(design.configurations, testing::UnorderedElementsAreArray(drawn));
+    EXPECT_THAT(design.notes, IsEmpty());
+    std::vector<Configuration> skipped;
+    for (const Skipped& each : design.skipped) skipped.push_back(each.configuration);
+    EXPECT_THAT(skipped,
+                testing::UnorderedElementsAre(Configuration{0, 1, 1}, Configuration{0, 2, 1}));
+  }
+  const std::vector<KnobRange> ranges{{0, 1.5, 5}, {1, 1.4, 5}, {2, 1.3, 5}};
+  const Design fewer = factorial(settings, ranges, refuse, {.most_configurations = 2});
+  ASSERT_THAT(fewer.notes, SizeIs(1));
+  EXPECT_THAT(fewer.notes[0], HasSubstr("are 3 configurations, more than the limit of 2"));
+}
+
+RenderPreset samples_of(int supersampling, int alpha_to_coverage) {
+  RenderPreset preset;
+  preset.supersampling = supersampling;
+  preset.alpha_to_coverage = alpha_to_coverage;
+  return preset;
+}
+
+TEST(AntialiasedReference, JudgesCombinationsOfFewerSamplesThanItsOwn) {
+  ASSERT_EQ(antialiased_samples, 8);
+  for (const auto& [n, coverage] : std::vector<std::pair<int, int>>{{2, 8}, {4, 2}, {1, 8}, {8, 0}})
+    EXPECT_EQ(too_fine(samples_of(n, coverage)), std::nullopt) << n << ' ' << coverage;
+  EXPECT_EQ(too_fine(samples_of(4, 4)),
+            "the reference has 64 samples a pixel, and cannot judge 64");
+  EXPECT_THAT(too_fine(samples_of(4, 8)).value_or(""), HasSubstr("cannot judge 128"));
+  EXPECT_TRUE(too_fine(samples_of(8, 2)));
+}
+
+// The knob must not be called otherwise where its outcomes are looked for.
+TEST(AntialiasingKnobs, OfThemOneIsSupersampling) {
+  const std::vector<Knob> knobs = antialiasing_knobs(8, {});
+  const auto found = std::find_if(knobs.begin(), knobs.end(),
+                                  [](const Knob& each) { return each.key == supersampling_key; });
+  ASSERT_NE(found, knobs.end());
+  RenderPreset preset;
+  found->settings.back().apply(preset);
+  EXPECT_EQ(preset.supersampling, 8);
+  EXPECT_EQ(found->settings.back().value, "8");
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ class Probe {
   }
 
  private:
-  static constexpr TargetFormat rgba32f{GL_RGBA32F, GL_RGBA, GL_FLOAT};
+  static constexpr TargetFormat rgba32f{GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
   static constexpr const char* main_text =
       "\nuniform sampler2D inputs;\n"
       "layout(location = 0) out vec4 result;\n"

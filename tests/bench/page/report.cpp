@@ -70,8 +70,11 @@ int main(int argc, char** argv) {
     const std::filesystem::path docs = argv[2];
     const auto pages = pages_in(docs);
     std::filesystem::create_directories(docs / "images");
-    for (const Section& section : sections_of(Measurements(argv[1], {argv + 3, argv + argc})))
-      write_section(section, pages, docs / "images");
+    const Sections sections = sections_of(Measurements(argv[1], {argv + 3, argv + argc}));
+    for (const Section& section : sections.made) write_section(section, pages, docs / "images");
+    for (const std::string& failure : sections.failures)
+      std::fprintf(stderr, "bench_report: %s\n", failure.c_str());
+    if (!sections.failures.empty()) return 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_report: %s\n", error.what());
     return 1;

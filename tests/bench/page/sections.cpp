@@ -95,13 +95,15 @@ Section section_of(const Measurements& measurements, const std::string& name) {
 
 }  // namespace
 
-std::vector<Section> sections_of(const Measurements& measurements) {
-  std::vector<Section> sections;
+Sections sections_of(const Measurements& measurements) {
+  Sections sections;
   const auto add = [&](const std::string& name, auto&& make) {
     try {
-      sections.push_back(make());
+      sections.made.push_back(make());
     } catch (const nlohmann::json::exception& error) {
-      throw InputError({name, {}, {}}, error.what());
+      sections.failures.push_back(name + ": " + error.what());
+    } catch (const InputError& error) {
+      sections.failures.push_back(name + ": " + error.what());
     }
   };
   std::vector<std::string> told;

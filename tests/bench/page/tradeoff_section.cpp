@@ -20,6 +20,11 @@ bool is_told(const Json& configuration, const Json& knobs) {
   return turned <= 1;
 }
 
+std::string told_name(const Json& configuration) {
+  const bool is_emulated = configuration.at("method") == "oracle";
+  return configuration.at("name").get<std::string>() + (is_emulated ? " (emulated)" : "");
+}
+
 std::string panel_table(const Json& panel, bool with_exact) {
   std::vector<std::string> headings{"configuration", "ms",   "p95 ms", "MiB",
                                     "PSNR dB",       "SSIM", "max",    "mismatch"};
@@ -29,9 +34,7 @@ std::string panel_table(const Json& panel, bool with_exact) {
   for (const Json& each : panel.at("configurations")) {
     if (!is_told(each, panel.at("knobs"))) continue;
     const Json& error = each.at("e_render");
-    std::string name = each.at("name");
-    if (each.at("method") == "oracle") name += " (emulated)";
-    std::vector<std::string> cells{name,
+    std::vector<std::string> cells{told_name(each),
                                    number_or_none(each.at("ms"), "{:.2f}"),
                                    number_or_none(each.at("ms_p95"), "{:.2f}"),
                                    number_or_none(each.at("mib"), "{:.1f}"),
@@ -65,7 +68,7 @@ std::string model_table(const Json& tradeoff) {
     for (const Json& each : tradeoff.at(panel).at("configurations")) {
       const Json& model = each.at("e_model");
       if (!model.is_null())
-        table.line({each.at("name"), number_or_none(model.at("psnr_db"), "{:.2f}"),
+        table.line({told_name(each), number_or_none(model.at("psnr_db"), "{:.2f}"),
                     number_or_none(model.at("ssim"), "{:.4f}")});
     }
   return fmt::format("E_model, against {} photographs ({}):\n\n",
