@@ -123,13 +123,15 @@ void comparison(HtmlPage& page, const BenchPage& extra) {
 
 void load(HtmlPage& page, const BenchResult& result) {
   page.section("Before the first frame");
-  page.facts({{"reading the file", ms(result.load.read_ms) + " ms"},
-              {"the plan", ms(result.load.plan_ms) + " ms"},
-              {"upload and shaders", ms(result.load.upload_ms) + " ms"},
-              {"peak memory of the process", fmt::format("{:.0f} MiB", result.load.peak_mib)},
-              {"and after all measurements",
-               result.peak_mib ? fmt::format("{:.0f} MiB", *result.peak_mib) : not_known},
-              {"memory on the device", fmt::format("{:.1f} MiB", result.load.device_mib)}});
+  page.facts(
+      {{"reading the file", ms(result.load.read_ms) + " ms"},
+       {"the plan", ms(result.load.plan_ms) + " ms"},
+       {"upload and shaders", ms(result.load.upload_ms) + " ms"},
+       {"peak memory of the process",
+        result.load.peak_mib > 0 ? fmt::format("{:.0f} MiB", result.load.peak_mib) : not_known},
+       {"and after all measurements",
+        result.peak_mib ? fmt::format("{:.0f} MiB", *result.peak_mib) : not_known},
+       {"memory on the device", fmt::format("{:.1f} MiB", result.load.device_mib)}});
 }
 
 void plans(HtmlPage& page, const BenchResult& result) {

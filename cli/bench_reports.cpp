@@ -99,6 +99,11 @@ std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& optio
     const std::vector<std::byte> bytes = bytes_of(options.against);
     then = bench_result_from_json(
         std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), options.against);
+    const auto few = [](const BenchMeasurement& m) { return m.frame_ms.rounds < least_rounds; };
+    if (options.fail_slower &&
+        std::any_of(then->measurements.begin(), then->measurements.end(), few))
+      throw UsageError(fmt::format("--fail-slower wants {} rounds of {}, too: measure it anew",
+                                   least_rounds, options.against));
   }
   for (const std::string& each : {options.folder, options.plots}) {
     if (each.empty()) continue;
@@ -136,13 +141,17 @@ ExitCode report_bench(const BenchReportOptions& options, const BenchResult& now,
       std::count_if(comparison->ratios.begin(), comparison->ratios.end(),
                     [](const BenchRatio& ratio) { return ratio.verdict == Verdict::unknown; });
   if (unknown > 0)
-    say(fmt::format("--fail-slower cannot judge {} of {}: fewer than {} rounds then or now",
+    say(
+        fmt::format("--fail-slower cannot judge {} of {}, of fewer than {} rounds: --seconds gives "
+                    "them more time",
                     unknown, comparison->ratios.size(), least_rounds));
   const std::vector<BenchRatio> slower = slower_than(*comparison, *options.fail_slower);
   for (const BenchRatio& ratio : slower)
     say(fmt::format("slower than allowed: {}, {}, {}: {:.3f} times as long", ratio.configuration,
                     ratio.camera_set, ratio.size, ratio.ratio));
-  return slower.empty() ? ExitCode::done : ExitCode::check_failed;
+  // What nobody could judge has not passed.
+  const bool judged = unknown == 0 && !comparison->ratios.empty();
+  return judged && slower.empty() ? ExitCode::done : ExitCode::check_failed;
 }
 
 }  // namespace tureen::cli

@@ -59,6 +59,9 @@ double number(const JsonView& view) { return view.number(); }
 FrameStatistics frame_statistics(const JsonView& measurement) {
   const JsonView ms = measurement["frame_ms"];
   const int rounds = integer(measurement["rounds"]);
+  const std::size_t samples = std::size_t(rounds) * std::size_t(integer(measurement["views"]));
+  if (tells_slowest_percent({.samples = samples}) && ms["p99"].value().is_null())
+    ms["p99"].fail("is null, though there are " + std::to_string(samples) + " samples");
   return {.mean = ms["mean"].number(),
           .median = ms["median"].number(),
           .p95 = ms["p95"].number(),
@@ -67,7 +70,7 @@ FrameStatistics frame_statistics(const JsonView& measurement) {
           .spread = ms["spread"].number(),
           .low_1_percent_fps = unless_null(measurement["low_1_percent_fps"], number).value_or(0),
           .rounds = rounds,
-          .samples = std::size_t(rounds) * std::size_t(integer(measurement["views"]))};
+          .samples = samples};
 }
 
 BenchConfiguration configuration(const JsonView& view) {

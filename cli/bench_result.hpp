@@ -51,7 +51,7 @@ struct BenchLoad {
   double read_ms = 0;    // the file, until the soup is in memory
   double plan_ms = 0;    // make_plan
   double upload_ms = 0;  // buffers, textures and shaders, until the device has finished
-  double peak_mib = 0;   // largest resident set of the process when that was done, without targets
+  double peak_mib = 0;   // largest resident set of the process then, without targets; 0: not known
   double device_mib = 0;
 };
 

@@ -9,9 +9,8 @@ const char* program_version() { return TUREEN_VERSION; }
 const char* program_commit() { return TUREEN_COMMIT; }
 
 const char* program_build() {
-#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
-  return "sanitized";
-#elif defined NDEBUG
+  if (TUREEN_SANITIZED) return "sanitized";
+#ifdef NDEBUG
   return "release";
 #else
   return "debug";

@@ -47,13 +47,15 @@ struct FrameStatistics {
   double spread = 0;
   /// Frames a second at the pace of the slowest one in a hundred (at least one).
   double low_1_percent_fps = 0;
-  int rounds = 0;  // that all of this is said of
-  std::size_t samples =
-      0;  // in them, one a view and round; the mean of its frames where it has several
+  /// That all of this is said of.
+  int rounds = 0;
+  /// In them, one a view and round; the mean of its frames where it has several.
+  std::size_t samples = 0;
 };
 
-/// Whether p99 and low_1_percent_fps are more than the slowest sample: there are a hundred. Where a
-/// sample is several frames, both are of their means, in which a single slow frame shows less.
+/// Whether there are a hundred samples: a hundredth of them is one then, below which p99 lies and
+/// of which low_1_percent_fps is the mean. Where a sample is several frames, both are of their
+/// means, in which a single slow frame shows less.
 bool tells_slowest_percent(const FrameStatistics& ms);
 
 /// Asserts that there is a whole round.
@@ -81,8 +83,9 @@ std::optional<double> spread_between(const FrameStatistics& a, const FrameStatis
 
 enum class Verdict { unknown, equal, faster, slower };
 
-/// What the min_of_medians say of `a` against `b`, wherever two are compared: equal where they lie
-/// apart by less than twice spread_between() of the smaller; unknown where that is.
+/// What the min_of_medians say of `a` against `b`, in all that `tureen bench` and the benchmarks
+/// report: equal where they lie apart by less than twice spread_between() of the smaller; unknown
+/// where that is.
 Verdict verdict_on(const FrameStatistics& a, const FrameStatistics& b, double aa_spread);
 
 }  // namespace tureen

@@ -106,12 +106,18 @@ double network_gain(const ColorMlp& mlp, int first, int end) {
   return gain;
 }
 
-double color_gain(const LatticeTexture& texture) {
-  if (!texture.mlp) return 1.0;
-  const ColorMlp& mlp = *texture.mlp;
+double base_from_network(const FeatureRanges& ranges) {
+  double apart = 1.0;
+  for (std::size_t c = 0; c < 3; ++c)
+    apart = std::max({apart, double(ranges[c].high), 1.0 - double(ranges[c].low)});
+  return apart;
+}
+
+double color_gain(const ColorMlp& mlp, const FeatureRanges& ranges) {
   const double gain = network_gain(mlp, 0, mlp.feature_count());
-  // (1 - r) base + r mlp: base moves by one, mlp by its gain, r by the difference of the two <= 1.
-  return mlp.blend_channel ? std::max(1.0, gain) + 1.0 : gain;
+  if (!mlp.blend_channel) return gain;
+  // (1 - r) base + r mlp: base moves by one, mlp by its gain, r by how far the two lie apart.
+  return std::max(1.0, gain) + base_from_network(ranges);
 }
 
 }  // namespace tureen

@@ -31,8 +31,12 @@ LatticeTraits measure(const LatticeTexture& texture, std::span<const std::uint32
 /// product of the layers' largest absolute row sums and the sigmoid's slope 1/4).
 double network_gain(const ColorMlp& mlp, int first, int end);
 
-/// How much a change of the features by one can change the colour: an upper bound (the network's
-/// gain and the blend). 1 without an MLP.
-double color_gain(const LatticeTexture& texture);
+/// How far base colour and network, which is in [0, 1], may lie apart where features have these
+/// ranges: 1, but for texels of floats that leave [0, 1].
+double base_from_network(const FeatureRanges& ranges);
+
+/// How much a change of the features, which have these ranges, by one can change the colour: an
+/// upper bound (the network's gain and the blend).
+double color_gain(const ColorMlp& mlp, const FeatureRanges& ranges);
 
 }  // namespace tureen

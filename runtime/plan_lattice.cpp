@@ -14,12 +14,12 @@ namespace {
 bool never_blends_in(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges& ranges) {
   if (!mlp.blend_channel || !draft.may(LeaveOut::color_mlp)) return false;
   const FeatureRange& range = ranges[std::size_t(*mlp.blend_channel)];
-  const float blend = std::max(range.high, -range.low);
-  if (blend > half_step) return false;
+  const double moves = double(std::max(range.high, -range.low)) * base_from_network(ranges);
+  if (!(moves <= double(half_step))) return false;
   draft.leave_out(LeaveOut::color_mlp,
-                  formatted("the color MLP, its blend channel never exceeds %.5f (1/510 = 0.00196 "
-                            "allowed)",
-                            double(blend)));
+                  formatted("the color MLP, its blend channel moves no colour by more than %.5f "
+                            "(1/510 = 0.00196 allowed)",
+                            moves));
   return true;
 }
 
@@ -107,7 +107,8 @@ void plan_lattice(PlanDraft& draft, const LatticeTexture& texture) {
     return;
   }
   if (features_alone && draft.may(LeaveOut::affine_texels))
-    leave_out_affine_texels(draft, texture, traits, plan.color_mlp ? color_gain(texture) : 1.0);
+    leave_out_affine_texels(draft, texture, traits,
+                            plan.color_mlp ? color_gain(*texture.mlp, traits.ranges) : 1.0);
   const bool one_level = traits.lowest_level == traits.highest_level;
   if (plan.lattice.levels.empty() && one_level && !traits.shares_texels &&
       draft.may(LeaveOut::texel_table))

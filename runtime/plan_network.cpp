@@ -34,19 +34,22 @@ void keep_reading(FeatureRange& range) {
 }
 
 /// Where the network takes over altogether, the base colour need not be blended in. The blend
-/// channel then counts as 1 in the network's inputs, too: (1 - r) base + r mlp(r) becomes mlp(1),
-/// which moves a colour by at most 1 - r and by what 1 - r moves the network.
+/// channel r then counts as 1 in the network's inputs, too: mlp(r) + (1 - r) (base - mlp(r))
+/// becomes mlp(1), which moves a colour by what |1 - r| moves the network and by |1 - r| of how far
+/// base and network, which is in [0, 1], lie apart.
 void leave_out_base_color(PlanDraft& draft, const ColorMlp& mlp, FeatureRanges& ranges) {
   if (!mlp.blend_channel) return;
   const int channel = *mlp.blend_channel;
   FeatureRange& range = ranges[std::size_t(channel)];
   const double from_one = std::max(std::abs(1.0 - range.low), std::abs(1.0 - range.high));
-  const double moves = from_one * (1.0 + network_gain(mlp, channel, channel + 1));
+  const double moves =
+      from_one * (base_from_network(ranges) + network_gain(mlp, channel, channel + 1));
   if (!(moves <= double(half_step)) || !draft.may(LeaveOut::base_color)) return keep_reading(range);
-  draft.leave_out(LeaveOut::base_color,
-                  formatted("blending with the base colour, the blend channel is never below %.5f "
-                            "and that moves no colour by more than %.5f (1/510 = 0.00196 allowed)",
-                            double(range.low), moves));
+  draft.leave_out(
+      LeaveOut::base_color,
+      formatted("blending with the base colour, the blend channel lies within %.5f of "
+                "1 and that moves no colour by more than %.5f (1/510 = 0.00196 allowed)",
+                from_one, moves));
   range = {1.0f, 1.0f};
 }
 

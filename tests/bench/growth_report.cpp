@@ -303,7 +303,7 @@ std::string edges(const Growth& growth, const std::string& kind) {
       case Verdict::slower:
         return "longer edges cost, of which the model knows nothing";
       case Verdict::faster:
-        return "longer edges cost nothing";
+        return "frames with longer edges took less time, which the model does not explain";
       case Verdict::equal:
         return "what longer edges cost is within twice the spread";
       case Verdict::unknown:

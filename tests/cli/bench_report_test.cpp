@@ -443,9 +443,11 @@ TEST(BenchReports, WritesTheFolderAndFailsOnlyWhereAsked) {
   EXPECT_EQ(report_bench(options, now, before), ExitCode::check_failed);
   for (BenchMeasurement& m : now.measurements) m.frame_ms.rounds = 2;
   ::testing::internal::CaptureStderr();
-  EXPECT_EQ(report_bench(options, now, before), ExitCode::done);
+  EXPECT_EQ(report_bench(options, now, before), ExitCode::check_failed);
   EXPECT_THAT(::testing::internal::GetCapturedStderr(),
-              HasSubstr("--fail-slower cannot judge 8 of 8: fewer than 3 rounds"));
+              HasSubstr("--fail-slower cannot judge 8 of 8, of fewer than 3 rounds"));
+  now.measurements.clear();
+  EXPECT_EQ(report_bench(options, now, before), ExitCode::check_failed) << "nothing in both";
 }
 
 TEST(BenchReports, ABadFileIsRefusedBeforeAnythingIsMeasured) {

@@ -197,6 +197,9 @@ TEST(BenchResult, SaysWhatIsWrong) {
   document = to_json(example());
   document["measurements"][1]["frame_ms"]["p95"] = "fast";
   EXPECT_THAT(refusal(document.dump()), HasSubstr("measurements[1].frame_ms.p95"));
+  document = to_json(example());
+  document["measurements"][0]["frame_ms"]["p99"] = nullptr;
+  EXPECT_THAT(refusal(document.dump()), HasSubstr("measurements[0].frame_ms.p99: is null, though"));
 }
 
 TEST(BenchResult, FindsAConfiguration) {

@@ -98,8 +98,9 @@ TEST(BenchTable, SaysWhatMemoryIsOfWhen) {
   result.machine.rasteriser_threads = 2;
   EXPECT_THAT(bench_table(result), Contains(HasSubstr("peak 40 MiB before the first frame; on")));
   result.peak_mib = 70;
-  EXPECT_THAT(bench_table(result),
-              Contains(HasSubstr("40 MiB before the first frame, 70 MiB after all frames; on")));
+  EXPECT_THAT(
+      bench_table(result),
+      Contains(HasSubstr("40 MiB before the first frame; peak 70 MiB after all frames; on")));
   EXPECT_THAT(bench_table(result), Contains(HasSubstr("2 rasteriser threads")));
 }
 

@@ -134,9 +134,8 @@ TEST_F(Tradeoff, PhotographsHaveAnErrorOfTheirOwn) {
       EXPECT_GT(each["e_model"]["psnr_db"], 35);
       ++published;
     } else if (each["method"] == "oracle") {
-      // The device's float MLP against eight bits and more, each rounded to 8 bits a channel.
+      // So do these, whose networks are rounded to eight bits and more.
       EXPECT_GT(each["e_model"]["psnr_db"], 35) << each["name"];
-      EXPECT_LE(each["e_model"]["psnr_db"], 100) << each["name"];
       ++emulated;
     } else if (each["name"] == "defaults") {
       EXPECT_EQ(each["e_model"]["psnr_db"], 100);

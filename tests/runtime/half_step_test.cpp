@@ -132,6 +132,9 @@ EdgeSoup almost_unblended(std::uint64_t seed, double fraction) {  // M1
 EdgeSoup almost_replaced(std::uint64_t seed, double fraction) {  // M2
   return hardly_blended(seed, 1, 1 - fraction * half_step);
 }
+EdgeSoup more_than_replaced(std::uint64_t seed, double fraction) {  // M2, from above
+  return hardly_blended(seed, 1, 1 + fraction * half_step);
+}
 
 // M2, the blend channel also being one of the network's inputs. The blend moves a colour by half of
 // what it might, as the network's is 1/2 where it moves most: 24.5 of 25.
@@ -260,8 +263,7 @@ double largest_shift(LeaveOut what, const EdgeSoup& edge) {
   return shift;
 }
 
-// -- at the bound
-// ----------------------------------------------------------------------------------
+// -- at the bound ---------------------------------------------------------------------------------
 
 struct Edge {
   const char* name;
@@ -308,6 +310,7 @@ std::vector<Edge> edges() {
   for (const std::uint64_t seed : {1, 2}) {
     all.push_back({"ColorMlp", LeaveOut::color_mlp, almost_unblended, seed});
     all.push_back({"BaseColor", LeaveOut::base_color, almost_replaced, seed});
+    all.push_back({"BaseColorFromAbove", LeaveOut::base_color, more_than_replaced, seed});
     all.push_back({"BaseColorOfSeenBlend", LeaveOut::base_color, almost_replaced_and_seen, seed});
     all.push_back({"ViewHarmonics", LeaveOut::view_direction, hardly_directed_by_harmonics, seed});
     all.push_back({"BareViewDirection", LeaveOut::view_direction, hardly_directed_by_xyz, seed});
@@ -370,9 +373,7 @@ double steepest(const ColorMlp& mlp, int first, int end, std::uint64_t seed) {
 
 TEST(BoundsOfRandomNetworks, ColorGain) {
   for (const ColorMlp& mlp : random_networks()) {
-    LatticeTexture texture;
-    texture.mlp = mlp;
-    const double observed = steepest(mlp, 0, mlp.feature_count(), 1), bound = color_gain(texture);
+    const double observed = steepest(mlp, 0, mlp.feature_count(), 1), bound = color_gain(mlp, {});
     EXPECT_LE(observed, bound);
     EXPECT_LE(bound, 40 * observed);
   }

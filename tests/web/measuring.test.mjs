@@ -45,6 +45,14 @@ test('a link measures, and the program reads what came of it',
   assert.ok(JSON.stringify(bench).includes(measurement.entrants[0].pixels_hash), 'the same pixels');
 }));
 
+test('of two rounds of two views neither a ratio nor a 99th percentile is told',
+     () => visit(both, async (page) => {
+  await measured(page);
+  const cells = await page.locator('#times tbody tr').last().locator('td').allInnerTexts();
+  assert.deepEqual(cells.slice(2, 5), ['–', '–', '2 rounds']);
+  assert.doesNotMatch(await page.locator('#summary').innerText(), /as fast/);
+}));
+
 test('both pipelines draw the same scene, each time the same pixels',
      () => visit(both, async (page) => {
   const hashes = (file) => file.scenes[0].measurements[0].entrants.map(({ pixels_hash }) => pixels_hash);

@@ -9,14 +9,26 @@ import { sizeText } from './request.js';
 
 const percentText = (part: number) => `${(100 * part).toFixed(1)} %`;
 
-/** Of the smallest medians of a round, as `tureen bench` has its ratios; null where the difference
- *  is none that the A/A spread leaves. */
+/** Of fewer no spread of rounds is known, as runtime/frame_statistics.hpp has it. */
+const leastRounds = 3;
+
+/** Of the smallest medians of a round, as `tureen bench` has its ratios: null where the difference is none that
+ *  the spreads leave, and not a number where too few rounds tell. */
 function ratio(entrant: EntrantResult, first: EntrantResult, { result }: Measurement): number | null {
+  if (first.frame_ms.length < leastRounds) return NaN;
   const a = entrant.statistics.min_of_medians, b = first.statistics.min_of_medians;
-  return Math.abs(a - b) >= 2 * result.aa_spread * Math.min(a, b) ? a / b : null;
+  const spread = Math.max(result.aa_spread, entrant.statistics.spread, first.statistics.spread);
+  return a !== b && Math.abs(a - b) >= 2 * spread * Math.min(a, b) ? a / b : null;
 }
 
+/** The text where there are the hundred samples of which the slowest is more than chance. */
+const ofSlowest = ({ frame_ms }: EntrantResult, text: string) =>
+  (frame_ms.length * frame_ms[0]!.length >= 100 ? text : '–');
+
 const counted = (count: number, what: string) => `${count} ${what}${count === 1 ? '' : 's'}`;
+
+const ratioText = (to: number | null, { result }: Measurement) =>
+  (to === null ? 'equal' : Number.isNaN(to) ? counted(result.entrants[0]!.frame_ms.length, 'round') : to.toFixed(2));
 
 const cell = (text: string) => make('td', {}, text);
 
@@ -35,8 +47,9 @@ function timesRow(entrant: EntrantResult, measurement: Measurement): HTMLElement
   const { statistics: ms, name, stable } = entrant, first = measurement.result.entrants[0]!;
   const to = ratio(entrant, first, measurement);
   return make('tr', {}, make('th', { scope: 'row' }, name), cell(millisecondsText(ms.median)),
-              cell(millisecondsText(ms.p95)), cell(millisecondsText(ms.p99)), cell(`${ms.low_1_percent_fps.toFixed(1)} fps`),
-              cell(entrant === first ? '1' : to === null ? 'equal' : to.toFixed(2)), cell(stable ? 'yes' : 'no'));
+              cell(millisecondsText(ms.p95)), cell(ofSlowest(entrant, millisecondsText(ms.p99))),
+              cell(ofSlowest(entrant, `${ms.low_1_percent_fps.toFixed(1)} fps`)),
+              cell(entrant === first ? '1' : ratioText(to, measurement)), cell(stable ? 'yes' : 'no'));
 }
 
 function timesGroup(scene: MeasuredScene, measurement: Measurement): HTMLElement {
@@ -65,7 +78,7 @@ function summary(scene: MeasuredScene): HTMLElement[] {
     const [first, ...others] = measurement.result.entrants;
     const published = others.find(({ name }) => name === 'published');
     const to = published && ratio(published, first!, measurement);
-    const compared = !published ? '' : to === null ? ', as fast as the published pipeline' :
+    const compared = !published || Number.isNaN(to) ? '' : to === null ? ', as fast as the published pipeline' :
       `, ${to!.toFixed(to! < 10 ? 1 : 0)} times as fast as the published pipeline`;
     return make('p', {}, `${scene.name}: `, make('strong', {}, `${millisecondsText(first!.statistics.median)} a frame`),
                 ` at ${sizeText(measurement)}${compared}.`);

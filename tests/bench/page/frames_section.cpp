@@ -68,9 +68,17 @@ std::string marks_text(const std::string& table) {
 
 std::string bench_table(const BenchResult& bench) {
   const std::string& first = bench.configurations.front().name;
-  std::vector<std::string> headings{
-      "cameras",     "size",         "rounds",       "frames",          "A/A spread",
-      first + " ms", first + " p50", first + " p95", first + " p99 ms", first + " 1 % low FPS"};
+  std::vector<std::string> headings{"cameras",
+                                    "size",
+                                    "rounds",
+                                    "frames",
+                                    "A/A spread",
+                                    "spread",
+                                    first + " ms",
+                                    first + " p50",
+                                    first + " p95",
+                                    first + " p99 ms",
+                                    first + " 1 % low FPS"};
   for (std::size_t i = 1; i < bench.configurations.size(); ++i)
     headings.push_back(bench.configurations[i].name + " ms (times)");
   Table table(headings);
@@ -84,6 +92,7 @@ std::string bench_table(const BenchResult& bench) {
         std::to_string(ms.rounds),
         std::to_string(ours->frames),
         percent(place.aa_spread),
+        cli::spread_text(ms),
         best_text(*ours),
         ms_text(ms.median),
         ms_text(ms.p95),
@@ -112,7 +121,7 @@ Section bench_section(const Measurements& measurements, const std::string& name)
   Section section{.name = name, .text = head(measurements, {name}), .plots = {}};
   section.text += fmt::format("{} triangles; ", bench.scene.triangles) + bench_device(bench) +
                   " Times are the smallest of the rounds' medians; in brackets how many times as "
-                  "long as the first: " +
+                  "long as the first, whose rounds have the *spread*: " +
                   cli::ratio_sentence + "\n\n" + bench_table(bench);
   std::map<std::string, int> sizes;
   for (const Place& place : places_of(bench)) ++sizes[place.cameras];
@@ -131,8 +140,8 @@ Section stages_section(const Measurements& measurements, const std::vector<std::
   Section section{.name = "stages", .text = head(measurements, names), .plots = {}};
   section.text += bench_device(bench_of(measurements, names.front())) + " In brackets " +
                   cli::ratio_sentence + "\n\n";
-  Table table({"scene", "cameras", "size", "rounds", "frames", "A/A spread", "fragment ms",
-               "compute ms (times)"});
+  Table table({"scene", "cameras", "size", "rounds", "frames", "A/A spread", "spread",
+               "fragment ms", "compute ms (times)"});
   for (const std::string& name : names) {
     const BenchResult bench = bench_of(measurements, name);
     if (bench.configurations.size() < 2) continue;
@@ -141,8 +150,8 @@ Section stages_section(const Measurements& measurements, const std::vector<std::
       if (const BenchMeasurement* fragment = place.find(first))
         table.line({name.substr(std::string("stages-").size()), place.cameras, place.size,
                     std::to_string(fragment->frame_ms.rounds), std::to_string(fragment->frames),
-                    percent(place.aa_spread), best_text(*fragment),
-                    against_first(place, second, *fragment)});
+                    percent(place.aa_spread), cli::spread_text(fragment->frame_ms),
+                    best_text(*fragment), against_first(place, second, *fragment)});
   }
   section.text += table.text() + marks_text(table.text());
   return section;

@@ -70,8 +70,12 @@ int main(int argc, char** argv) {
     const std::filesystem::path docs = argv[2];
     const auto pages = pages_in(docs);
     std::filesystem::create_directories(docs / "images");
-    const Sections sections = sections_of(Measurements(argv[1], {argv + 3, argv + argc}));
-    for (const Section& section : sections.made) write_section(section, pages, docs / "images");
+    Sections sections = sections_of(Measurements(argv[1], {argv + 3, argv + argc}));
+    for (const Section& section : sections.made) try {
+        write_section(section, pages, docs / "images");
+      } catch (const std::exception& error) {
+        sections.failures.push_back(section.name + ": " + error.what());
+      }
     for (const std::string& failure : sections.failures)
       std::fprintf(stderr, "bench_report: %s\n", failure.c_str());
     if (!sections.failures.empty()) return 1;

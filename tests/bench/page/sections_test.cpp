@@ -99,9 +99,10 @@ TEST_F(BenchPage, TimesStandBesideThoseOfTheFirstConfiguration) {
   EXPECT_THAT(told.text,
               AllOf(HasSubstr("Measured 2026-01-02 at abc1234, 2 cores of Some | CPU:"),
                     HasSubstr("```\ntureen frames-lego\n```"), HasSubstr("llvmpipe, software")));
-  EXPECT_THAT(told.text,
-              HasSubstr("| hemisphere:8 | 640x360 | 15 | 240 | 2.0 % | 10.0 | 11.0 | 12.0 | 13.0 | "
-                        "71.4 | 10.3 (equal) | 52.0 (5.20) |\n"));
+  EXPECT_THAT(
+      told.text,
+      HasSubstr("| hemisphere:8 | 640x360 | 15 | 240 | 2.0 % | 0.0 % | 10.0 | 11.0 | 12.0 | 13.0 | "
+                "71.4 | 10.3 (equal) | 52.0 (5.20) |\n"));
   EXPECT_THAT(told.text, HasSubstr("| – | 2.00 (0.50) |\n")) << "generic was not timed there";
   EXPECT_THAT(told.text, HasSubstr("](images/bench-frames-lego-pixels-hemisphere-8.svg)"));
   ASSERT_EQ(told.plots.size(), 1u) << "no ratios were drawn";
@@ -126,7 +127,7 @@ TEST_F(BenchPage, WhatTimesDoNotTellIsMarked) {
                     HasSubstr("rasteriser threads: 3; release build; "), Not(HasSubstr("†"))));
   for (cli::BenchMeasurement& m : bench.measurements) m.frame_ms.rounds = 2;  // 16 samples
   bench.measurements[3].stable = false;
-  EXPECT_THAT(text(), AllOf(HasSubstr("| 2 | 240 | 2.0 % | 10.0 | 11.0 | 12.0 | – | – | "
+  EXPECT_THAT(text(), AllOf(HasSubstr("| 2 | 240 | 2.0 % | – | 10.0 | 11.0 | 12.0 | – | – | "
                                       "52.0 (2 rounds) |"),
                             HasSubstr(" | 52.0† (2 rounds) |\n\n† Its warm-up had not")));
 }
@@ -144,7 +145,9 @@ TEST_F(BenchPage, StagesOfAllScenesStandInOneTable) {
   const std::string text = section("stages").text;
   EXPECT_THAT(text, HasSubstr("```\ntureen stages-example\ntureen stages-fox\n```"));
   EXPECT_THAT(
-      text, HasSubstr("| fox | hemisphere:8 | 1280x720 | 15 | 240 | 2.0 % | 10.0 | 25.0 (2.50) |"));
+      text,
+      HasSubstr(
+          "| fox | hemisphere:8 | 1280x720 | 15 | 240 | 2.0 % | 0.0 % | 10.0 | 25.0 (2.50) |"));
 }
 
 TEST_F(BenchPage, AStudyTellsTheChoiceAndEveryKnobAlone) {
@@ -164,9 +167,11 @@ TEST_F(BenchPage, AStudyTellsTheChoiceAndEveryKnobAlone) {
   drawing[0]["e_model"] = {{"psnr_db", 29.5}, {"ssim", 0.96}, {"flip", nullptr}};
   ASSERT_EQ(drawing[5]["method"], "oracle");
   drawing[5]["e_model"] = {{"psnr_db", 29.25}, {"ssim", 0.95}, {"flip", nullptr}};
+  drawing[0]["warnings"] = {"its times were restless"};
   measure("tradeoff-lego", "");
   write("tradeoff-lego/tradeoff.json", study.dump());
   const std::string text = section("tradeoff-lego").text;
+  EXPECT_THAT(text, HasSubstr("\n† defaults: its times were restless.\n"));
   EXPECT_THAT(text, HasSubstr("The choice, the cheapest with at least"));
   for (const char* panel : {"drawing", "antialiasing"}) {
     SCOPED_TRACE(panel);

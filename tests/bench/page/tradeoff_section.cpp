@@ -31,6 +31,7 @@ std::string panel_table(const Json& panel, bool with_exact) {
   if (with_exact) headings.insert(headings.begin() + 5, "exact dB");
   headings.emplace_back("");
   Table table(headings);
+  std::string warned;
   for (const Json& each : panel.at("configurations")) {
     if (!is_told(each, panel.at("knobs"))) continue;
     const Json& error = each.at("e_render");
@@ -48,13 +49,17 @@ std::string panel_table(const Json& panel, bool with_exact) {
                    exact.is_null() ? "–" : number_or_none(exact.at("psnr_db"), "{:.2f}"));
     }
     cells.emplace_back(each.at("on_front").get<bool>() ? "front" : "");
+    const Json& warnings = each.at("warnings");
+    if (!warnings.empty()) cells.back() += "†";
+    for (const Json& warning : warnings)
+      warned += fmt::format("† {}: {}.\n\n", told_name(each), warning.get<std::string>());
     table.line(cells);
   }
-  return table.text() +
+  return table.text() + warned +
          fmt::format(
              "{} configurations were measured. A/A spread {}; hypervolume against the corner at "
-             "100 "
-             "ms and 20 dB: {:.1f} decade dB; the reference itself in 8 bits (R1): {:.2f} dB.\n\n",
+             "100 ms and 20 dB: {:.1f} decade dB; the reference itself in 8 bits (R1): {:.2f} "
+             "dB.\n\n",
              panel.at("configurations").size(), percent(panel.at("aa_spread")),
              panel.at("hypervolume_decade_db").get<double>(),
              panel.at("r1").at("psnr_db").get<double>());
