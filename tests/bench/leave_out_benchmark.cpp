@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,29 +34,36 @@ struct Settings {
 };
 
 /// Whether a plan gains by what it leaves out.
-const char* gain_text(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::unknown:
-      return "too few rounds to know";
-    case Verdict::equal:
-      return "no";
-    case Verdict::faster:
-      return "yes";
-    case Verdict::slower:
-      return "loses";
+/// Of two that took turns frame by frame, view by view: what troubled the machine met both frames
+/// of a pair, so that pairs tell more than the medians of rounds, between which the machine
+/// changes.
+struct Pairs {
+  std::size_t count = 0, slower = 0;  // in `slower` of them the second took longer
+  double median_ratio = 1;            // of the second's time to the first's
+};
+
+Pairs pairs_of(const FrameTimes& first, const FrameTimes& second) {
+  Pairs result{.count = first.ms.size()};
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < result.count; ++i) {
+    ratios.push_back(second.ms[i] / first.ms[i]);
+    result.slower += ratios.back() > 1 ? 1 : 0;
   }
-  return "";
+  result.median_ratio = percentile(ratios, 50);
+  return result;
 }
 
-std::string spread_text(std::optional<double> spread) {
-  if (!spread) return "–";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f %%", 100 * *spread);
-  return text;
+/// By the sign test: were the two alike, the second would take longer in half of n pairs, and
+/// within 2.58 sqrt(n) / 2 of that ninety-nine times in a hundred.
+const char* gain_text(const Pairs& pairs) {
+  const double half = 0.5 * double(pairs.count), away = double(pairs.slower) - half;
+  if (std::abs(away) <= 1.29 * std::sqrt(double(pairs.count))) return "no";
+  return away > 0 ? "yes" : "loses";
 }
 
 /// Two preferences of one scene against each other. Prints how many times as long a frame takes
-/// without what the first leaves out, and says whether both warm-ups came to rest.
+/// without what the first leaves out, by pairs of frames, and says whether both warm-ups came to
+/// rest.
 bool compare(const gl::Context& context, const Settings& settings, const char* row,
              const std::string& scene, const TriangleSoup& soup, std::span<const Camera> cameras,
              const PlanPreferences& kept) {
@@ -73,12 +79,11 @@ bool compare(const gl::Context& context, const Settings& settings, const char* r
   const BenchmarkResult result = run_benchmark(entrants, cameras, options);
   const FrameStatistics fast = statistics_of(result.entrants[0].times),
                         slow = statistics_of(result.entrants[1].times);
+  const Pairs pairs = pairs_of(result.entrants[0].times, result.entrants[1].times);
   const auto mark = [&](std::size_t which) { return result.entrants[which].stable ? "" : "†"; };
-  std::printf("| %s | %s | %.2f%s | %.2f%s | %.3f | %s | %s | %.1f | %.1f |\n", row, scene.c_str(),
-              slow.min_of_medians, mark(1), fast.min_of_medians, mark(0),
-              slow.min_of_medians / fast.min_of_medians,
-              spread_text(spread_between(fast, slow, result.aa_spread)).c_str(),
-              gain_text(verdict_on(fast, slow, result.aa_spread)),
+  std::printf("| %s | %s | %.2f%s | %.2f%s | %.3f | %zu of %zu | %s | %.1f | %.1f |\n", row,
+              scene.c_str(), slow.median, mark(1), fast.median, mark(0), pairs.median_ratio,
+              pairs.slower, pairs.count, gain_text(pairs),
               double(without.device_bytes()) / (1 << 20), double(with.device_bytes()) / (1 << 20));
   std::fflush(stdout);
   return result.entrants[0].stable && result.entrants[1].stable;
@@ -185,7 +190,8 @@ int run(int argc, char** argv) {
               settings.width, settings.height, settings.rounds,
               context.capabilities().software ? "processor time" : "time by the wall");
   std::puts(
-      "| left out | scene | kept ms | left out ms | times | spread | gains | kept MiB | left out "
+      "| left out | scene | kept ms | left out ms | times | slower in | gains | kept MiB | left "
+      "out "
       "MiB |");
   std::puts("|---|---|---|---|---|---|---|---|---|");
   bool at_rest = settings.real_scenes_only || measure_traits(context, settings);
