@@ -54,7 +54,9 @@ Json to_json(const BenchMeasurement& measurement) {
           {"picture", measurement.picture ? Json(*measurement.picture) : Json(nullptr)}};
 }
 
-double number(const JsonView& view) { return view.number(); }
+/// Of a frame: above 0, as ratios are made of it, and up to eleven days.
+double frame_ms(const JsonView& view) { return number_in(view, 1e-6, 1e9); }
+double not_negative(const JsonView& view) { return number_in(view, 0, 1e9); }
 
 FrameStatistics frame_statistics(const JsonView& measurement) {
   const JsonView ms = measurement["frame_ms"];
@@ -62,15 +64,16 @@ FrameStatistics frame_statistics(const JsonView& measurement) {
   const std::size_t samples = std::size_t(rounds) * std::size_t(integer(measurement["views"]));
   if (tells_slowest_percent({.samples = samples}) && ms["p99"].value().is_null())
     ms["p99"].fail("is null, though there are " + std::to_string(samples) + " samples");
-  return {.mean = ms["mean"].number(),
-          .median = ms["median"].number(),
-          .p95 = ms["p95"].number(),
-          .p99 = unless_null(ms["p99"], number).value_or(0),
-          .min_of_medians = ms["min_of_medians"].number(),
-          .spread = ms["spread"].number(),
-          .low_1_percent_fps = unless_null(measurement["low_1_percent_fps"], number).value_or(0),
-          .rounds = rounds,
-          .samples = samples};
+  return {
+      .mean = frame_ms(ms["mean"]),
+      .median = frame_ms(ms["median"]),
+      .p95 = frame_ms(ms["p95"]),
+      .p99 = unless_null(ms["p99"], frame_ms).value_or(0),
+      .min_of_medians = frame_ms(ms["min_of_medians"]),
+      .spread = not_negative(ms["spread"]),
+      .low_1_percent_fps = unless_null(measurement["low_1_percent_fps"], not_negative).value_or(0),
+      .rounds = rounds,
+      .samples = samples};
 }
 
 BenchConfiguration configuration(const JsonView& view) {
@@ -101,12 +104,12 @@ BenchMeasurement measurement(const JsonView& view) {
           .frames = integer(view["frames"]),
           .frame_ms = frame_statistics(view),
           .fps = view["fps"].number(),
-          .aa_spread = view["aa_spread"].number(),
+          .aa_spread = not_negative(view["aa_spread"]),
           .stable = boolean(view["stable"]),
           .passes_ms = passes(view["passes_ms"]),
           .passes_reason = view["passes_reason"].text(),
-          .gpu_ms = unless_null(view["gpu_ms"], number),
-          .views_ms = list(view["views_ms"], number),
+          .gpu_ms = unless_null(view["gpu_ms"], not_negative),
+          .views_ms = list(view["views_ms"], not_negative),
           .pixels_hash = view["pixels_hash"].text(),
           .picture = unless_null(view["picture"], text)};
 }

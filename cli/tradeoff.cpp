@@ -102,6 +102,9 @@ void require_writable_outputs(const Options& options) {
   if (path.extension() != ".glb")
     throw UsageError("'" + path.string() + "' does not end in .glb; presets are kept in our GLB");
   std::error_code error;
+  if (fs::equivalent(path, options.scene.path, error))
+    throw UsageError(path.string() +
+                     " is the scene itself, which stays as it is; name another file");
   if (fs::exists(path, error) && !options.force)
     throw UsageError(path.string() + " exists; name another file, or give --force to replace it");
   require_writable_file(path);
@@ -149,14 +152,22 @@ BenchViewOptions view_options(const Options& options, const Defaults& defaults) 
   return views;
 }
 
-void measure_models(const Options& options, const Scene& scene, const TriangleSoup& soup,
-                    std::size_t most, TradeoffReport& report) {
-  if (options.dataset.path.empty()) return;
+/// What the model is held against, `most` of them; none without a dataset. Read before anything is
+/// measured: minutes of work must not end in a refusal.
+std::vector<Photograph> test_photographs(const Options& options, std::size_t most,
+                                         TradeoffReport& report) {
+  if (options.dataset.path.empty()) return {};
   Dataset dataset = read(options.dataset, DatasetPart::test);
-  const std::vector<Photograph> photographs = spread_out(std::move(dataset.test), most);
+  std::vector<Photograph> photographs = spread_out(std::move(dataset.test), most);
   if (photographs.empty())
     throw InputError({options.dataset.path, {}, {}}, "it holds no photographs to test with");
   report.notes.insert(report.notes.end(), dataset.notes.begin(), dataset.notes.end());
+  return photographs;
+}
+
+void measure_models(const Options& options, const Scene& scene, const TriangleSoup& soup,
+                    const std::vector<Photograph>& photographs, TradeoffReport& report) {
+  if (photographs.empty()) return;
   report.model = {options.dataset.path, "test", int(photographs.size()), name(SsimBorder::valid)};
   Progress progress("photographs");
   ModelOptions model{.backend = options.backend,
@@ -273,9 +284,10 @@ ExitCode tradeoff(const Options& options) {
   report.with_flip = options.with_flip;
   report.samples = options.samples == tradeoff::Samples::device ? "device" : "exact";
   report.limits = options.limits;
+  const int most = options.photographs > 0 ? options.photographs : defaults.photographs;
+  const auto photographs = test_photographs(options, std::size_t(most), report);
   report.study = study_of(options, defaults, scene, soup, report);
-  const int photographs = options.photographs > 0 ? options.photographs : defaults.photographs;
-  measure_models(options, scene, soup, std::size_t(photographs), report);
+  measure_models(options, scene, soup, photographs, report);
   write_chosen_preset(options, scene, report);
   write_files(options, report);
 

@@ -198,6 +198,12 @@ TEST(BenchResult, SaysWhatIsWrong) {
   document["measurements"][1]["frame_ms"]["p95"] = "fast";
   EXPECT_THAT(refusal(document.dump()), HasSubstr("measurements[1].frame_ms.p95"));
   document = to_json(example());
+  document["measurements"][0]["frame_ms"]["min_of_medians"] = 0;
+  EXPECT_THAT(refusal(document.dump()), HasSubstr("frame_ms.min_of_medians: 0 is not from"));
+  document = to_json(example());
+  document["measurements"][0]["frame_ms"]["spread"] = -5;
+  EXPECT_THAT(refusal(document.dump()), HasSubstr("frame_ms.spread: -5 is not from"));
+  document = to_json(example());
   document["measurements"][0]["frame_ms"]["p99"] = nullptr;
   EXPECT_THAT(refusal(document.dump()), HasSubstr("measurements[0].frame_ms.p99: is null, though"));
 }

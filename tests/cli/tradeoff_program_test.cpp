@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <fstream>
 #include <map>
 #include <string>
 #include <thread>
@@ -17,6 +18,7 @@ namespace {
 
 using test::Child;
 using test::ChildResult;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -196,9 +198,16 @@ TEST_F(Tradeoff, SupersamplingAsTheReferenceDoesIsOnNoFront) {
 
 TEST_F(Tradeoff, NeverOverwritesSilently) {
   write_soup();
-  const ChildResult result = tradeoff({"--write-preset", "soup.glb"});
+  std::ofstream(folder / "old.glb") << "somebody's";
+  const ChildResult result = tradeoff({"--write-preset", "old.glb"});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("soup.glb exists; name another file, or give --force"));
+  EXPECT_THAT(result.err, HasSubstr("old.glb exists"));
+  const ChildResult itself = tradeoff({"--write-preset", "soup.glb", "--force"});
+  EXPECT_EQ(itself.exit_code, 2);
+  EXPECT_THAT(itself.err, HasSubstr("soup.glb is the scene itself"));
+  // A dataset that is not there is told before anything is measured.
+  EXPECT_THAT(tradeoff({"nodata"}).err,
+              AllOf(HasSubstr("nodata: there is no such"), Not(HasSubstr(" %"))));
   EXPECT_EQ(tradeoff({"--write-preset", "fast.ply"}).exit_code, 2);
 }
 
