@@ -32,12 +32,9 @@ std::string passes_text(const BenchMeasurement& measurement) {
 }
 
 void add_heading(std::vector<std::string>& lines, const BenchMeasurement& first) {
-  const auto counted_text = [](int count, const char* what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-  };
   std::string heading =
       fmt::format("{} x {}, {}: {}, {}", first.width, first.height, first.camera_set,
-                  counted_text(first.views, "view"), counted_text(first.frame_ms.rounds, "round"));
+                  count_text(first.views, "view"), count_text(first.frame_ms.rounds, "round"));
   if (first.frames_per_sample > 1)
     heading += fmt::format(" of {} frames a view", first.frames_per_sample);
   lines.push_back("");

@@ -6,13 +6,9 @@
 
 namespace tureen::cli {
 
-namespace {
-
 std::string count_text(int count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
-
-}  // namespace
 
 std::string reference_configuration(const BenchResult& result) {
   constexpr const char* usual = "published";

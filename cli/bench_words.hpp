@@ -48,6 +48,9 @@ std::string spread_text(const FrameStatistics& ms);
 /// `figure` of p99 or the 1 % low; not_known where that is the slowest sample and nothing more.
 std::string slowest_percent_text(const FrameStatistics& ms, const std::string& figure);
 
+/// "1 round", "3 rounds".
+std::string count_text(int count, const char* what);
+
 /// "Some CPU, 2 cores, 2 rasteriser threads".
 std::string machine_text(const Machine& machine);
 

@@ -8,6 +8,7 @@
 
 #include "bench/dense_soup.hpp"
 #include "bench/plain_renderer.hpp"
+#include "cli/bench_words.hpp"
 #include "formats/scene_file.hpp"
 #include "runtime/benchmark.hpp"
 #include "runtime/renderer.hpp"
@@ -53,13 +54,6 @@ const char* difference_text(Verdict verdict) {
       return "yes";
   }
   return "";
-}
-
-std::string spread_text(const FrameStatistics& statistics) {
-  if (statistics.rounds < least_rounds) return "–";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f %%", 100 * statistics.spread);
-  return text;
 }
 
 struct Options {
@@ -109,8 +103,8 @@ void measure(const Scene& base, const Options& options) {
   for (const EntrantResult& entrant : result.entrants) {
     const FrameStatistics statistics = statistics_of(entrant.times);
     std::printf("| %s%s | %.1f | %s | %.2f | %s |\n", entrant.name.c_str(),
-                entrant.stable ? "" : "†", statistics.min_of_medians,
-                spread_text(statistics).c_str(),
+                entrant.stable ? "" : cli::restless_mark, statistics.min_of_medians,
+                cli::spread_text(statistics).c_str(),
                 baseline.min_of_medians / statistics.min_of_medians,
                 &entrant == &result.entrants[0]
                     ? ""
@@ -118,7 +112,7 @@ void measure(const Scene& base, const Options& options) {
   }
   if (std::any_of(result.entrants.begin(), result.entrants.end(),
                   [](const EntrantResult& entrant) { return !entrant.stable; }))
-    std::puts("\n† Its warm-up had not come to rest when times began to count.");
+    std::printf("\n%s\n", cli::restless_sentence);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/bench_words.hpp"
 #include "formats/scene_file.hpp"
 #include "runtime/benchmark.hpp"
 #include "runtime/navigation.hpp"
@@ -80,7 +81,9 @@ bool compare(const gl::Context& context, const Settings& settings, const char* r
   const FrameStatistics fast = statistics_of(result.entrants[0].times),
                         slow = statistics_of(result.entrants[1].times);
   const Pairs pairs = pairs_of(result.entrants[0].times, result.entrants[1].times);
-  const auto mark = [&](std::size_t which) { return result.entrants[which].stable ? "" : "†"; };
+  const auto mark = [&](std::size_t which) {
+    return result.entrants[which].stable ? "" : cli::restless_mark;
+  };
   std::printf("| %s | %s | %.2f%s | %.2f%s | %.3f | %zu of %zu | %s | %.1f | %.1f |\n", row,
               scene.c_str(), slow.median, mark(1), fast.median, mark(0), pairs.median_ratio,
               pairs.slower, pairs.count, gain_text(pairs),
@@ -196,7 +199,7 @@ int run(int argc, char** argv) {
   std::puts("|---|---|---|---|---|---|---|---|---|");
   bool at_rest = settings.real_scenes_only || measure_traits(context, settings);
   for (const auto& path : settings.scenes) at_rest &= measure_scene(context, settings, path);
-  if (!at_rest) std::puts("\n† Its warm-up had not come to rest when times began to count.");
+  if (!at_rest) std::printf("\n%s\n", cli::restless_sentence);
   return 0;
 }
 
