@@ -100,6 +100,13 @@ Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& g
     result = slim(scene, request);
   }
   std::vector<std::string> lost = losses_of(result, request.photographs.size());
+  const auto& texture = std::get<LatticeTexture>(result.kept.appearance);
+  if (result.unseen_texels > 0)
+    lost.push_back(fmt::format(
+        "Slim: {} of {} texels are kept but roughly: {} views that the scene is looked at from "
+        "show "
+        "nothing of them. Seen from elsewhere, or from nearer, they are smoother than they were.",
+        counted(result.unseen_texels), counted(texture.texel_count()), result.weighing_views));
   const auto all_faces = std::get<TriangleSoup>(scene.primitives).triangles.size();
   if (result.unseen > 0)
     lost.push_back(fmt::format(

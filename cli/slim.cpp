@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/matrix.hpp>
 
 #include "cli/interrupt.hpp"
+#include "cli/slim_importance.hpp"
 #include "runtime/camera_sets.hpp"
-#include "runtime/renderer.hpp"
+#include "runtime/visibility_count.hpp"
 #include "soup/error.hpp"
-#include "soup/feature_sensitivity.hpp"
+#include "soup/keep_faces.hpp"
 #include "soup/lattice_levels.hpp"
 
 namespace tureen::cli {
@@ -28,142 +28,40 @@ constexpr double geometry_share = 0.08;
 /// 255ths of colour. Below the least the rounding to bytes is all that is left; beyond the largest
 /// no scene is worth looking at.
 constexpr double least_step = 0.5, largest_step = 64;
-/// Halves the ratio of the two to 1.005: a step's bytes and loss follow within about as much.
-constexpr int bisections = 10;
+/// Halves the ratio of the two to 1.04.
+constexpr int bisections = 7;
+/// Then the loss is not smooth any more: where each choice between steps depends on those before
+/// it, it jumps by 2 % either way. From so far above what bisection found the step comes down by so
+/// much at a time, to the first that keeps within the bound.
+constexpr double scan_from = 1.06, scan_by = 0.005;
 /// Alpha is seen only by where it reaches 1/2: 0, 85, 170, 255 do for trained soups. Where alpha is
 /// about 1/2 everywhere, as before training, its edges take more; 1 keeps every alpha near one.
 constexpr std::array<std::uint8_t, 3> alpha_steps = {85, 17, 1};
-/// A dead zone: misses below three quarters of a step become none. Of 0.18, 0.25, 0.33 and 0.4 this
-/// gave the fewest bytes at the same loss (lego and the fox), by 0.2 to 3 %.
-constexpr double rounding = 0.25;
-/// How much of what a face's pixels and sensitivity differ from the mean its step follows. 1/2 each
-/// would be right where every value took bits; most are zero. Against 0.3 this saves 0.5 % of the
-/// bytes at the same loss (lego and the fox), against 0.15 some 3 %.
-constexpr double follow = 0.4;
 
-std::vector<std::uint64_t> count_pixels(const gl::Context& context, const TriangleSoup& soup,
-                                        glm::dvec3 origin, const std::vector<Camera>& views) {
-  std::vector<std::uint64_t> pixels(soup.triangles.size(), 0);
-  Renderer renderer(context, soup, origin, {.plan = {.site = ShadingSite::deferred}});
-  for (const Camera& view : views) {
-    throw_if_interrupted();
-    renderer.draw(view);
-    for (const std::uint32_t face : renderer.read_faces())
-      if (face != no_face) ++pixels[face];
-  }
-  return pixels;
-}
-
-double mean(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return values.empty() ? 0 : sum / double(values.size());
-}
-
-/// The index of the multiplier nearest to `wanted`, in proportion.
-std::uint8_t nearest_multiplier(double wanted) {
-  std::size_t best = 0;
-  const auto away = [&](std::size_t i) {
-    return std::abs(std::log(slim_multipliers[i] / 4.0 / wanted));
-  };
-  for (std::size_t i = 1; i < slim_multipliers.size(); ++i)
-    if (away(i) < away(best)) best = i;
-  return std::uint8_t(best);
-}
-
-/// The soup without the faces whose entry is 0, and those entries. It has a lattice texture.
-struct Kept {
-  TriangleSoup soup;
-  std::vector<std::uint64_t> pixels;
-};
-
-Kept keep_seen(const TriangleSoup& soup, const std::vector<std::uint64_t>& pixels,
-               const std::vector<bool>& seen) {
-  const auto& texture = std::get<LatticeTexture>(soup.appearance);
-  Kept kept{soup, {}};
-  kept.soup.triangles.clear();
-  auto& patches = std::get<LatticeTexture>(kept.soup.appearance).patches;
-  patches.clear();
-  // Vertices and texels that nothing uses any longer are not coded.
-  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-    if (!seen[t]) continue;
-    kept.soup.triangles.push_back(soup.triangles[t]);
-    patches.push_back(texture.patches[t]);
-    kept.pixels.push_back(pixels[t]);
-  }
-  return kept;
-}
-
-/// Each face at the smallest level that says the same to half a step of 8 bits. What a finer level
+/// Without the faces that neither the recorded cameras nor others show, if asked; each of the
+/// others at the smallest level that says the same to half a step of 8 bits. What a finer level
 /// would say is coded as nothing anyway; without it there are fewer texels to decode and to draw.
-void lower_levels(TriangleSoup& soup) {
-  auto& texture = std::get<LatticeTexture>(soup.appearance);
-  const LevelProgress interrupted = [](double) { throw_if_interrupted(); };
-  texture = at_levels(texture, smallest_levels(texture, {}, interrupted), interrupted);
-}
-
-/// The faces to keep, with the pixels that each has in the recorded views.
-Kept seen_faces(const gl::Context& context, const Scene& scene, bool all) {
+TriangleSoup kept_faces(const gl::Context& context, const Scene& scene,
+                        std::span<const Camera> recorded, bool all) {
+  const auto interrupted = [](double) { throw_if_interrupted(); };
   const auto& soup = std::get<TriangleSoup>(scene.primitives);
-  const auto pixels = count_pixels(context, soup, scene.origin, slim_views(scene, counted_views));
-  std::vector<bool> seen(pixels.size(), true);
+  std::vector<std::uint8_t> keeps(soup.triangles.size(), 1);
+  // Without recorded cameras nobody knows where the scene is looked at from.
   if (!all && !scene.cameras.empty()) {
-    const auto around =
-        count_pixels(context, soup, scene.origin,
-                     hemisphere(subject_of(scene), views_around, {.width = 800, .height = 600}));
-    for (std::size_t t = 0; t < seen.size(); ++t) seen[t] = pixels[t] + around[t] > 0;
-  }
-  return keep_seen(soup, pixels, seen);
-}
-
-/// What does not change while the step does.
-class Coarseness {
- public:
-  Coarseness(const Kept& kept, const std::vector<Camera>& views, glm::dvec3 origin)
-      : soup_(kept.soup), texture_(std::get<LatticeTexture>(soup_.appearance)) {
-    std::vector<glm::dvec3> eyes;
-    for (const Camera& view : views)
-      eyes.push_back(glm::dvec3(glm::inverse(view.view_from_world)[3]) - origin);
-    sensitivity_ = mean_sensitivity(soup_, eyes);
-    // A face that no recorded view shows may show in others: like a quarter of a pixel.
-    std::vector<double> shown;
-    for (const std::uint64_t count : kept.pixels) shown.push_back(std::max(double(count), 0.25));
-    const std::vector<double> moved = face_sensitivity(soup_, eyes, steps(basis(8)));
-    const double mean_shown = mean(shown), mean_moved = mean(moved);
-    for (std::size_t t = 0; t < shown.size(); ++t) {
-      // Faces of one colour, whatever their features: 1/1000 of the mean is none.
-      const double sees = mean_moved > 0 ? std::max(moved[t] / mean_moved, 1e-3) : 1;
-      of_face_.push_back(nearest_multiplier(1 / std::pow(shown[t] / mean_shown * sees, follow)));
+    std::fill(keeps.begin(), keeps.end(), std::uint8_t(0));
+    const std::vector<Camera> others =
+        hemisphere(subject_of(scene), views_around, {.width = 800, .height = 600});
+    for (const std::span<const Camera> views : {recorded, std::span<const Camera>(others)}) {
+      const auto pixels = count_visible_pixels(context, soup, scene.origin, views, interrupted);
+      for (std::size_t t = 0; t < keeps.size(); ++t)
+        if (pixels[t] > 0) keeps[t] = 1;
     }
   }
-
-  SlimTexelOptions options(double step, std::uint8_t alpha_step) const {
-    return {.basis = basis(step),
-            .feature_step = slim_fraction,
-            .alpha_step = alpha_step,
-            .coarseness = of_face_,
-            .rounding = rounding};
-  }
-
- private:
-  using Features = std::array<double, LatticeTexture::features>;
-
-  SlimBasis basis(double step) const { return slim_basis(texture_, sensitivity_, step); }
-
-  /// What a step along each axis of the basis changes, features in [0, 1].
-  static std::vector<Features> steps(const SlimBasis& basis) {
-    std::vector<Features> result(basis.rows.size());
-    for (std::size_t axis = 0; axis < result.size(); ++axis)
-      for (std::size_t f = 0; f < basis.rows.size(); ++f)
-        result[axis][f] = double(basis.rows[f][axis]) / 65536.0 * slim_fraction / 255.0;
-    return result;
-  }
-
-  const TriangleSoup& soup_;
-  const LatticeTexture& texture_;
-  FeatureMatrix sensitivity_{};
-  std::vector<std::uint8_t> of_face_;
-};
+  TriangleSoup kept = keep_faces(soup, keeps);
+  auto& texture = std::get<LatticeTexture>(kept.appearance);
+  texture = at_levels(texture, smallest_levels(texture, {}, interrupted), interrupted);
+  return kept;
+}
 
 class Search {
  public:
@@ -171,18 +69,16 @@ class Search {
       : request_(request),
         context_(gl::Context::create(request.context)),
         judge_(context_, scene, request.photographs),
-        kept_(seen_faces(context_, scene, request.keep_unseen)),
-        soup_(kept_.soup),
-        unseen_(std::get<TriangleSoup>(scene.primitives).triangles.size() - soup_.triangles.size()),
         views_(slim_views(scene, counted_views)),
-        coarseness_(kept_, views_, scene.origin) {}
+        soup_(kept_faces(context_, scene, views_, request.keep_unseen)),
+        unseen_(std::get<TriangleSoup>(scene.primitives).triangles.size() - soup_.triangles.size()),
+        importance_(context_, soup_, scene.origin, views_) {}
 
   SlimResult run() {
     SlimResult result;
     result.model_db = judge_.model_db();
     result.views = judge_.views();
     find_bits(result);
-    lower_levels(kept_.soup);
     const bool found = std::any_of(alpha_steps.begin(), alpha_steps.end(),
                                    [&](std::uint8_t alpha) { return find_step(result, alpha); });
     if (!found)
@@ -192,7 +88,9 @@ class Search {
           request_.max_loss_db));
     result.unseen = unseen_;
     result.seeing_views = views_.size() + views_around;
-    result.kept = std::move(kept_.soup);
+    result.weighing_views = views_.size();
+    result.unseen_texels = importance_.unseen_texels();
+    result.kept = std::move(soup_);
     return result;
   }
 
@@ -202,7 +100,7 @@ class Search {
     const auto fits = [&](double step) {
       progress();
       SlimSoup slim = encode_slim(soup_, {.position_bits = result.position_bits,
-                                          .texels = coarseness_.options(step, alpha_step)});
+                                          .texels = importance_.options(step, alpha_step)});
       const SlimLoss loss = judge_.loss(decode_slim(slim, soup_));
       if (loss.db > request_.max_loss_db) return false;
       result.color_step = step;
@@ -216,6 +114,7 @@ class Search {
       const double step = std::sqrt(low * high);
       (fits(step) ? low : high) = step;
     }
+    for (double factor = scan_from; factor > 1 && !fits(low * factor); factor -= scan_by) continue;
     return true;
   }
 
@@ -240,18 +139,19 @@ class Search {
   }
 
   void progress() {
-    // Most scenes take about five tries for the positions, and the finest colours at once.
-    if (request_.progress) request_.progress(std::min(0.99, double(tries_++) / (bisections + 6.0)));
+    // Most scenes take about five tries for the positions, the finest colours at once, and eight
+    // of the scan.
+    constexpr double usual_tries = 5 + 1 + bisections + 8;
+    if (request_.progress) request_.progress(std::min(0.99, double(tries_++) / usual_tries));
   }
 
   const SlimRequest& request_;
   gl::Context context_;
   SlimJudge judge_;
-  Kept kept_;
-  const TriangleSoup& soup_;
-  std::size_t unseen_;
   std::vector<Camera> views_;
-  Coarseness coarseness_;
+  TriangleSoup soup_;
+  std::size_t unseen_;
+  SlimImportance importance_;
   int tries_ = 0;
 };
 

@@ -7,6 +7,8 @@
 // says so.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -16,7 +18,8 @@
 namespace tureen {
 
 /// How likely the next bit is 0: the mean of a quick and a slow estimate, 16 bits each. The quick
-/// one learns within a few bits, the slow one is right in the long run.
+/// one follows what changes, the slow one is right in the long run. Both begin as the mean of all
+/// bits so far, so that a model that is seldom asked has learnt, too.
 class BitModel {
  public:
   // No constant expression: compilers would work out arrays of thousands of them one by one.
@@ -28,17 +31,23 @@ class BitModel {
     return mean < 1 ? 1 : mean > 4095 ? 4095 : mean;
   }
   void update(int bit) {
-    if (bit) {
-      quick_ = static_cast<std::uint16_t>(quick_ - (quick_ >> 4));
-      slow_ = static_cast<std::uint16_t>(slow_ - (slow_ >> 7));
-    } else {
-      quick_ = static_cast<std::uint16_t>(quick_ + ((65535 - quick_) >> 4));
-      slow_ = static_cast<std::uint16_t>(slow_ + ((65535 - slow_) >> 7));
-    }
+    quick_ = moved(quick_, bit, 16);
+    slow_ = moved(slow_, bit, slow_pace);
+    if (bits_ < slow_pace) ++bits_;
   }
 
  private:
+  static constexpr int slow_pace = 128;
+
+  /// The estimate after a bit that counts one in `pace`, or in the bits so far and a half, if those
+  /// are fewer.
+  std::uint16_t moved(int estimate, int bit, int pace) const {
+    const int by = (bit ? 0 : 65535) - estimate, halves = 2 * bits_ + 3;
+    return static_cast<std::uint16_t>(estimate + (halves < 2 * pace ? 2 * by / halves : by / pace));
+  }
+
   std::uint16_t quick_, slow_;
+  std::uint8_t bits_ = 0;
 };
 
 class RangeEncoder {
@@ -84,6 +93,31 @@ class RangeEncoder {
   std::uint8_t cache_ = 0;
   std::uint64_t pending_ = 1;
   std::vector<std::byte> bytes_;
+};
+
+/// What bits would take, for an encoder that has a choice: it codes nothing, and models learn
+/// nothing.
+class BitPrice {
+ public:
+  int bit(const BitModel& model, int bit) {
+    const std::uint32_t zero = model.probability_of_zero();
+    bits_ += of(bit ? 4096 - zero : zero);
+    return bit;
+  }
+  double bits() const { return bits_; }
+
+ private:
+  /// Of something with a probability of `of_4096`, 1..4095.
+  static double of(std::uint32_t of_4096) {
+    static const auto table = [] {
+      std::array<double, 4096> result{};
+      for (std::size_t i = 1; i < result.size(); ++i) result[i] = 12 - std::log2(double(i));
+      return result;
+    }();
+    return table[of_4096];
+  }
+
+  double bits_ = 0;
 };
 
 class RangeDecoder {

@@ -62,10 +62,10 @@ Eigen eigen(FeatureMatrix a) {
 }
 
 /// The covariance of what is left of each texel of a finest level after the mean of the two that it
-/// lies between, in bytes; the identity where there is none.
-FeatureMatrix residual_covariance(const LatticeTexture& texture) {
+/// lies between, in bytes, by the weights of texels; the identity where there is none.
+FeatureMatrix residual_covariance(const LatticeTexture& texture, std::span<const float> weights) {
   FeatureMatrix sum{};
-  std::size_t count = 0;
+  double total = 0;
   for (const LatticePatch& patch : texture.patches) {
     const int n = lattice::resolution(int(patch.level));
     const auto value = [&](int x, int y, int c) {
@@ -76,17 +76,20 @@ FeatureMatrix residual_covariance(const LatticeTexture& texture) {
         if (x % 2 == 0 && y % 2 == 0) continue;
         const int dx = x % 2, dy = x % 2 == 0 ? 1 : y % 2 == 0 ? 0 : -1;
         if (n == 1) continue;  // a triangle's corners have nothing between them
+        const std::uint32_t texel = patch.first_texel + lattice::texel_index(x, y);
+        const double weight = weights.empty() ? 1 : double(weights[texel]);
         std::array<double, features> left;
         for (int c = 0; c < features; ++c)
           left[at(c)] = value(x, y, c) - (value(x - dx, y - dy, c) + value(x + dx, y + dy, c)) / 2;
         for (int i = 0; i < features; ++i)
-          for (int j = 0; j < features; ++j) sum[at(i)][at(j)] += left[at(i)] * left[at(j)];
-        ++count;
+          for (int j = 0; j < features; ++j)
+            sum[at(i)][at(j)] += weight * left[at(i)] * left[at(j)];
+        total += weight;
       }
   }
-  if (count == 0) return identity_matrix();
+  if (total == 0) return identity_matrix();
   for (auto& row : sum)
-    for (double& value : row) value /= double(count);
+    for (double& value : row) value /= total;
   return sum;
 }
 
@@ -148,8 +151,10 @@ std::vector<std::int16_t> SlimBasis::values_of(std::span<const std::uint8_t> tex
   return result;
 }
 
-SlimBasis slim_basis(const LatticeTexture& texture, const FeatureMatrix& sensitivity, double step) {
+SlimBasis slim_basis(const LatticeTexture& texture, const FeatureMatrix& sensitivity, double step,
+                     std::span<const float> weights) {
   assert(step > 0);
+  assert(weights.empty() || weights.size() == texture.texel_count());
   Eigen metric = eigen(sensitivity);
   const double most = *std::max_element(metric.values.begin(), metric.values.end());
   // A colour that nothing moves: any step will do. One that features hardly move, a byte by a
@@ -165,7 +170,7 @@ SlimBasis slim_basis(const LatticeTexture& texture, const FeatureMatrix& sensiti
         inverse_root[i][j] += both / gain;
       }
   }
-  const Eigen residual = eigen(product(product(root, residual_covariance(texture)), root));
+  const Eigen residual = eigen(product(product(root, residual_covariance(texture, weights)), root));
   const FeatureMatrix columns = product(inverse_root, residual.vectors);
   // Large residuals first: what they miss tells the coder about the others.
   std::array<std::size_t, features> order;

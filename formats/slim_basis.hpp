@@ -1,5 +1,5 @@
 // Seven features as seven numbers that are cheap to store and say how much a loss shows: a linear
-// map that encoder and decoder of a slim file share (docs/format.md, version 2).
+// map that encoder and decoder of a slim file share (docs/format.md, version 3).
 //
 // A network hides most of what happens to its features: some directions of their space move the
 // colour a lot, others hardly. In the basis of slim_basis() a step along any axis moves the colour
@@ -39,7 +39,8 @@ struct SlimBasis {
 /// Where slim_fraction values along any axis move the colour by `step` 255ths in the mean square.
 /// `sensitivity` is mean_sensitivity() of the texture. Axes that move it less than a tenth as much
 /// as the first one are taken to move it that much: the network is not linear, and far steps along
-/// them would show.
-SlimBasis slim_basis(const LatticeTexture& texture, const FeatureMatrix& sensitivity, double step);
+/// them would show. `weights`: how much each texel counts (SlimTexelOptions); empty: all alike.
+SlimBasis slim_basis(const LatticeTexture& texture, const FeatureMatrix& sensitivity, double step,
+                     std::span<const float> weights = {});
 
 }  // namespace tureen

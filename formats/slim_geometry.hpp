@@ -1,5 +1,5 @@
 // Triangles in few bytes, with a loss that the caller sets: the geometry of a slim file
-// (docs/format.md, version 2).
+// (docs/format.md, version 3).
 //
 // Positions lie on a grid from the corner of the soup's box. A face's first corner is told from the
 // face before it, the other two from the first; a corner that was there already is named by how

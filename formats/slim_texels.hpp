@@ -1,5 +1,5 @@
 // Lattice textures in few bytes, with a loss that the caller sets: the texels of a slim file
-// (docs/format.md, version 2).
+// (docs/format.md, version 3).
 //
 // Features become values of a SlimBasis. Level by level, so that coarse data come first: the
 // corners of a face are predicted from the face before it, each texel of a finer level as the mean
@@ -41,9 +41,12 @@ struct SlimTexelOptions {
   std::vector<std::uint8_t> coarseness = {};
   /// Values that do not show are kept as well as those that do.
   bool keep_hidden = false;
-  /// Misses below 1 - rounding of a step become none, and larger ones are rounded alike: 1/2 is the
-  /// nearest multiple, less spends fewer bytes for what it loses.
-  double rounding = 0.5;
+  /// How much a squared error of a feature counts, one a texel of the texture, at least 0. Empty: 1
+  /// for all. Texels of equal patches get the larger one.
+  std::vector<float> weights = {};
+  /// How many squared feature steps, times their weight, a value may be off further to take a bit
+  /// less, at least 0. None: each is the nearest multiple of its step.
+  double bit_price = 0;
 };
 
 /// The texture's patches and texels as bytes; float texels are rounded to bytes first. Equal

@@ -65,7 +65,7 @@ LatticeTexture decode_slim_texels(std::span<const std::byte> bytes, std::size_t 
   Faces layout;
   if (!code_faces(coder, *models, faces, {}, limit, layout)) throw damaged();
   take(layout.texels, channels * (sizeof(std::int16_t) + 2 * sizeof(std::uint8_t)));
-  const auto never_asked = [](std::size_t, int, int, int) { return 0; };
+  const auto never_asked = [](const Question&, const auto&) { return 0; };
   Walk walk(coder, *models, {.features = header.feature_step, .alpha = header.alpha_step},
             never_asked);
   const std::vector<std::int16_t> values = walk(layout);

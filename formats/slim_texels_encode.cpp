@@ -1,3 +1,4 @@
+#include <array>
 #include <cassert>
 #include <cstring>
 #include <unordered_map>
@@ -18,9 +19,10 @@ using namespace slim;
 struct Source {
   Faces faces;
   std::vector<std::uint8_t> texels;
+  std::vector<float> weights;
 };
 
-Source source_of(const LatticeTexture& texture, const std::vector<std::uint8_t>& coarseness) {
+Source source_of(const LatticeTexture& texture, const SlimTexelOptions& options) {
   Source source;
   std::unordered_map<std::string, std::uint32_t> known;
   for (std::size_t t = 0; t < texture.patches.size(); ++t) {
@@ -33,13 +35,20 @@ Source source_of(const LatticeTexture& texture, const std::vector<std::uint8_t>&
         key[std::size_t(i) * channels + std::size_t(c)] =
             char(c == alpha ? quantised_alpha(value) : quantised_unit(value));
       }
-    const std::uint8_t quality = coarseness.empty() ? one_step : coarseness[t];
+    const std::uint8_t quality = options.coarseness.empty() ? one_step : options.coarseness[t];
+    const auto weight = [&](std::uint32_t i) {
+      return options.weights.empty() ? 1.0f : options.weights[patch.first_texel + i];
+    };
     const auto [found, is_new] =
         known.try_emplace(std::move(key), std::uint32_t(source.faces.patches.size()));
     source.faces.patch_of_face.push_back(found->second);
     if (!is_new) {
       Patch& same = source.faces.patches[found->second];
       same.coarseness = std::min(same.coarseness, quality);
+      for (std::uint32_t i = 0; i < count; ++i) {
+        float& most = source.weights[same.first_texel + i];
+        most = std::max(most, weight(i));
+      }
       continue;
     }
     source.faces.patches.push_back(
@@ -48,6 +57,7 @@ Source source_of(const LatticeTexture& texture, const std::vector<std::uint8_t>&
     if (source.faces.texels > 0xffffffffu)
       throw UsageError("a slim file holds at most 2^32 texels");
     source.texels.insert(source.texels.end(), found->first.begin(), found->first.end());
+    for (std::uint32_t i = 0; i < count; ++i) source.weights.push_back(weight(i));
   }
   return source;
 }
@@ -86,36 +96,78 @@ std::vector<Shows> what_shows(const Source& source) {
   return result;
 }
 
+/// How much more an error counts for each finer level: what is predicted from a texel inherits it,
+/// where nothing more is coded. Each texel has a part in six of the next level's; were all of those
+/// coded as nothing and errors did not know of each other, it would be 1 + 6/4, and 4 if all were
+/// the same. Of 1, 1.5, 2, 2.5, 3, 3.5 and 4 this made the smallest files for the same loss: the
+/// fox's are 9 % smaller than with 1.
+constexpr double inherited = 3;
+
 /// What the encoder chooses, value by value.
 class Chooser {
  public:
   Chooser(const Source& source, const SlimTexelOptions& options)
       : options_(options),
         shows_(what_shows(source)),
-        values_(options.basis.values_of(source.texels)) {}
+        values_(options.basis.values_of(source.texels)),
+        weights_(source.weights) {
+    double weight = 1.0 / (double(options.feature_step) * options.feature_step);
+    for (double& each : level_weights_) {
+      each = weight;
+      weight *= inherited;
+    }
+  }
 
-  int operator()(std::size_t texel, int c, int prediction, int step) const {
-    const int value = values_[texel * channels + std::size_t(c)];
-    const Shows shows = shows_[texel];
-    if (c == alpha) return alpha_steps(value, prediction, step, shows);
-    if (!options_.keep_hidden && shows == Shows::nothing) return 0;
-    return nearest(value - prediction, step, options_.rounding);
+  template <class Price>
+  int operator()(const Question& asked, const Price& price) const {
+    if (asked.channel == alpha) return alpha_steps(asked);
+    if (!options_.keep_hidden && shows_[asked.texel] == Shows::nothing) return 0;
+    return feature_steps(asked, price);
   }
 
  private:
-  static int nearest(int miss, int step, double rounding) {
-    const int size = int(double(std::abs(miss)) / step + rounding);
+  int value_of(const Question& asked) const {
+    return values_[asked.texel * channels + std::size_t(asked.channel)];
+  }
+
+  static int nearest(int miss, int step) {
+    const int size = (2 * std::abs(miss) + step) / (2 * step);
     return miss < 0 ? -size : size;
   }
 
+  /// Of the two multiples around the value and none at all what costs least: error and bits.
+  template <class Price>
+  int feature_steps(const Question& asked, const Price& price) const {
+    const int miss = value_of(asked) - asked.prediction;
+    const int most = nearest(miss, asked.step);
+    if (most == 0 || options_.bit_price == 0) return most;
+    const double weight =
+        level_weights_[std::size_t(asked.finer_levels)] * double(weights_[asked.texel]);
+    const auto cost = [&](int steps) {
+      const double off = miss - steps * asked.step;
+      return weight * off * off + options_.bit_price * price(steps);
+    };
+    int best = most;
+    double least = cost(most);
+    for (const int fewer : {most > 0 ? most - 1 : most + 1, 0}) {
+      const double at = cost(fewer);
+      if (at < least) {
+        least = at;
+        best = fewer;
+      }
+    }
+    return best;
+  }
+
   /// Never across 1/2: no fragment of a texel's own comes or goes.
-  int alpha_steps(int value, int prediction, int step, Shows shows) const {
+  int alpha_steps(const Question& asked) const {
+    const int value = value_of(asked), prediction = asked.prediction, step = asked.step;
     const auto same_side = [&](int steps) {
       return (std::clamp(prediction + steps * step, 0, 255) >= 128) == (value >= 128);
     };
     int steps = 0;
-    if (options_.keep_hidden || shows == Shows::edge)
-      steps = nearest(value - prediction, step, 0.5);
+    if (options_.keep_hidden || shows_[asked.texel] == Shows::edge)
+      steps = nearest(value - prediction, step);
     while (!same_side(steps)) steps += value >= 128 ? 1 : -1;
     return steps;
   }
@@ -123,6 +175,8 @@ class Chooser {
   const SlimTexelOptions& options_;
   std::vector<Shows> shows_;
   std::vector<std::int16_t> values_;
+  const std::vector<float>& weights_;
+  std::array<double, lattice::max_level + 1> level_weights_;
 };
 
 }  // namespace
@@ -130,9 +184,10 @@ class Chooser {
 std::vector<std::byte> encode_slim_texels(const LatticeTexture& texture,
                                           const SlimTexelOptions& options) {
   assert(options.feature_step > 0 && options.alpha_step > 0 && options.alpha_step <= 127);
-  assert(options.rounding >= 0 && options.rounding <= 0.5);
+  assert(options.weights.empty() || options.weights.size() == texture.texel_count());
+  assert(options.bit_price >= 0);
   assert(options.coarseness.empty() || options.coarseness.size() == texture.patches.size());
-  const Source source = source_of(texture, options.coarseness);
+  const Source source = source_of(texture, options);
   const TexelHeader header{.feature_step = options.feature_step,
                            .alpha_step = options.alpha_step,
                            .basis = options.basis};

@@ -111,8 +111,17 @@ bool code_faces(Coder& coder, Models& models, std::size_t count, const Faces& gi
   return true;
 }
 
-/// All values of all patches. `choose(texel, channel, prediction, step)` gives the steps to take
-/// from the prediction; a decoder's is not asked.
+/// A value that an encoder has to code.
+struct Question {
+  std::size_t texel;
+  int channel;
+  int finer_levels;  // of the patch, that are predicted from this one
+  int prediction;
+  int step;
+};
+
+/// All values of all patches. `choose(question, price)` gives the steps to take from the
+/// prediction, of which price(steps) tells the bits; a decoder's is not asked.
 template <class Coder, class Choose>
 class Walk {
  public:
@@ -202,7 +211,14 @@ class Walk {
       const Context context{models_.miss[c][place.level], twelve_kinds(nearby), four_kinds(others),
                             c == alpha ? 0 : sign};
       const int step = step_of(place.patch, c);
-      const int miss = code(context, choose_(place.texel, c, predictions[i], step));
+      const auto price = [&](int steps) {
+        BitPrice bits;
+        code(bits, context, steps);
+        return bits.bits();
+      };
+      const int finer = place.patch.level - place.level;
+      const int miss =
+          code(coder_, context, choose_({place.texel, c, finer, predictions[i], step}, price));
       values_[place.texel * channels + i] = moved(c, predictions[i], miss * step);
       const int size = std::min(std::abs(miss), 255);
       missed_[place.texel * channels + i] = std::uint8_t(size);
@@ -240,12 +256,13 @@ class Walk {
     int nearby, others, sign;
   };
 
-  int code(const Context& context, int miss) {
+  template <class AnyCoder>
+  static int code(AnyCoder& coder, const Context& context, int miss) {
     Models::Miss& models = context.models;
-    if (!coder_.bit(models.zero[context.nearby][context.others], miss != 0)) return 0;
-    const bool negative = coder_.bit(models.negative[context.nearby][context.sign], miss < 0);
+    if (!coder.bit(models.zero[context.nearby][context.others], miss != 0)) return 0;
+    const bool negative = coder.bit(models.negative[context.nearby][context.sign], miss < 0);
     const auto more = std::uint32_t(std::max(std::abs(miss) - 1, 0));
-    const int size = 1 + int(models.size[context.nearby].code(coder_, more));
+    const int size = 1 + int(models.size[context.nearby].code(coder, more));
     return negative ? -size : size;
   }
 

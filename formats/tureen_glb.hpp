@@ -19,8 +19,9 @@ struct GlbContainer;
 
 inline constexpr char tureen_extension[] = "TUREEN_triangle_soup";
 inline constexpr int tureen_extension_version = 1;
-/// Of files whose soup is coded with a loss (formats/tureen_glb_slim.hpp).
-inline constexpr int tureen_slim_version = 2;
+/// Of files whose soup is coded with a loss (formats/tureen_glb_slim.hpp). Version 2 was coded in
+/// another way, before any release.
+inline constexpr int tureen_slim_version = 3;
 
 /// Reads the binary chunk in the order in which it lies, straight into the scene's vectors: beyond
 /// them it holds one strip of texels at a time. Every count is checked against the bytes that are

@@ -35,11 +35,11 @@ Camera camera(const JsonView& view) {
 JsonView tureen_extension_of(const GlbArrays& arrays) {
   JsonView extension = arrays.root()["extensions"][tureen_extension];
   const std::uint64_t version = extension["version"].natural();
-  if (version < std::uint64_t(tureen_extension_version) ||
-      version > std::uint64_t(tureen_slim_version))
+  if (version != std::uint64_t(tureen_extension_version) &&
+      version != std::uint64_t(tureen_slim_version))
     extension["version"].fail("this file has version " + std::to_string(version) + " of " +
                               tureen_extension + "; only versions " +
-                              std::to_string(tureen_extension_version) + " to " +
+                              std::to_string(tureen_extension_version) + " and " +
                               std::to_string(tureen_slim_version) + " are read");
   return extension;
 }

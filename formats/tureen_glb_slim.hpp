@@ -1,4 +1,4 @@
-// The slim file: TUREEN_triangle_soup, version 2, in which geometry and texels are coded with a
+// The slim file: TUREEN_triangle_soup, version 3, in which geometry and texels are coded with a
 // loss that the caller sets (docs/format.md). Read by read_tureen_glb like any file of ours, also
 // in the browser; other glTF viewers refuse it, as it has no mesh for them.
 #pragma once

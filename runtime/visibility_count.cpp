@@ -5,25 +5,64 @@
 #include <cmath>
 #include <numeric>
 
+#include "runtime/oracle/hits.hpp"
 #include "runtime/renderer.hpp"
 #include "soup/keep_faces.hpp"
+#include "soup/lattice.hpp"
 
 namespace tureen {
+
+namespace {
+
+/// Calls visit(view, faces) with the face of each pixel of each view.
+template <class Visit>
+void visit_pictures(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
+                    std::span<const Camera> views, const std::function<void(double)>& progress,
+                    const Visit& visit) {
+  // Forward plans name no faces.
+  Renderer renderer(context, soup, origin, {.plan = {.site = ShadingSite::deferred}});
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (progress) progress(double(i) / double(views.size()));
+    renderer.draw(views[i]);
+    visit(views[i], renderer.read_faces());
+  }
+}
+
+}  // namespace
 
 std::vector<std::uint64_t> count_visible_pixels(const gl::Context& context,
                                                 const TriangleSoup& soup, glm::dvec3 origin,
                                                 std::span<const Camera> views,
                                                 const std::function<void(double)>& progress) {
   std::vector<std::uint64_t> pixels(soup.triangles.size(), 0);
-  // Forward plans name no faces.
-  Renderer renderer(context, soup, origin, {.plan = {.site = ShadingSite::deferred}});
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    if (progress) progress(double(i) / double(views.size()));
-    renderer.draw(views[i]);
-    for (const std::uint32_t face : renderer.read_faces())
-      if (face != no_face) ++pixels[face];
-  }
+  visit_pictures(context, soup, origin, views, progress,
+                 [&](const Camera&, const std::vector<std::uint32_t>& faces) {
+                   for (const std::uint32_t face : faces)
+                     if (face != no_face) ++pixels[face];
+                 });
   return pixels;
+}
+
+std::vector<float> count_visible_texels(const gl::Context& context, const TriangleSoup& soup,
+                                        glm::dvec3 origin, std::span<const Camera> views,
+                                        const std::function<void(double)>& progress) {
+  const auto& texture = std::get<LatticeTexture>(soup.appearance);
+  std::vector<float> shown(texture.texel_count(), 0.0f);
+  visit_pictures(
+      context, soup, origin, views, progress,
+      [&](const Camera& view, const std::vector<std::uint32_t>& faces) {
+        const oracle::Rays rays(soup, origin, view);
+        rays.visit_faces(0, view.height, [&](int column, int row, const oracle::Hit& hit) {
+          const std::size_t pixel =
+              std::size_t(row) * std::size_t(view.width) + std::size_t(column);
+          if (faces[pixel] != hit.face) return;
+          const LatticePatch& patch = texture.patches[hit.face];
+          const auto at = lattice::footprint(int(patch.level), hit.b0, hit.b1);
+          for (std::size_t k = 0; k < 3; ++k)
+            shown[patch.first_texel + at.texels[k]] += float(std::max(at.weights[k], 0.0));
+        });
+      });
+  return shown;
 }
 
 std::vector<std::uint8_t> most_visible(std::span<const std::uint64_t> pixels, double fraction) {

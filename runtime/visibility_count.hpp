@@ -23,6 +23,14 @@ std::vector<std::uint64_t> count_visible_pixels(const gl::Context& context,
                                                 std::span<const Camera> views,
                                                 const std::function<void(double)>& progress = {});
 
+/// How often each texel shows over all views: the sum of the weights with which pixels' centres
+/// take it (lattice::footprint). A face's texels come to about its pixels: those whose centre the
+/// device finds in a face that exact edges do not are left out. The soup has a lattice texture;
+/// otherwise as above.
+std::vector<float> count_visible_texels(const gl::Context& context, const TriangleSoup& soup,
+                                        glm::dvec3 origin, std::span<const Camera> views,
+                                        const std::function<void(double)>& progress = {});
+
 /// The most visible part of the faces: 1 for each that belongs to it, 0 for the others. Of all
 /// faces `fraction` (above 0, at most 1), rounded, and at least one; faces with more pixels first,
 /// of equal ones the lower index. A larger fraction keeps what a smaller one keeps.

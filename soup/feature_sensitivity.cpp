@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <glm/geometric.hpp>
+#include <iterator>
+#include <numeric>
 #include <random>
 
 #include "soup/lattice.hpp"
@@ -17,12 +19,21 @@ using Features = std::array<double, features>;
 /// Random texels of a soup, and what colour is made of their features.
 class Sampler {
  public:
-  Sampler(const TriangleSoup& soup, std::span<const glm::dvec3> eyes)
+  Sampler(const TriangleSoup& soup, std::span<const glm::dvec3> eyes,
+          std::span<const double> shown = {})
       : soup_(soup), texture_(std::get<LatticeTexture>(soup.appearance)), eyes_(eyes) {
     assert(!eyes.empty());
+    assert(shown.empty() || shown.size() == soup.triangles.size());
+    std::partial_sum(shown.begin(), shown.end(), std::back_inserter(shown_until_));
   }
 
-  std::size_t random_face() { return below(soup_.triangles.size()); }
+  std::size_t random_face() {
+    if (shown_until_.empty()) return below(soup_.triangles.size());
+    const double at = double(engine_()) * 0x1p-32 * shown_until_.back();
+    const auto face = std::upper_bound(shown_until_.begin(), shown_until_.end(), at);
+    // Rounding may reach the sum itself.
+    return std::min(std::size_t(face - shown_until_.begin()), shown_until_.size() - 1);
+  }
   std::size_t random_texel(std::size_t face) {
     const LatticePatch& patch = texture_.patches[face];
     return patch.first_texel + below(lattice::texel_count(int(patch.level)));
@@ -57,16 +68,17 @@ class Sampler {
   const TriangleSoup& soup_;
   const LatticeTexture& texture_;
   std::span<const glm::dvec3> eyes_;
+  std::vector<double> shown_until_;  // of each face and those before it
   std::mt19937 engine_{1};
 };
 
 }  // namespace
 
 FeatureMatrix mean_sensitivity(const TriangleSoup& soup, std::span<const glm::dvec3> eyes,
-                               int samples) {
+                               std::span<const double> shown, int samples) {
   FeatureMatrix sum{};
   if (soup.triangles.empty()) return sum;
-  Sampler sampler(soup, eyes);
+  Sampler sampler(soup, eyes, shown);
   // About what features lose in a slim file: with the network's bends in between, the difference
   // over it says more than the slope at the middle.
   constexpr double reach = 12.0 / 255.0;

@@ -22,10 +22,12 @@ using FeatureMatrix =
 ///
 /// The mean is over `samples` of visible texels (alpha at least alpha_threshold), each seen from
 /// one of `eyes` (relative to the soup's origin, at least one), chosen by a fixed seed: the same
-/// soup gives the same matrix. A texture without a color MLP shows features 0..2 as they are. All
-/// zeros where no sample is visible. The soup has a lattice texture and no defect().
+/// soup gives the same matrix. Faces are chosen in proportion to `shown`, how many pixels show each
+/// say (at least 0, with a finite sum above 0), and all alike where it is empty. A texture without
+/// a color MLP shows features 0..2 as they are. All zeros where no sample is visible. The soup has
+/// a lattice texture and no defect().
 FeatureMatrix mean_sensitivity(const TriangleSoup& soup, std::span<const glm::dvec3> eyes,
-                               int samples = 60000);
+                               std::span<const double> shown = {}, int samples = 60000);
 
 /// The squared movement of colour, summed over its channels and over the `steps` (each a change of
 /// all features, made half to either side), in the mean over a few texels of each face and a few

@@ -90,6 +90,40 @@ TEST(Slim, LeavesOutWhatNoViewSees) {
   EXPECT_EQ(slim(scene, {.max_loss_db = 1, .photographs = photographs}).unseen, 0u);
 }
 
+TEST(Slim, TexelsThatNoViewShowsTakeLittle) {
+  Scene scene = part_of_the_example(300);
+  const SlimResult before = slim(scene, {.max_loss_db = 0.1, .keep_unseen = true});
+  EXPECT_EQ(before.weighing_views, 3u);
+  // Behind the eyes of all cameras: the same faces once more.
+  auto& soup = std::get<TriangleSoup>(scene.primitives);
+  auto& texture = std::get<LatticeTexture>(soup.appearance);
+  std::size_t texels = 0;
+  auto& bytes = std::get<std::vector<std::uint8_t>>(texture.texels);
+  test::Random random(6);
+  for (std::size_t t = 0; t < 300; ++t) {
+    glm::uvec3 moved;
+    for (int k = 0; k < 3; ++k) {
+      moved[k] = std::uint32_t(soup.positions.size());
+      soup.positions.push_back(soup.positions[soup.triangles[t][k]] + glm::vec3(0, 0, 100));
+    }
+    soup.triangles.push_back(moved);
+    const LatticePatch patch = texture.patches[t];
+    texture.patches.push_back(
+        {std::uint32_t(bytes.size() / LatticeTexture::channels), patch.level});
+    texels += lattice::texel_count(int(patch.level));
+    // Noise, so that they are nobody's copies; nothing is as dear to keep.
+    for (std::size_t i = 0; i < lattice::texel_count(int(patch.level)); ++i)
+      for (int c = 0; c < LatticeTexture::channels; ++c)
+        bytes.push_back(std::uint8_t(c == LatticeTexture::features ? 255 : random.below(256)));
+  }
+  const SlimResult after = slim(scene, {.max_loss_db = 0.1, .keep_unseen = true});
+  EXPECT_GE(after.unseen_texels, before.unseen_texels + texels * 9 / 10);
+  EXPECT_LE(after.loss.db, 0.1);
+  // Noise of seven channels takes 7 bytes a texel where it is kept to the byte.
+  const double more = double(after.soup.texels.size()) - double(before.soup.texels.size());
+  EXPECT_LT(more, 0.3 * 7 * double(texels));
+}
+
 TEST(Slim, FacesOfOneColorHaveOneTexelACorner) {
   Scene scene = part_of_the_example(40);
   auto& texture = std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance);

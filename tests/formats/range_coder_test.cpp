@@ -54,6 +54,34 @@ TEST(RangeCoder, NumbersComeBack) {
   EXPECT_FALSE(decoder.exhausted());
 }
 
+TEST(RangeCoder, APriceIsWhatTheBitsTake) {
+  const unsigned seed = 25;
+  SCOPED_TRACE(::testing::Message() << "seed " << seed);
+  std::mt19937 random(seed);
+  RangeEncoder encoder;
+  SignedModel<17> model;
+  BitPrice price;
+  for (int i = 0; i < 5000; ++i) {
+    const int size = int(random() >> (20 + random() % 12));
+    const int value = random() % 2 ? size : -size;
+    model.code(price, value);
+    model.code(encoder, value);
+  }
+  // The coder cuts its range to whole numbers, and ends with five bytes.
+  const double bits = double(encoder.finish().size()) * 8;
+  EXPECT_NEAR(price.bits() / bits, 1, 0.002);
+}
+
+TEST(RangeCoder, ModelsThatAreSeldomAskedLearnToo) {
+  RangeEncoder encoder;
+  std::vector<BitModel> models(1000);
+  for (int i = 0; i < 8; ++i)
+    for (BitModel& model : models) encoder.bit(model, 1);
+  // The mean of 1/2 and of all ones so far makes some 2 bits of eight, where one in sixteen at a
+  // time would make 5.4.
+  EXPECT_LT(double(encoder.finish().size()), 2.5 * 1000 / 8);
+}
+
 TEST(RangeCoder, CarriesPropagate) {
   // Unlikely bits one after the other push the low end up to where carries run through many bytes.
   const unsigned seed = 23;

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "formats/random_scene.hpp"
+#include "soup/lattice.hpp"
 
 namespace tureen {
 namespace {
@@ -79,6 +80,42 @@ TEST(SlimBasis, EveryAxisMovesTheColourAlike) {
       EXPECT_NEAR(moved * slim_fraction * slim_fraction, a == b ? step * step : 0.0, 1e-2)
           << a << ", " << b;
     }
+}
+
+// The first axis is that of the largest residuals, of the texels that count.
+TEST(SlimBasis, AxesAreThoseOfTheTexelsThatCount) {
+  LatticeTexture texture;
+  std::vector<std::uint8_t> texels;
+  std::vector<float> first, second;
+  for (std::uint32_t t = 0; t < 2; ++t) {
+    texture.patches.push_back({6 * t, 1});
+    for (std::uint32_t i = 0; i < 6; ++i) {
+      // Odd texels lie between even ones: face 0 differs there in feature 2, face 1 in feature 5.
+      const auto at = lattice::texel_coordinates(i);
+      const bool between = at.x % 2 || at.y % 2;
+      for (std::uint32_t c = 0; c < channels; ++c)
+        texels.push_back(between && c == (t == 0 ? 2u : 5u) ? 200 : 128);
+      first.push_back(t == 0 ? 1.0f : 0.0f);
+      second.push_back(t == 0 ? 0.0f : 1.0f);
+    }
+  }
+  texture.texels = std::move(texels);
+  FeatureMatrix plain{};
+  for (std::size_t i = 0; i < features; ++i) plain[i][i] = 1;
+  const auto strongest = [&](const std::vector<float>& weights) {
+    const SlimBasis basis = slim_basis(texture, plain, 4, weights);
+    std::size_t best = 0;
+    for (std::size_t f = 1; f < features; ++f)
+      if (std::abs(basis.rows[f][0]) > std::abs(basis.rows[best][0])) best = f;
+    return best;
+  };
+  EXPECT_EQ(strongest(first), 2u);
+  EXPECT_EQ(strongest(second), 5u);
+  // Where nothing counts, it is that of a texture without residuals.
+  LatticeTexture nothing;
+  nothing.texels = std::vector<std::uint8_t>();
+  EXPECT_EQ(slim_basis(texture, plain, 4, std::vector<float>(12, 0.0f)).rows,
+            slim_basis(nothing, plain, 4).rows);
 }
 
 TEST(SlimBasis, AColourThatNothingMovesStillHasABasis) {

@@ -170,6 +170,79 @@ TEST(SlimTexelsOf, SmoothOrEqualFacesTakeLittle) {
     EXPECT_EQ(back.patches[t].first_texel, back.patches[t % 10].first_texel);
 }
 
+/// The mean squared error of features, face by face, in bytes.
+std::vector<double> errors_of(const LatticeTexture& texture, const LatticeTexture& back) {
+  std::vector<double> result(texture.patches.size(), 0.0);
+  for_each_value(texture, back, [&](std::size_t t, std::uint32_t, int c, int before, int after) {
+    if (c != alpha) result[t] += double(before - after) * (before - after);
+  });
+  for (std::size_t t = 0; t < result.size(); ++t)
+    result[t] /= lattice::texel_count(int(texture.patches[t].level)) * double(alpha);
+  return result;
+}
+
+/// Smooth, with a little noise: most of what a finer level adds is less than a step.
+LatticeTexture noisy(std::size_t faces, std::mt19937& random) {
+  LatticeTexture texture = smooth(faces, 3, random);
+  auto& texels = std::get<std::vector<std::uint8_t>>(texture.texels);
+  for (std::size_t i = 0; i < texels.size(); ++i)
+    if (i % channels != alpha)
+      texels[i] = std::uint8_t(std::min(255, texels[i] - 6 + int(random() % 13)));
+  return texture;
+}
+
+TEST(SlimTexelsOf, WhatBitsArePricedSavesThemForTheLeastError) {
+  const unsigned seed = 56;
+  SCOPED_TRACE(::testing::Message() << "seed " << seed);
+  std::mt19937 random(seed);
+  const LatticeTexture texture = noisy(200, random);
+  const auto size_and_error = [&](std::uint8_t step, double price) {
+    const auto bytes =
+        encode_slim_texels(texture, {.feature_step = step, .alpha_step = 85, .bit_price = price});
+    double sum = 0;
+    for (const double error : errors_of(texture, decode_slim_texels(bytes, 200, "slim")))
+      sum += error;
+    return std::pair(bytes.size(), sum / 200);
+  };
+  const auto nearest = size_and_error(8, 0), priced = size_and_error(8, 0.3);
+  EXPECT_LT(double(priced.first), 0.8 * double(nearest.first));
+  EXPECT_GT(priced.second, nearest.second);
+  // Larger steps, the other way to save bytes, lose more for as many.
+  const auto coarse = size_and_error(12, 0), fine = size_and_error(6, 0.3);
+  EXPECT_LT(fine.first, coarse.first);
+  EXPECT_LT(fine.second, coarse.second);
+}
+
+TEST(SlimTexelsOf, HeavyTexelsLoseLess) {
+  const unsigned seed = 57;
+  SCOPED_TRACE(::testing::Message() << "seed " << seed);
+  std::mt19937 random(seed);
+  const LatticeTexture texture = noisy(100, random);
+  SlimTexelOptions options{.feature_step = 4, .alpha_step = 85, .bit_price = 0.3};
+  const auto alike = encode_slim_texels(texture, options);
+  // Every other face hardly counts.
+  for (std::size_t t = 0; t < 100; ++t)
+    options.weights.insert(options.weights.end(), 45, t % 2 ? 1.0f : 0.01f);
+  const auto some = encode_slim_texels(texture, options);
+  EXPECT_LT(double(some.size()), 0.75 * double(alike.size()));
+  const auto errors = errors_of(texture, decode_slim_texels(some, 100, "slim"));
+  double light = 0, heavy = 0;
+  for (std::size_t t = 0; t < 100; ++t) (t % 2 ? heavy : light) += errors[t];
+  EXPECT_GT(light, 2 * heavy);
+
+  // Equal patches are stored once, by the larger weight of each texel.
+  LatticeTexture twice = texture;
+  auto& texels = std::get<std::vector<std::uint8_t>>(twice.texels);
+  texels.insert(texels.end(), texels.begin(), texels.end());
+  for (std::size_t t = 0; t < 100; ++t)
+    twice.patches.push_back({texture.patches[t].first_texel + 4500, 3});
+  SlimTexelOptions mixed = options, heaviest = options;
+  heaviest.weights.assign(9000, 1.0f);
+  mixed.weights.clear();
+  for (std::size_t i = 0; i < 9000; ++i) mixed.weights.push_back(i % 2 == i / 4500 ? 1.0f : 0.01f);
+  EXPECT_EQ(encode_slim_texels(twice, mixed), encode_slim_texels(twice, heaviest));
+}
+
 TEST(SlimTexelsOf, NothingIsAnEmptyTexture) {
   LatticeTexture texture;
   texture.texels = std::vector<std::uint8_t>();

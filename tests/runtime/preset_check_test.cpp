@@ -4,9 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <map>
 #include <numeric>
 
 #include "runtime/visibility_count.hpp"
+#include "soup/lattice.hpp"
 #include "soup/metrics.hpp"
 #include "support/agreement.hpp"
 #include "support/random_soups.hpp"
@@ -50,6 +53,64 @@ TEST(VisibilityCount, IsThePixelsThatTheOracleNames) {
   // The budget of tests/support/agreement.hpp, of all pixels, for ties of depth and threshold.
   EXPECT_LE(double(difference), 2e-4 * 3 * 160 * 120);
   EXPECT_EQ(counted, count_visible_pixels(context(), soup, glm::dvec3(0), views));
+}
+
+TEST(VisibilityCount, TexelsOfAFaceComeToItsPixels) {
+  SCOPED_TRACE("seed 803");
+  const TriangleSoup soup = test::random_soup(803, {.kind = test::Kind::lattice});
+  const auto& texture = std::get<LatticeTexture>(soup.appearance);
+  const auto views = cameras(803, 3);
+  const auto pixels = count_visible_pixels(context(), soup, glm::dvec3(0), views);
+  const auto texels = count_visible_texels(context(), soup, glm::dvec3(0), views);
+  ASSERT_EQ(texels.size(), texture.texel_count());
+  // By patch, as faces may share theirs.
+  std::map<std::uint32_t, std::pair<double, double>> patches;
+  for (std::size_t t = 0; t < pixels.size(); ++t) {
+    const LatticePatch& patch = texture.patches[t];
+    auto& [expected, counted] = patches[patch.first_texel];
+    expected += double(pixels[t]);
+    counted = 0;
+    for (std::uint32_t i = 0; i < lattice::texel_count(int(patch.level)); ++i)
+      counted += double(texels[patch.first_texel + i]);
+  }
+  double total = 0, missing = 0;
+  for (const auto& [first, counts] : patches) {
+    // Weights of a pixel come to one, but for the rounding of as many floats.
+    EXPECT_LE(counts.second, counts.first * (1 + 1e-5)) << "patch at " << first;
+    total += counts.first;
+    missing += counts.first - counts.second;
+  }
+  EXPECT_GT(total, 1000);
+  // Corners on a grid of 1/256 of a pixel move few edges across a centre.
+  EXPECT_LE(missing, 2e-3 * total);
+}
+
+TEST(VisibilityCount, TexelsBehindOthersAreNotShown) {
+  // Two faces of level 2, and before the second a third one that hides it but for a corner.
+  TriangleSoup soup;
+  soup.positions = {{-2, 0, 0}, {-1, 0, 0},     {-2, 1, 0},     {0, 0, 0},    {1, 0, 0},
+                    {0, 1, 0},  {-.5, -.5, .1}, {1.5, -.5, .1}, {-.5, .5, .1}};
+  soup.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
+  LatticeTexture texture;
+  texture.patches = {{0, 2}, {15, 2}, {30, 2}};
+  texture.texels = std::vector<std::uint8_t>(45 * LatticeTexture::channels, 255);
+  soup.appearance = std::move(texture);
+  const Camera camera = look_at({0, 0.3, 50}, {0, 0.3, 0}, {0, 1, 0}, 0.06, 400, 300);
+  const auto shown = count_visible_texels(context(), soup, glm::dvec3(0), std::array{camera});
+  for (std::size_t i = 0; i < 15; ++i) EXPECT_GT(shown[i], 100.0f) << i;
+  for (std::size_t i = 0; i < 15; ++i) {
+    // Texel (x, y) of the second face lies at the world's (y/4, 1 - x/4 - y/4); what is hidden lies
+    // under the line from (1.5, -.5) to (-.5, .5).
+    const auto at = lattice::texel_coordinates(std::uint32_t(i));
+    const double across = at.y / 4.0, up = 1 - at.x / 4.0 - at.y / 4.0;
+    const double above = up - (0.25 - 0.5 * across);
+    // A texel reaches a quarter to each side: pixels within it take some of it.
+    if (above > 0.05) {
+      EXPECT_GT(shown[15 + i], 1.0f) << i;
+    } else if (above < -0.26) {
+      EXPECT_EQ(shown[15 + i], 0.0f) << i;
+    }
+  }
 }
 
 TEST(VisibilityCount, FlatSoupsAreCountedToo) {

@@ -28,7 +28,7 @@ TriangleSoup plain_soup() {
 }
 
 TEST(FeatureSensitivity, WithoutANetworkItIsThatOfThreeColours) {
-  const FeatureMatrix s = mean_sensitivity(plain_soup(), eyes, 100);
+  const FeatureMatrix s = mean_sensitivity(plain_soup(), eyes, {}, 100);
   for (std::size_t i = 0; i < features; ++i)
     for (std::size_t j = 0; j < features; ++j)
       EXPECT_NEAR(s[i][j], i == j && i < 3 ? 1.0 : 0.0, 1e-9) << i << ", " << j;
@@ -45,12 +45,38 @@ TEST(FeatureSensitivity, FollowsTheNetworksSlopes) {
   layer.biases = {-0.4f, -0.2f, 0.0f};
   mlp.layers = {layer};
   std::get<LatticeTexture>(soup.appearance).mlp = mlp;
-  const FeatureMatrix s = mean_sensitivity(soup, eyes, 100);
+  const FeatureMatrix s = mean_sensitivity(soup, eyes, {}, 100);
   // The reach of the difference bends the sigmoid by about (0.8 * 12/255)^2 / 12 of itself.
   EXPECT_NEAR(s[0][0], 0.2 * 0.2, 1e-4);
   EXPECT_NEAR(s[5][5], 0.1 * 0.1, 1e-4);
   EXPECT_NEAR(s[0][5], 0.0, 1e-9);
   EXPECT_NEAR(s[1][1], 0.0, 1e-9);
+}
+
+TEST(FeatureSensitivity, FacesCountAsTheyAreShown) {
+  TriangleSoup soup = plain_soup();
+  auto& texture = std::get<LatticeTexture>(soup.appearance);
+  auto& texels = std::get<std::vector<float>>(texture.texels);
+  // Both visible; the second one where the sigmoid of red is flat.
+  for (std::size_t i = 6; i < 12; ++i) {
+    texels[i * LatticeTexture::channels + features] = 1.0f;
+    texels[i * LatticeTexture::channels] = 1.0f;
+  }
+  ColorMlp mlp;
+  mlp.encoding = DirectionEncoding::none;
+  DenseLayer layer{features, 3, std::vector<float>(3 * features, 0.0f), {-20, 0, 0}};
+  layer.weights[0] = 40.0f;
+  mlp.layers = {layer};
+  texture.mlp = mlp;
+  const auto red = [&](const std::vector<double>& shown) {
+    return mean_sensitivity(soup, eyes, shown, 2000)[0][0];
+  };
+  const double steep = red({1, 0}), flat = red({0, 1});
+  EXPECT_GT(steep, 10.0);
+  EXPECT_LT(flat, 1e-6);
+  // A quarter of 2,000 samples is off by 10 at a standard deviation of one; 6 of those.
+  EXPECT_NEAR(red({1, 3}) / steep, 0.25, 0.03);
+  EXPECT_NEAR(red({}) / steep, 0.5, 0.07);
 }
 
 TEST(FeatureSensitivity, AFaceMovesAsFarAsItsSteps) {

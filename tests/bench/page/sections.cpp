@@ -35,6 +35,7 @@ Section slim_section(const Measurements& measurements, const std::vector<std::st
   return section;
 }
 
+/// A line a run, without their plots.
 Section training_section(const Measurements& measurements, const std::string& kind,
                          const std::vector<std::string>& names) {
   Section section{.name = kind, .text = head(measurements, names), .plots = {}};
@@ -53,9 +54,15 @@ Section training_section(const Measurements& measurements, const std::string& ki
          number_or_none(run.at("seconds"), "{:.0f}")});
   }
   section.text += table.text();
+  return section;
+}
+
+Section train_section(const Measurements& measurements, const std::vector<std::string>& names) {
+  Section section = training_section(measurements, "train", names);
   for (const std::string& name : names)
-    add_plot(section, measurements.file(name, "log.svg"),
-             name.substr(kind.size() + 1) + ": loss against steps, PSNR against seconds");
+    add_plot(
+        section, measurements.file(name, "log.svg"),
+        name.substr(std::string("train-").size()) + ": loss against steps, PSNR against seconds");
   return section;
 }
 
@@ -76,8 +83,7 @@ constexpr Kind kinds[] = {
     {"stages", stages_section},
     {"slim", slim_section},
     {"agreement", agreement_section},
-    {"train",
-     [](const auto& all, const auto& names) { return training_section(all, "train", names); }},
+    {"train", train_section},
     {"ablation",
      [](const auto& all, const auto& names) { return training_section(all, "ablation", names); }},
 };
