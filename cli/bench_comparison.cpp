@@ -23,8 +23,9 @@ const BenchMeasurement* find(const BenchResult& result, const BenchMeasurement& 
 }
 
 std::string described(const BenchMeasurement& m) {
-  return fmt::format("{}, {}, {} ({}x{})", m.configuration, m.camera_set, m.size, m.width,
-                     m.height);
+  const std::string pixels = fmt::format("{}x{}", m.width, m.height);
+  return fmt::format("{}, {}, {}", m.configuration, m.camera_set,
+                     m.size == pixels ? pixels : m.size + " (" + pixels + ")");
 }
 
 BenchRatio ratio_of(const BenchMeasurement& now, const BenchMeasurement& then) {

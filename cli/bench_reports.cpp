@@ -10,6 +10,7 @@
 #include "cli/bench_markdown.hpp"
 #include "cli/bench_page.hpp"
 #include "cli/bench_plots.hpp"
+#include "cli/bench_words.hpp"
 #include "cli/output_argument.hpp"
 #include "formats/existing_path.hpp"
 #include "formats/input.hpp"
@@ -21,6 +22,11 @@ namespace tureen::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* json_name = "bench.json";
+constexpr const char* csv_name = "bench.csv";
+constexpr const char* markdown_name = "bench.md";
+constexpr const char* page_name = "bench.html";
 
 /// Larger pictures would make a page that nobody wants to open.
 constexpr std::uintmax_t most_picture_bytes = 1u << 20;
@@ -60,6 +66,23 @@ std::vector<DrawnFigure> write_plots(const BenchResult& result, const fs::path& 
   return drawn.value_or(std::vector<DrawnFigure>());
 }
 
+/// What --fail-slower cannot say of what has passed.
+void say_limits(const BenchComparison& comparison, double percent) {
+  const auto coarse = [&](const BenchRatio& ratio) {
+    return ratio.spread && 2 * *ratio.spread > percent / 100;
+  };
+  const auto count = std::count_if(comparison.ratios.begin(), comparison.ratios.end(), coarse);
+  if (count > 0)
+    say(fmt::format(
+        "--fail-slower: of {} of {} twice the spread is more than {:g} %, and only what "
+        "is slower by more than that would have been noticed",
+        count, comparison.ratios.size(), percent));
+  if (!comparison.unmatched.empty())
+    say(fmt::format("--fail-slower: {} that only one of the two measured {} not judged",
+                    count_text(int(comparison.unmatched.size()), "row"),
+                    comparison.unmatched.size() == 1 ? "is" : "are"));
+}
+
 void say_comparison(const BenchComparison& comparison, const std::string& file) {
   say_list("against " + file + ":", comparison_lines(comparison));
   if (comparison.ratios.empty()) say("nothing was measured in both");
@@ -88,7 +111,7 @@ void add_bench_report_options(CLI::App& command, BenchReportOptions& options) {
                   "exit code 1 where something is slower than before by more than so many percent "
                   "and by more than twice the spread")
       ->option_text("PERCENT")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0.0, 1e4))
       ->needs(against);
 }
 
@@ -110,6 +133,9 @@ std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& optio
     make_folder(each);
     require_writable_folder(each);
   }
+  if (!options.folder.empty())
+    for (const char* name : {json_name, csv_name, markdown_name, page_name})
+      require_writable_file(fs::path(options.folder) / name);
   if (!options.csv.empty()) require_writable_file(options.csv);
   return then;
 }
@@ -124,16 +150,16 @@ ExitCode report_bench(const BenchReportOptions& options, const BenchResult& now,
   if (!options.plots.empty()) write_plots(now, options.plots);
   if (!options.folder.empty()) {
     const fs::path folder = options.folder;
-    write_and_say(folder / "bench.json", json_text(to_json(now)));
-    write_and_say(folder / "bench.csv", bench_csv(now));
-    write_and_say(folder / "bench.md", bench_markdown(now));
+    write_and_say(folder / json_name, json_text(to_json(now)));
+    write_and_say(folder / csv_name, bench_csv(now));
+    write_and_say(folder / markdown_name, bench_markdown(now));
     BenchPage page{.figures = write_plots(now, folder),
                    .pictures = pictures_of(now),
                    .compared_with = options.against,
                    .comparison = comparison ? &*comparison : nullptr,
                    .missing = {}};
     if (page.figures.empty()) page.missing = gnuplot_missing;
-    write_and_say(folder / "bench.html", bench_page(now, page));
+    write_and_say(folder / page_name, bench_page(now, page));
   }
 
   if (!options.fail_slower || !comparison) return ExitCode::done;
@@ -145,6 +171,7 @@ ExitCode report_bench(const BenchReportOptions& options, const BenchResult& now,
         fmt::format("--fail-slower cannot judge {} of {}, of fewer than {} rounds: --seconds gives "
                     "them more time",
                     unknown, comparison->ratios.size(), least_rounds));
+  say_limits(*comparison, *options.fail_slower);
   const std::vector<BenchRatio> slower = slower_than(*comparison, *options.fail_slower);
   for (const BenchRatio& ratio : slower)
     say(fmt::format("slower than allowed: {}, {}, {}: {:.3f} times as long", ratio.configuration,

@@ -35,8 +35,12 @@ CameraSet parse_set(const std::string& text) {
   const std::string word = text.substr(0, colon);
   const auto counted_set = [&](CameraSet::Kind kind) {
     CameraSet set{.kind = kind, .count = default_views, .name = {}};
-    if (colon != std::string::npos)
-      set.count = parse_integer(text.substr(colon + 1), 1, most_views);
+    try {
+      if (colon != std::string::npos)
+        set.count = parse_integer(text.substr(colon + 1), 1, most_views);
+    } catch (const UsageError& error) {
+      throw UsageError("--cameras " + text + ": " + error.what());
+    }
     set.name = word + ":" + std::to_string(set.count);
     return set;
   };

@@ -32,7 +32,7 @@ std::optional<std::uint64_t> published_bytes(const Scene& scene, const fs::path&
 
 /// Sentences on what a slim file loses; they are stored in it, too.
 std::vector<std::string> losses_of(const SlimResult& result, std::size_t with_photographs) {
-  return {
+  std::vector<std::string> losses{
       with_photographs
           ? fmt::format("Slim: coded with a loss of {:.3f} dB of PSNR against {} (from {:.2f} dB); "
                         "against the scene as it was: {:.2f} dB.",
@@ -46,6 +46,13 @@ std::vector<std::string> losses_of(const SlimResult& result, std::size_t with_ph
                   "steps of {:.1f}/255 in the mean; what no alpha shows is not kept.",
                   result.position_bits, result.geometry_loss.db, result.color_step),
       "Slim: only Tureen reads this file; it has no mesh for other glTF viewers."};
+  const auto texels = std::get<LatticeTexture>(result.kept.appearance).texel_count();
+  if (result.unseen_texels > 0)
+    losses.push_back(fmt::format(
+        "Slim: {} of {} texels are kept only roughly: {} recorded views show nothing of "
+        "them. Seen from elsewhere, or from nearer, they are smoother than they were.",
+        counted(result.unseen_texels), counted(texels), result.weighing_views));
+  return losses;
 }
 
 }  // namespace
@@ -100,13 +107,6 @@ Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& g
     result = slim(scene, request);
   }
   std::vector<std::string> lost = losses_of(result, request.photographs.size());
-  const auto& texture = std::get<LatticeTexture>(result.kept.appearance);
-  if (result.unseen_texels > 0)
-    lost.push_back(fmt::format(
-        "Slim: {} of {} texels are kept but roughly: {} views that the scene is looked at from "
-        "show "
-        "nothing of them. Seen from elsewhere, or from nearer, they are smoother than they were.",
-        counted(result.unseen_texels), counted(texture.texel_count()), result.weighing_views));
   const auto all_faces = std::get<TriangleSoup>(scene.primitives).triangles.size();
   if (result.unseen > 0)
     lost.push_back(fmt::format(
@@ -145,6 +145,7 @@ Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& g
                {"render_psnr_db", result.loss.render_psnr_db},
                {"views", result.views},
                {"faces_left_out", result.unseen},
+               {"texels_kept_roughly", result.unseen_texels},
                {"lost", lost}};
   if (published) {
     json["published_bytes"] = *published;

@@ -46,7 +46,7 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
       "scene (default): the knobs that the scene's file sets, where four views keep its promise; "
       "faithful: drawn as it is stored")
       ->option_text("NAME");
-  command.add_flag_callback(
+  CLI::Option* no_specialise = command.add_flag_callback(
       "--no-specialise", [&options] { options.plan.specialise = false; },
       "leave nothing out that the scene does not need (for comparisons)");
   command
@@ -60,7 +60,8 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
           "docs/leaving-out.md with commas between, as alpha-test,background")
       ->option_text("NAMES")
       ->delimiter(',')
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->excludes(no_specialise);
   add_choice<ShadingStage>(command, "--shading", options.plan.shading_stage,
                            {{"measured", ShadingStage::measured},
                             {"fragment", ShadingStage::fragment},

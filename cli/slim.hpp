@@ -48,8 +48,8 @@ struct SlimResult {
 /// they get the fewest bits that keep within it. Faces that a lower level says to half a step of 8
 /// bits get that level. Then the largest step of colour that keeps all of it within the bound is
 /// found by bisection and a scan, with finer alphas where the coarse ones alone lose more.
-/// Texels of which the recorded views show little, or whose features hardly move the colour, may be
-/// off further than others (SlimImportance).
+/// Texels of which the recorded views show little, where there are eight or more, or whose features
+/// hardly move the colour, may be off further than others (SlimImportance).
 ///
 /// Throws UsageError where the scene has no lattice texture or nothing keeps within the bound, and
 /// what drawing throws.

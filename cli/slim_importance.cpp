@@ -13,16 +13,18 @@ namespace tureen::cli {
 namespace {
 
 /// What a bit is worth, in squared steps (SlimTexelOptions). Of 0.2, 0.25, 0.3, 0.4 and 0.5 this
-/// gave the fewest bytes at the same loss (the fox). Where every value takes bits, less than half
-/// of it would be right: a step more is a bit less and four times the twelfth of a step squared.
-/// But what is smoothed away so is a good part noise of training.
+/// gave the fewest bytes at the same loss (the fox). Where every value takes bits, 2 ln 2 / 12 =
+/// 0.12 would be right: a step twice as large, whose errors are a twelfth of its square, is a bit
+/// less.
 constexpr double bit_price = 0.3;
 /// How much of what a face's pixels and sensitivity differ from the mean its step follows; the
 /// rest is in the weights. Against 0 and 0.4 this saves 1 % of the fox's bytes at the same loss.
 constexpr double follow = 0.2;
-/// Of the mean, what a texel weighs at least: recorded views do not show what others may. Three
-/// times as much costs 1.5 % more bytes (the fox).
+/// How visible a texel counts at least, of the mean: recorded views do not show what others may.
+/// Three times as much costs 1.5 % more bytes (the fox).
 constexpr double least_shown = 0.01;
+/// Where the sensitivity of faces is measured: with steps of about what is chosen in the end.
+constexpr double usual_step = 8;
 
 using Features = std::array<double, LatticeTexture::features>;
 
@@ -55,7 +57,7 @@ std::uint8_t nearest_multiplier(double wanted) {
 }  // namespace
 
 SlimImportance::SlimImportance(const gl::Context& context, const TriangleSoup& soup,
-                               glm::dvec3 origin, std::span<const Camera> views)
+                               glm::dvec3 origin, std::span<const Camera> views, bool by_texel)
     : texture_(std::get<LatticeTexture>(soup.appearance)),
       weights_(count_visible_texels(context, soup, origin, views,
                                     [](double) { throw_if_interrupted(); })) {
@@ -77,9 +79,9 @@ SlimImportance::SlimImportance(const gl::Context& context, const TriangleSoup& s
   const double texel_shown = mean_shown * double(shown.size()) / std::max(texels, 1.0);
 
   const std::vector<double> moved =
-      face_sensitivity(soup, eyes, steps_of(slim_basis(texture_, sensitivity_, 8)));
+      face_sensitivity(soup, eyes, steps_of(slim_basis(texture_, sensitivity_, usual_step)));
   const double mean_moved = mean(moved);
-  unseen_texels_ = std::size_t(std::count(weights_.begin(), weights_.end(), 0.0f));
+  if (by_texel) unseen_texels_ = std::size_t(std::count(weights_.begin(), weights_.end(), 0.0f));
   std::vector<float> weights(weights_.size(), 0.0f);
   for (std::size_t t = 0; t < shown.size(); ++t) {
     // Faces of one colour, whatever their features: 1/1000 of the mean is none.
@@ -88,21 +90,23 @@ SlimImportance::SlimImportance(const gl::Context& context, const TriangleSoup& s
     const LatticePatch& patch = texture_.patches[t];
     for (std::uint32_t i = 0; i < lattice::texel_count(int(patch.level)); ++i) {
       const std::size_t texel = patch.first_texel + i;
-      const double seen = std::max(double(weights_[texel]) / texel_shown, least_shown) * sees;
+      const double visible =
+          by_texel ? std::max(double(weights_[texel]) / texel_shown, least_shown) : 1;
       // Faces that share texels: what the most sensitive one makes of them.
-      weights[texel] = std::max(weights[texel], float(seen));
+      weights[texel] = std::max(weights[texel], float(visible * sees));
     }
   }
   weights_ = std::move(weights);
 }
 
-SlimTexelOptions SlimImportance::options(double step, std::uint8_t alpha_step) const {
+SlimTexelOptions SlimImportance::options(double step, std::uint8_t alpha_step,
+                                         bool bits_have_a_price) const {
   return {.basis = slim_basis(texture_, sensitivity_, step, weights_),
           .feature_step = slim_fraction,
           .alpha_step = alpha_step,
           .coarseness = coarseness_,
           .weights = weights_,
-          .bit_price = bit_price};
+          .bit_price = bits_have_a_price ? bit_price : 0};
 }
 
 }  // namespace tureen::cli

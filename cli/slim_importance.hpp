@@ -18,14 +18,15 @@ namespace tureen::cli {
 class SlimImportance {
  public:
   /// Of a soup with a lattice texture, which must outlive it, as these views (at least one) show
-  /// it.
+  /// it. Unless `by_texel` the texels of a face weigh alike, whichever of them show.
   SlimImportance(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
-                 std::span<const Camera> views);
+                 std::span<const Camera> views, bool by_texel);
 
-  /// How texels are coded in steps of so many 255ths of colour in the mean (slim_basis).
-  SlimTexelOptions options(double step, std::uint8_t alpha_step) const;
+  /// How texels are coded in steps of so many 255ths of colour in the mean (slim_basis). Where bits
+  /// have no price, each value comes as near as its step allows.
+  SlimTexelOptions options(double step, std::uint8_t alpha_step, bool bits_have_a_price) const;
 
-  /// Texels of which no pixel of the views takes anything.
+  /// Texels of which no pixel of the views takes anything, and which weigh less for it.
   std::size_t unseen_texels() const { return unseen_texels_; }
 
  private:

@@ -138,7 +138,10 @@ void write_chosen_preset(const Options& options, Scene& scene, TradeoffReport& r
   scene.preset = chosen.preset;
   scene.preset->promised_psnr_db = report.promised_psnr_db;
   const fs::path path = preset_path(options);
-  say_list("Writing " + path.string() + ":", write_scene(scene, path));
+  std::vector<std::string> sentences = write_scene(scene, path);
+  if (is_faithful(chosen.preset))
+    sentences.push_back("no knob is turned: nothing cheaper was within the bounds");
+  say_list("Writing " + path.string() + ":", sentences);
   report.preset_written = path.string();
   report.output.push_back(path.string());
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cli/bench_words.hpp"
 #include "cli/gnuplot.hpp"
 #include "cli/html_page.hpp"
 
@@ -21,8 +22,8 @@ void add_facts(HtmlPage& page, const TradeoffReport& report) {
       {"device", fmt::format("{} ({}), {}{}", device.renderer, device.context, device.version,
                              device.software ? "; software: never compare with a GPU" : "")},
       {"machine", fmt::format("{}, {} cores", report.machine.cpu, report.machine.cores)},
-      {"views", fmt::format("{} of {} x {} ({}), {} rounds", report.views, report.width,
-                            report.height, report.camera_set, report.rounds)},
+      {"views", fmt::format("{} of {} x {} ({}), {}", report.views, report.width, report.height,
+                            report.camera_set, count_text(report.rounds, "round"))},
       {"times", report.clock},
       {"program", fmt::format("tureen {} ({}), {}", report.program.version, report.program.commit,
                               report.date)}};

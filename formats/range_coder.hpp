@@ -18,8 +18,8 @@
 namespace tureen {
 
 /// How likely the next bit is 0: the mean of a quick and a slow estimate, 16 bits each. The quick
-/// one follows what changes, the slow one is right in the long run. Both begin as the mean of all
-/// bits so far, so that a model that is seldom asked has learnt, too.
+/// one follows what changes, the slow one is right in the long run. Both begin as the mean of the
+/// bits so far and of half a bit that is either, so that a model that is seldom asked learns, too.
 class BitModel {
  public:
   // No constant expression: compilers would work out arrays of thousands of them one by one.
@@ -39,8 +39,8 @@ class BitModel {
  private:
   static constexpr int slow_pace = 128;
 
-  /// The estimate after a bit that counts one in `pace`, or in the bits so far and a half, if those
-  /// are fewer.
+  /// The estimate after a bit that counts one in `pace`, or in the bits so far and one and a half,
+  /// if those are fewer. Quotients are cut off towards zero: decoders everywhere must agree.
   std::uint16_t moved(int estimate, int bit, int pace) const {
     const int by = (bit ? 0 : 65535) - estimate, halves = 2 * bits_ + 3;
     return static_cast<std::uint16_t>(estimate + (halves < 2 * pace ? 2 * by / halves : by / pace));

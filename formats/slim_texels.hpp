@@ -5,8 +5,10 @@
 // corners of a face are predicted from the face before it, each texel of a finer level as the mean
 // of the two that it lies between. What the prediction misses is divided by a step and coded by a
 // range coder whose probabilities depend on the channel, the level and what was missed nearby.
-// Predictions are made from what the decoder has, so errors never add up: a value is off by a step
-// at most, however fine its level. A face that is smooth on a level takes next to nothing for it.
+// Predictions are made from what the decoder has, so errors never add up: where bits have no price
+// a value is off by half a step at most, however fine its level. Where they have one the encoder
+// weighs each error against the bits that it saves (rate-distortion optimised quantisation). A face
+// that is smooth on a level takes next to nothing for it.
 //
 // Nothing that nobody sees is kept: features where no alpha around reaches 1/2, and alpha where
 // everything around is on one side of 1/2 but for the side.
@@ -44,8 +46,9 @@ struct SlimTexelOptions {
   /// How much a squared error of a feature counts, one a texel of the texture, at least 0. Empty: 1
   /// for all. Texels of equal patches get the larger one.
   std::vector<float> weights = {};
-  /// How many squared feature steps, times their weight, a value may be off further to take a bit
-  /// less, at least 0. None: each is the nearest multiple of its step.
+  /// How many squared feature steps, times their weight, a value on the finest level of its patch
+  /// may be off further to take a bit less, at least 0; on coarser levels errors count more. None:
+  /// each is the nearest multiple of its step.
   double bit_price = 0;
 };
 
@@ -58,7 +61,7 @@ std::vector<std::byte> encode_slim_texels(const LatticeTexture& texture,
 /// What encode_slim_texels made them of, without a color MLP: byte texels, patches in the order of
 /// their first face. Throws InputError, which names `file`, for bytes that were cut short or hold
 /// another number of faces, or take more memory than the budget has left. At most 4,096 bytes are
-/// allocated for each one that is there.
+/// allocated for each one that is there, and half a mebibyte for the probabilities.
 LatticeTexture decode_slim_texels(std::span<const std::byte> bytes, std::size_t faces,
                                   const std::string& file, MemoryBudget budget = MemoryBudget());
 

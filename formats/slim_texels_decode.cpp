@@ -54,11 +54,12 @@ LatticeTexture decode_slim_texels(std::span<const std::byte> bytes, std::size_t 
   if (header.feature_step == 0 || header.alpha_step == 0) throw damaged();
 
   RangeDecoder coder(bytes.subspan(sizeof(header)));
-  const auto models = std::make_unique<Models>();
   const auto take = [&](std::uint64_t count, std::size_t each) {
     if (!budget.take(count, each))
       throw InputError({file, {}, {}}, budget.refusal("the slim texels"));
   };
+  take(1, sizeof(Models));
+  const auto models = std::make_unique<Models>();
   // Its entry among patch_of_face, twice over where that grows; one of its own patches, with what
   // is known of it meanwhile; and its place in the texture.
   take(faces, 3 * sizeof(std::uint32_t) + 3 * sizeof(Patch) + 36 + sizeof(LatticePatch));

@@ -135,27 +135,28 @@ class Chooser {
     return miss < 0 ? -size : size;
   }
 
-  /// Of the two multiples around the value and none at all what costs least: error and bits.
+  /// Of the nearest multiple, the next one towards none and none what costs least: error and bits.
   template <class Price>
   int feature_steps(const Question& asked, const Price& price) const {
     const int miss = value_of(asked) - asked.prediction;
-    const int most = nearest(miss, asked.step);
-    if (most == 0 || options_.bit_price == 0) return most;
+    const int closest = nearest(miss, asked.step);
+    if (closest == 0 || options_.bit_price == 0) return closest;
     const double weight =
         level_weights_[std::size_t(asked.finer_levels)] * double(weights_[asked.texel]);
     const auto cost = [&](int steps) {
       const double off = miss - steps * asked.step;
       return weight * off * off + options_.bit_price * price(steps);
     };
-    int best = most;
-    double least = cost(most);
-    for (const int fewer : {most > 0 ? most - 1 : most + 1, 0}) {
-      const double at = cost(fewer);
-      if (at < least) {
-        least = at;
-        best = fewer;
-      }
-    }
+    int best = closest;
+    double least = cost(closest);
+    const auto consider = [&](int steps) {
+      const double at = cost(steps);
+      if (at >= least) return;
+      least = at;
+      best = steps;
+    };
+    consider(closest > 0 ? closest - 1 : closest + 1);
+    if (std::abs(closest) > 1) consider(0);
     return best;
   }
 

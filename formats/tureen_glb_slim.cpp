@@ -32,7 +32,6 @@ std::vector<std::string> write_slim_glb(const Scene& scene, const SlimSoup& slim
   if (const auto reason = defect(*soup))
     throw UsageError("the scene cannot be written: " + *reason);
   std::vector<std::string> losses;
-  if (scene.preset) losses.push_back("the scene's preset is left out; it was made for other data");
   BinaryPlan plan;
   json extension = info_json(scene, losses);
   if (scene.preset)

@@ -47,22 +47,23 @@ std::vector<float> count_visible_texels(const gl::Context& context, const Triang
                                         glm::dvec3 origin, std::span<const Camera> views,
                                         const std::function<void(double)>& progress) {
   const auto& texture = std::get<LatticeTexture>(soup.appearance);
-  std::vector<float> shown(texture.texel_count(), 0.0f);
-  visit_pictures(
-      context, soup, origin, views, progress,
-      [&](const Camera& view, const std::vector<std::uint32_t>& faces) {
-        const oracle::Rays rays(soup, origin, view);
-        rays.visit_faces(0, view.height, [&](int column, int row, const oracle::Hit& hit) {
-          const std::size_t pixel =
-              std::size_t(row) * std::size_t(view.width) + std::size_t(column);
-          if (faces[pixel] != hit.face) return;
-          const LatticePatch& patch = texture.patches[hit.face];
-          const auto at = lattice::footprint(int(patch.level), hit.b0, hit.b1);
-          for (std::size_t k = 0; k < 3; ++k)
-            shown[patch.first_texel + at.texels[k]] += float(std::max(at.weights[k], 0.0));
-        });
-      });
-  return shown;
+  // Millions of small weights: in floats their sum would stop growing.
+  std::vector<double> shown(texture.texel_count(), 0.0);
+  visit_pictures(context, soup, origin, views, progress,
+                 [&](const Camera& view, const std::vector<std::uint32_t>& faces) {
+                   const oracle::Rays rays(soup, origin, view);
+                   rays.visit_faces(
+                       0, view.height, [&](int column, int row, const oracle::Hit& hit) {
+                         const std::size_t pixel =
+                             std::size_t(row) * std::size_t(view.width) + std::size_t(column);
+                         if (faces[pixel] != hit.face) return;
+                         const LatticePatch& patch = texture.patches[hit.face];
+                         const auto at = lattice::footprint(int(patch.level), hit.b0, hit.b1);
+                         for (std::size_t k = 0; k < 3; ++k)
+                           shown[patch.first_texel + at.texels[k]] += std::max(at.weights[k], 0.0);
+                       });
+                 });
+  return {shown.begin(), shown.end()};
 }
 
 std::vector<std::uint8_t> most_visible(std::span<const std::uint64_t> pixels, double fraction) {

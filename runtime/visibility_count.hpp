@@ -1,4 +1,4 @@
-// How much of each face a list of views shows, and which faces that makes worth drawing.
+// How much of each face and texel a list of views shows, and which faces that makes worth drawing.
 #pragma once
 
 #include <cstdint>

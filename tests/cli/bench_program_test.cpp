@@ -223,7 +223,7 @@ struct Refusal {
 TEST_F(Bench, RefusesWhatMakesNoSense) {
   const Refusal refusals[] = {
       {{"--cameras", "hemispher"}, 2, "not 'hemispher', of which there is none"},
-      {{"--cameras", "orbit:0"}, 2, "'0' is no whole number from 1 to 1000"},
+      {{"--cameras", "orbit:0"}, 2, "--cameras orbit:0: '0' is no whole number from 1 to 1000"},
       {{"--cameras", "dataset"}, 2, "wants a DATASET"},
       {{"--size", "half"}, 2, "'half' is a size of recorded cameras only"},
       {{"--size", "64"}, 2, "'64' is no size"},

@@ -23,6 +23,7 @@ namespace {
 
 using test::check_markup;
 using test::Markup;
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::Each;
 using ::testing::ElementsAre;
@@ -425,6 +426,11 @@ TEST(BenchReports, WritesTheFolderAndFailsOnlyWhereAsked) {
                              .plots = {},
                              .against = (folder / "old.json").string(),
                              .fail_slower = {}};
+  // Every name is tried before minutes of measuring.
+  std::filesystem::create_directories(folder / "new/out/bench.csv");
+  EXPECT_THROW(prepare_bench_reports(options), OutputError);
+  EXPECT_FALSE(std::filesystem::exists(folder / "new/out/bench.json"));
+  std::filesystem::remove(folder / "new/out/bench.csv");
   const auto before = prepare_bench_reports(options);
   ASSERT_TRUE(before);
   EXPECT_EQ(report_bench(options, now, before), ExitCode::done);
@@ -438,7 +444,18 @@ TEST(BenchReports, WritesTheFolderAndFailsOnlyWhereAsked) {
   options.folder.clear();
   options.csv.clear();
   options.fail_slower = 60;
+  ::testing::internal::CaptureStderr();
   EXPECT_EQ(report_bench(options, now, before), ExitCode::done);
+  EXPECT_THAT(::testing::internal::GetCapturedStderr(), Not(HasSubstr("--fail-slower")));
+  // A pass says what it could not have seen.
+  BenchResult fewer = now;
+  fewer.measurements.erase(fewer.measurements.begin());
+  fewer.measurements.front().frame_ms.spread = 0.31;
+  ::testing::internal::CaptureStderr();
+  EXPECT_EQ(report_bench(options, fewer, before), ExitCode::done);
+  EXPECT_THAT(::testing::internal::GetCapturedStderr(),
+              AllOf(HasSubstr("of 1 of 7 twice the spread is more than 60 %"),
+                    HasSubstr("1 row that only one of the two measured is not judged")));
   options.fail_slower = 40;
   EXPECT_EQ(report_bench(options, now, before), ExitCode::check_failed);
   for (BenchMeasurement& m : now.measurements) m.frame_ms.rounds = 2;

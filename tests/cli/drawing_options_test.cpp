@@ -24,6 +24,7 @@ TEST(DrawingOptions, WhatIsToBeKeptIsNotLeftOut) {
             LeaveOutSet::all().without(LeaveOut::background).without(LeaveOut::alpha_test));
   EXPECT_TRUE(parsed("--keep background").specialise);
   EXPECT_FALSE(parsed("--no-specialise").specialise);
+  EXPECT_THROW(parsed("--no-specialise --keep background"), CLI::ExcludesError);
 }
 
 TEST(DrawingOptions, TheShadingStageIsMeasuredUnlessToldOtherwise) {

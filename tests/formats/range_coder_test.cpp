@@ -77,8 +77,8 @@ TEST(RangeCoder, ModelsThatAreSeldomAskedLearnToo) {
   std::vector<BitModel> models(1000);
   for (int i = 0; i < 8; ++i)
     for (BitModel& model : models) encoder.bit(model, 1);
-  // The mean of 1/2 and of all ones so far makes some 2 bits of eight, where one in sixteen at a
-  // time would make 5.4.
+  // The mean of the ones so far and half a bit makes 1.8 bits of eight, where a sixteenth of the
+  // way at a time would make 6.
   EXPECT_LT(double(encoder.finish().size()), 2.5 * 1000 / 8);
 }
 

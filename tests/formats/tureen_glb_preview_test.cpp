@@ -221,8 +221,9 @@ TEST(GlbPreviewFile, RefusesWhatIsWrongAlready) {
     const std::size_t index = j["extensions"][x]["triangles"];
     return j["accessors"][index];
   };
-  expect_refused_json([&](auto& j) { j["extensions"][x]["version"] = 2; },
-                      "only versions 1 and 3 are read");
+  for (const int version : {0, 2, 4})
+    expect_refused_json([&](auto& j) { j["extensions"][x]["version"] = version; },
+                        "only versions 1 and 3 are read");
   expect_refused_json([&](auto& j) { color(j)["count"] = 14; },
                       "COLOR_0: its accessor has 14 elements, expected 15");
   expect_refused_json([&](auto& j) { color(j)["componentType"] = 5126; }, "expected 5123");

@@ -86,10 +86,10 @@ TEST(VisibilityCount, TexelsOfAFaceComeToItsPixels) {
 }
 
 TEST(VisibilityCount, TexelsBehindOthersAreNotShown) {
-  // Two faces of level 2, and before the second a third one that hides it but for a corner.
+  // Two faces of level 2, and before the second a third one that hides a part of it.
   TriangleSoup soup;
   soup.positions = {{-2, 0, 0}, {-1, 0, 0},     {-2, 1, 0},     {0, 0, 0},    {1, 0, 0},
-                    {0, 1, 0},  {-.5, -.5, .1}, {1.5, -.5, .1}, {-.5, .5, .1}};
+                    {0, 1, 0},  {-.5, -.5, .1}, {2.1, -.5, .1}, {-.5, .8, .1}};
   soup.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
   LatticeTexture texture;
   texture.patches = {{0, 2}, {15, 2}, {30, 2}};
@@ -98,19 +98,22 @@ TEST(VisibilityCount, TexelsBehindOthersAreNotShown) {
   const Camera camera = look_at({0, 0.3, 50}, {0, 0.3, 0}, {0, 1, 0}, 0.06, 400, 300);
   const auto shown = count_visible_texels(context(), soup, glm::dvec3(0), std::array{camera});
   for (std::size_t i = 0; i < 15; ++i) EXPECT_GT(shown[i], 100.0f) << i;
+  int hidden = 0;
   for (std::size_t i = 0; i < 15; ++i) {
     // Texel (x, y) of the second face lies at the world's (y/4, 1 - x/4 - y/4); what is hidden lies
-    // under the line from (1.5, -.5) to (-.5, .5).
+    // under the line from (2.1, -.5) to (-.5, .8).
     const auto at = lattice::texel_coordinates(std::uint32_t(i));
     const double across = at.y / 4.0, up = 1 - at.x / 4.0 - at.y / 4.0;
-    const double above = up - (0.25 - 0.5 * across);
+    const double above = up - (0.55 - 0.5 * across);
     // A texel reaches a quarter to each side: pixels within it take some of it.
     if (above > 0.05) {
       EXPECT_GT(shown[15 + i], 1.0f) << i;
     } else if (above < -0.26) {
       EXPECT_EQ(shown[15 + i], 0.0f) << i;
+      ++hidden;
     }
   }
+  EXPECT_EQ(hidden, 4);
 }
 
 TEST(VisibilityCount, FlatSoupsAreCountedToo) {
