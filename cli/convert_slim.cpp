@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <optional>
 
+#include "cli/bench_words.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/scene_page.hpp"
@@ -18,6 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// How the note begins that every slim file has.
+constexpr const char* coded_note = "Slim: coded";
+
 /// Bytes of the scene as DiffSoup publishes it: two PNGs, a PLY and JSON, written beside `glb` and
 /// removed again. None where it cannot be written so.
 std::optional<std::uint64_t> published_bytes(const Scene& scene, const fs::path& glb) {
@@ -30,22 +36,58 @@ std::optional<std::uint64_t> published_bytes(const Scene& scene, const fs::path&
   return bytes_on_disk(folder.path());
 }
 
+/// What the loss was measured on: "9 photographs of fox at scale 0.25", or recorded cameras.
+std::string measured_on(const SlimResult& result, const DatasetArgument& photographs) {
+  if (photographs.path.empty()) return result.views;
+  // Whose folder it was is nobody's business.
+  const fs::path folder = fs::path(photographs.path).lexically_normal();
+  const fs::path name = folder.has_filename() ? folder.filename() : folder.parent_path().filename();
+  return fmt::format("{} of {} at scale {:g}", result.views, name.string(),
+                     photographs.options.scale);
+}
+
+/// What makes the promise of the loss worth less than it seems.
+std::vector<std::string> doubts_about(const Scene& scene, const SlimResult& result,
+                                      bool with_photographs) {
+  /// A model that trained on any of the photographs comes nearer than this to all of them; what
+  /// does not is most likely another scene.
+  constexpr double hopeless_db = 12;
+  std::vector<std::string> doubts;
+  const auto& notes = scene.info.notes;
+  if (std::any_of(notes.begin(), notes.end(),
+                  [](const std::string& note) { return note.starts_with(coded_note); }))
+    doubts.push_back(
+        "Slim: the scene was slim already: what it lost then comes on top, and is not counted.");
+  if (with_photographs && result.model_db < hopeless_db)
+    doubts.push_back(
+        fmt::format("Slim: THE SCENE COMES ONLY WITHIN {:.2f} DB OF THESE PHOTOGRAPHS: most likely "
+                    "they show another one, and the loss means nothing.",
+                    result.model_db));
+  if (!with_photographs && scene.cameras.size() < telling_cameras)
+    doubts.push_back(fmt::format(
+        "Slim: with only {} nobody knows where the scene is looked at from: the loss is estimated "
+        "from above and around. From within it may be much more; --photographs measures it.",
+        count_text(int(scene.cameras.size()), "recorded camera")));
+  return doubts;
+}
+
 /// Sentences on what a slim file loses; they are stored in it, too.
-std::vector<std::string> losses_of(const SlimResult& result, std::size_t with_photographs) {
+std::vector<std::string> losses_of(const SlimResult& result, const DatasetArgument& photographs) {
+  const std::string views = measured_on(result, photographs);
   std::vector<std::string> losses{
-      with_photographs
-          ? fmt::format("Slim: coded with a loss of {:.3f} dB of PSNR against {} (from {:.2f} dB); "
-                        "against the scene as it was: {:.2f} dB.",
-                        result.loss.db, result.views, result.model_db, result.loss.render_psnr_db)
-          : fmt::format(
-                "Slim: coded with a loss of {:.3f} dB of PSNR or less, estimated for a scene "
-                "that comes within {:.0f} dB of its photographs; against the scene as it was, "
-                "in {}: {:.2f} dB.",
-                result.loss.db, result.model_db, result.views, result.loss.render_psnr_db),
+      photographs.path.empty()
+          ? fmt::format("{} with a loss of {:.3f} dB of PSNR or less, estimated for a scene that "
+                        "comes within {:.0f} dB of its photographs; against the scene as it was, "
+                        "in {}: {:.2f} dB.",
+                        coded_note, result.loss.db, result.model_db, views,
+                        result.loss.render_psnr_db)
+          : fmt::format("{} with a loss of {:.3f} dB of PSNR against {} (from {:.2f} dB); against "
+                        "the scene as it was: {:.2f} dB.",
+                        coded_note, result.loss.db, views, result.model_db,
+                        result.loss.render_psnr_db),
       fmt::format("Slim: positions on a grid of {} bits ({:.3f} dB of the loss), colours in "
                   "steps of {:.1f}/255 in the mean; what no alpha shows is not kept.",
-                  result.position_bits, result.geometry_loss.db, result.color_step),
-      "Slim: only Tureen reads this file; it has no mesh for other glTF viewers."};
+                  result.position_bits, result.geometry_loss.db, result.color_step)};
   const auto texels = std::get<LatticeTexture>(result.kept.appearance).texel_count();
   if (result.unseen_texels > 0)
     losses.push_back(fmt::format(
@@ -88,7 +130,9 @@ void add_slim_arguments(CLI::App& command, SlimArguments& arguments) {
 }
 
 void check_slim(const SlimArguments& arguments, const fs::path& output) {
-  if (arguments.slim && output.extension() != ".glb" && !is_scene_page(output))
+  std::string extension = output.extension().string();
+  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+  if (arguments.slim && extension != ".glb" && !is_scene_page(output))
     throw UsageError("--slim writes .glb files and .html pages of them, not " + output.string());
 }
 
@@ -106,7 +150,9 @@ Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& g
     request.progress = [&](double fraction) { progress.update(fraction); };
     result = slim(scene, request);
   }
-  std::vector<std::string> lost = losses_of(result, request.photographs.size());
+  std::vector<std::string> lost = doubts_about(scene, result, !request.photographs.empty());
+  for (std::string& sentence : losses_of(result, arguments.photographs))
+    lost.push_back(std::move(sentence));
   const auto all_faces = std::get<TriangleSoup>(scene.primitives).triangles.size();
   if (result.unseen > 0)
     lost.push_back(fmt::format(
@@ -120,6 +166,8 @@ Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& g
     lost.push_back(fmt::format("Slim: of {} recorded cameras only the first is kept.", cameras));
   }
   scene.info.notes.insert(scene.info.notes.end(), lost.begin(), lost.end());
+  // Of this file, not of the scene that it holds.
+  lost.push_back("Slim: only Tureen reads this file; it has no mesh for other glTF viewers.");
   for (std::string& sentence : write_slim_glb(scene, result.soup, glb))
     lost.push_back(std::move(sentence));
 

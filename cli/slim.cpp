@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "cli/interrupt.hpp"
 #include "cli/slim_importance.hpp"
@@ -35,31 +36,28 @@ constexpr int bisections = 7;
 /// first that keeps within the bound.
 constexpr int scan_steps = 12;
 constexpr double scan_by = 0.005;
-/// Fewer recorded cameras do not say where a scene is looked at from: texels that they do not show
-/// weigh as much as others. Slim files keep one; what trains takes dozens.
-constexpr std::size_t telling_cameras = 8;
 /// Alpha is seen only by where it reaches 1/2: 0, 85, 170, 255 do for trained soups. Where alpha is
 /// about 1/2 everywhere, as before training, its edges take more; 1 keeps every alpha near one.
 constexpr std::array<std::uint8_t, 3> alpha_steps = {85, 17, 1};
 
-/// Without the faces that neither the recorded cameras nor others show, unless `all` are asked for.
-TriangleSoup kept_faces(const gl::Context& context, const Scene& scene,
-                        std::span<const Camera> recorded, bool all) {
+/// Without the faces that none of the views shows.
+TriangleSoup seen_faces(const gl::Context& context, const Scene& scene,
+                        std::span<const Camera> views) {
   const auto& soup = std::get<TriangleSoup>(scene.primitives);
-  std::vector<std::uint8_t> keeps(soup.triangles.size(), 1);
-  // Without recorded cameras nobody knows where the scene is looked at from.
-  if (!all && !scene.cameras.empty()) {
-    std::fill(keeps.begin(), keeps.end(), std::uint8_t(0));
-    const std::vector<Camera> others =
-        hemisphere(subject_of(scene), views_around, {.width = 800, .height = 600});
-    for (const std::span<const Camera> views : {recorded, std::span<const Camera>(others)}) {
-      const auto pixels = count_visible_pixels(context, soup, scene.origin, views,
-                                               [](double) { throw_if_interrupted(); });
-      for (std::size_t t = 0; t < keeps.size(); ++t)
-        if (pixels[t] > 0) keeps[t] = 1;
-    }
-  }
+  const auto pixels = count_visible_pixels(context, soup, scene.origin, views,
+                                           [](double) { throw_if_interrupted(); });
+  std::vector<std::uint8_t> keeps;
+  for (const std::uint64_t count : pixels) keeps.push_back(count > 0);
   return keep_faces(soup, keeps);
+}
+
+/// Those that faces may be left out by: all that the loss and the weights know, and some more.
+std::vector<Camera> all_views(const Scene& scene, const std::vector<Camera>& views) {
+  std::vector<Camera> all = views;
+  if (scene.cameras.size() < telling_cameras) return all;
+  const auto around = hemisphere(subject_of(scene), views_around, {.width = 800, .height = 600});
+  all.insert(all.end(), around.begin(), around.end());
+  return all;
 }
 
 /// Each face at the smallest level that says the same to half a step of 8 bits. What a finer level
@@ -79,9 +77,15 @@ class Search {
         context_(gl::Context::create(request.context)),
         judge_(context_, scene, request.photographs),
         views_(slim_views(scene, counted_views)),
-        soup_(kept_faces(context_, scene, views_, request.keep_unseen)),
-        unseen_(std::get<TriangleSoup>(scene.primitives).triangles.size() -
-                soup_.triangles.size()) {}
+        soup_(std::get<TriangleSoup>(scene.primitives)) {
+    // Without recorded cameras nobody knows where the scene is looked at from.
+    if (request.keep_unseen || scene.cameras.empty()) return;
+    const std::vector<Camera> all = all_views(scene, views_);
+    const std::size_t faces = soup_.triangles.size();
+    soup_ = seen_faces(context_, scene, all);
+    unseen_ = faces - soup_.triangles.size();
+    seeing_views_ = all.size();
+  }
 
   SlimResult run() {
     SlimResult result;
@@ -95,11 +99,11 @@ class Search {
     });
     if (!found)
       throw UsageError(fmt::format(
-          "a slim file of this scene loses more than the {:g} dB that are allowed, however fine "
-          "its steps",
-          request_.max_loss_db));
+          "a slim file of this scene loses more than the {:g} dB that are allowed: {:.4f} dB with "
+          "the finest steps",
+          request_.max_loss_db, least_loss_));
     result.unseen = unseen_;
-    result.seeing_views = views_.size() + views_around;
+    result.seeing_views = seeing_views_;
     result.weighing_views = views_.size();
     result.unseen_texels = importance.unseen_texels();
     result.kept = std::move(soup_);
@@ -115,6 +119,7 @@ class Search {
           encode_slim(soup_, {.position_bits = result.position_bits,
                               .texels = importance.options(step, alpha_step, bits_have_a_price)});
       const SlimLoss loss = judge_.loss(decode_slim(slim, soup_));
+      least_loss_ = std::min(least_loss_, loss.db);
       if (loss.db > request_.max_loss_db) return false;
       result.color_step = step;
       result.loss = loss;
@@ -166,7 +171,8 @@ class Search {
   SlimJudge judge_;
   std::vector<Camera> views_;
   TriangleSoup soup_;
-  std::size_t unseen_;
+  std::size_t unseen_ = 0, seeing_views_ = 0;
+  double least_loss_ = std::numeric_limits<double>::infinity();
   int tries_ = 0;
 };
 

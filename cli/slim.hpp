@@ -29,7 +29,7 @@ struct SlimResult {
   TriangleSoup kept;
   SlimSoup soup;                 // of them
   std::size_t unseen = 0;        // faces that are left out
-  std::size_t seeing_views = 0;  // that see none of those
+  std::size_t seeing_views = 0;  // that see none of those, where any may be left out
   /// Texels of the kept faces of which none of `weighing_views` shows anything: kept, but only
   /// roughly.
   std::size_t unseen_texels = 0;
@@ -42,14 +42,14 @@ struct SlimResult {
   std::string views;      // that it was measured on: SlimJudge::views
 };
 
-/// Where the scene has recorded cameras, faces that neither they (200 at most) nor 64 views from
-/// the upper half of a sphere around it show in any pixel are left out; without them nobody knows
+/// Where the scene has recorded cameras, faces that neither they (200 at most) nor views from the
+/// upper half of a sphere around it (64) show in any pixel are left out; without them nobody knows
 /// where the scene is looked at from, and all faces stay. Positions may take a twelfth of the loss:
 /// they get the fewest bits that keep within it. Faces that a lower level says to half a step of 8
 /// bits get that level. Then the largest step of colour that keeps all of it within the bound is
 /// found by bisection and a scan, with finer alphas where the coarse ones alone lose more.
-/// Texels of which the recorded views show little, where there are eight or more, or whose features
-/// hardly move the colour, may be off further than others (SlimImportance).
+/// Texels of which the recorded views show little, where there are telling_cameras, or whose
+/// features hardly move the colour, may be off further than others (SlimImportance).
 ///
 /// Throws UsageError where the scene has no lattice texture or nothing keeps within the bound, and
 /// what drawing throws.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cli/bench_words.hpp"
 #include "cli/interrupt.hpp"
 #include "runtime/camera_sets.hpp"
 #include "runtime/renderer.hpp"
@@ -30,12 +31,14 @@ Camera limited(const Camera& camera) {
 std::vector<Camera> slim_views(const Scene& scene, std::size_t count) {
   std::vector<Camera> views;
   const std::size_t recorded = scene.cameras.size();
-  if (recorded == 0)
-    return hemisphere(subject_of(scene), int(std::min(count, views_around)),
-                      {.width = most_pixels, .height = 600});
   const std::size_t some = std::min(count, recorded);
   for (std::size_t i = 0; i < some; ++i)
     views.push_back(limited(scene.cameras[i * recorded / some]));
+  if (recorded >= telling_cameras || some == count) return views;
+  const std::vector<Camera> around =
+      hemisphere(subject_of(scene), int(std::min(count - some, views_around)),
+                 {.width = most_pixels, .height = 600});
+  views.insert(views.end(), around.begin(), around.end());
   return views;
 }
 
@@ -47,12 +50,15 @@ SlimJudge::SlimJudge(const gl::Context& context, const Scene& scene,
     photographs_.push_back(composited(to_float(photograph.image), background_));
   }
   if (!photographs_.empty()) {
-    views_ = fmt::format("{} photographs", photographs_.size());
+    views_ = count_text(int(photographs_.size()), "photograph");
   } else {
     cameras_ = slim_views(scene, judged_views);
-    views_ = scene.cameras.empty() ? fmt::format("{} views from above and around", cameras_.size())
-                                   : fmt::format("{} of its {} recorded cameras", cameras_.size(),
-                                                 scene.cameras.size());
+    const std::size_t recorded = scene.cameras.size();
+    views_ = recorded >= telling_cameras
+                 ? fmt::format("{} of its {} recorded cameras", cameras_.size(), recorded)
+                 : fmt::format("{} and {} from above and around",
+                               count_text(int(recorded), "recorded camera"),
+                               count_text(int(cameras_.size() - recorded), "view"));
   }
   std::vector<double> errors;
   draw(std::get<TriangleSoup>(scene.primitives), [&](std::size_t i, const ImageF& picture) {

@@ -26,8 +26,8 @@ class SlimJudge {
   /// Above what trained soups reach: better models lose more by the same error.
   static constexpr double assumed_model_db = 32;
 
-  /// Draws the scene from where the photographs were taken, or, where there are none, from up to 24
-  /// of its recorded cameras, or of a half sphere around it. `context` must outlive the judge and
+  /// Draws the scene from where the photographs were taken, or, where there are none, from
+  /// slim_views, up to 24. `context` must outlive the judge and
   /// be current. The scene holds a soup without defect().
   SlimJudge(const gl::Context& context, const Scene& scene,
             std::span<const Photograph> photographs);
@@ -36,7 +36,8 @@ class SlimJudge {
 
   /// Mean PSNR of the scene itself against the photographs; assumed_model_db without them.
   double model_db() const { return model_db_; }
-  /// "25 photographs", "24 of its 100 recorded cameras", ..
+  /// "25 photographs", "24 of its 100 recorded cameras", "1 recorded camera and 23 views from above
+  /// and around", ..
   const std::string& views() const { return views_; }
 
  private:
@@ -55,9 +56,13 @@ class SlimJudge {
   double model_db_ = assumed_model_db;
 };
 
-/// Recorded cameras of the scene, at most `count`, evenly spread over their order; where it has
-/// none, so many, but no more than 64, on the upper half of a sphere around it. None is larger than
-/// 800 pixels a side.
+/// Fewer recorded cameras do not say where a scene is looked at from: slim files keep one, what
+/// trains takes dozens.
+inline constexpr std::size_t telling_cameras = 8;
+
+/// Recorded cameras of the scene, at most `count`, evenly spread over their order; where they are
+/// fewer than telling_cameras also so many, but no more than 64, on the upper half of a sphere
+/// around it. None is larger than 800 pixels a side.
 std::vector<Camera> slim_views(const Scene& scene, std::size_t count);
 
 }  // namespace tureen::cli
