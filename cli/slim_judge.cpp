@@ -56,9 +56,9 @@ SlimJudge::SlimJudge(const gl::Context& context, const Scene& scene,
     const std::size_t recorded = scene.cameras.size();
     views_ = recorded >= telling_cameras
                  ? fmt::format("{} of its {} recorded cameras", cameras_.size(), recorded)
-                 : fmt::format("{} and {} from above and around",
-                               count_text(int(recorded), "recorded camera"),
-                               count_text(int(cameras_.size() - recorded), "view"));
+                 : count_text(int(cameras_.size() - recorded), "view") + " from above and around";
+    if (recorded > 0 && recorded < telling_cameras)
+      views_ = count_text(int(recorded), "recorded camera") + " and " + views_;
   }
   std::vector<double> errors;
   draw(std::get<TriangleSoup>(scene.primitives), [&](std::size_t i, const ImageF& picture) {

@@ -51,6 +51,7 @@ std::vector<float> count_visible_texels(const gl::Context& context, const Triang
   std::vector<double> shown(texture.texel_count(), 0.0);
   visit_pictures(context, soup, origin, views, progress,
                  [&](const Camera& view, const std::vector<std::uint32_t>& faces) {
+                   assert(faces.size() == std::size_t(view.width) * std::size_t(view.height));
                    const oracle::Rays rays(soup, origin, view);
                    rays.visit_faces(
                        0, view.height, [&](int column, int row, const oracle::Hit& hit) {

@@ -237,6 +237,19 @@ TEST_F(Program, ConvertSlimIsSmallAndSaysWhatItLost) {
   EXPECT_EQ(back.cameras.size(), 1u);
   EXPECT_THAT(run({"info", "slim.glb"}).err, HasSubstr("Slim: coded with a loss of"));
 
+  // What makes the promise worth less is said.
+  EXPECT_THAT(result.err,
+              HasSubstr("with only 2 recorded cameras nobody knows where the scene is"));
+  EXPECT_THAT(result.err, Not(HasSubstr("slim already")));
+  const ChildResult again = run({"convert", "slim.glb", "SLIM.GLB", "--slim", "--max-error", "3"});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_THAT(again.err, HasSubstr("the scene was slim already"));
+  const ChildResult finer =
+      run({"convert", "part.glb", "fine.glb", "--slim", "--max-error", "0.0001"});
+  EXPECT_EQ(finer.exit_code, 2);
+  EXPECT_THAT(finer.err, HasSubstr("dB with the finest steps"));
+  EXPECT_FALSE(exists("fine.glb"));
+
   EXPECT_THAT(run({"convert", "part.glb", "slim.ply", "--slim"}).err,
               HasSubstr("--slim writes .glb files and .html pages of them, not slim.ply"));
   EXPECT_EQ(run({"convert", "part.glb", "other.glb", "--max-error", "1"}).exit_code, 2);
