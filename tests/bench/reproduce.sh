@@ -4,7 +4,7 @@
 set -uo pipefail
 
 bin=build/release/bin data=../shared/data
-usual_parts=(load frames leave_out growth tradeoff slim agreement step browser)
+usual_parts=(load frames gpu leave_out growth tradeoff slim agreement step browser)
 training_parts=(train-fox train-bottle train-lego train-example ablations)
 all_parts=("${usual_parts[@]}" training "${training_parts[@]}")
 quick='' processor='' check='' ficus='' fox='' photographs='' lego='' bottle=''
@@ -19,6 +19,8 @@ Measures, leaves tables, plots and pages in build/bench, and writes what pages o
 their marks; without a PART all but training:
   load        how long a soup of 2,000,000 triangles takes to load from each format, and its memory
   frames      tureen bench: frame times across sizes, on every scene there is
+  gpu         frames from 1280x720 to 3840x2160, 2,000,000 triangles among them, against what the device can do at
+              most, the published pipeline and the shading stages; left out where OpenGL is software
   leave_out   what each thing that a plan leaves out gains
   growth      the time of a frame against triangles, pixels and overdraw, and its model
   tradeoff    tureen tradeoff: error against run time, on every scene there is and over all of them
@@ -202,6 +204,32 @@ measure_stages() {
     [[ -z $processor ]] || options+=(--processor-time)
     measure "stages-${scene_names[i]}" "$bin/tureen" bench "${scene_paths[i]}" "${options[@]}" \
       -o "$out/stages-${scene_names[i]}"
+  done
+}
+
+# Against the device's ceilings: what it takes for triangles without colours, and for a copy of the pixels.
+part_gpu() {
+  [[ -n $quick ]] || ! draws_in_software || { skip "gpu: OpenGL is drawn by the processor here"; return; }
+  local i only options dense=$out/scenes/dense.glb names=("${scene_names[@]}") paths=("${scene_paths[@]}")
+  if [[ -n $ficus || -n $quick ]]; then
+    "$bin/make_dense_soup" "${ficus:-examples/soup.glb}" "$dense" ${quick:+--triangles 50000} &&
+      names+=(dense) paths+=("$dense")
+  else
+    skip "gpu-dense: the ficus soup is not here, give it with --ficus"
+  fi
+  for i in "${!names[@]}"; do
+    only=tureen,published,triangles,copy,tureen-fragment,tureen-compute
+    case ${names[i]} in
+      ficus | dense) only=tureen,triangles,copy options=(--cameras orbit:8) ;; # opaque: forward, with no network
+      cloud-*) options=(--cameras "${paths[i]}") ;;
+      *) options=(--cameras hemisphere:8) ;;
+    esac
+    if [[ $quick ]]; then
+      options+=(--size 160x90 --rounds 1 --seconds 1)
+    else
+      options+=(--size '1280x720,1920x1080,3840x2160' --rounds 5 --seconds 60)
+    fi
+    measure "gpu-${names[i]}" "$bin/tureen" bench "${paths[i]}" "${options[@]}" --only "$only" -o "$out/gpu-${names[i]}"
   done
 }
 
@@ -400,7 +428,7 @@ for part in "${training_parts[@]}"; do
 done
 [[ -n $fox || ! -e $training/fox.glb ]] || fox=$training/fox.glb
 case " ${parts[*]} " in
-  *" frames "* | *" leave_out "* | *" tradeoff "*) find_scenes ;;
+  *" frames "* | *" gpu "* | *" leave_out "* | *" tradeoff "*) find_scenes ;;
 esac
 for part in "${parts[@]}"; do
   [[ " training ${training_parts[*]} " == *" $part "* ]] || "part_$part"

@@ -114,6 +114,16 @@ std::string bench_device(const BenchResult& bench) {
   return text + "; " + bench.protocol.clock + ".";
 }
 
+/// How much of what the device can do the first configuration reaches, at least: a frame takes as
+/// long as the slower of the ceilings.
+std::string of_ceiling(const Place& place, const BenchMeasurement& first) {
+  double ceiling_ms = 0;
+  for (const char* name : {"triangles", "copy"})
+    if (const BenchMeasurement* ceiling = place.find(name))
+      ceiling_ms = std::max(ceiling_ms, ceiling->frame_ms.min_of_medians);
+  return ceiling_ms > 0 ? percent(ceiling_ms / first.frame_ms.min_of_medians) : cli::not_known;
+}
+
 }  // namespace
 
 Section bench_section(const Measurements& measurements, const std::string& name) {
@@ -152,6 +162,41 @@ Section stages_section(const Measurements& measurements, const std::vector<std::
                     std::to_string(fragment->frame_ms.rounds), std::to_string(fragment->frames),
                     percent(place.aa_spread), cli::spread_text(fragment->frame_ms),
                     best_text(*fragment), against_first(place, second, *fragment)});
+  }
+  section.text += table.text() + marks_text(table.text());
+  return section;
+}
+
+Section gpu_section(const Measurements& measurements, const std::vector<std::string>& names) {
+  Section section{.name = "gpu", .text = head(measurements, names), .plots = {}};
+  section.text += bench_device(bench_of(measurements, names.front())) +
+                  " FPS is 1000 divided by the mean in milliseconds. Of the ceiling: the slower of "
+                  "triangles and copy against the first. In brackets " +
+                  cli::ratio_sentence + "\n\n";
+  const std::vector<std::string> others{"published", "triangles", "copy", "tureen-fragment",
+                                        "tureen-compute"};
+  std::vector<std::string> headings{"scene",      "triangles", "cameras", "size", "frames",
+                                    "A/A spread", "spread",    "ours ms", "FPS",  "of the ceiling"};
+  for (const std::string& other : others) headings.push_back(other + " ms (times)");
+  Table table(headings);
+  for (const std::string& name : names) {
+    const BenchResult bench = bench_of(measurements, name);
+    for (const Place& place : places_of(bench)) {
+      const BenchMeasurement* ours = place.find("tureen");
+      if (!ours) continue;
+      std::vector<std::string> cells{name.substr(std::string("gpu-").size()),
+                                     std::to_string(bench.scene.triangles),
+                                     place.cameras,
+                                     place.size,
+                                     std::to_string(ours->frames),
+                                     percent(place.aa_spread),
+                                     cli::spread_text(ours->frame_ms),
+                                     best_text(*ours),
+                                     fmt::format("{:.0f}", ours->fps),
+                                     of_ceiling(place, *ours)};
+      for (const std::string& other : others) cells.push_back(against_first(place, other, *ours));
+      table.line(cells);
+    }
   }
   section.text += table.text() + marks_text(table.text());
   return section;

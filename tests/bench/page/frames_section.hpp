@@ -15,4 +15,7 @@ Section bench_section(const Measurements& measurements, const std::string& name)
 /// The shading pass as a fragment and as a compute shader, all scenes in one table.
 Section stages_section(const Measurements& measurements, const std::vector<std::string>& names);
 
+/// Frames against the device's ceilings and the published pipeline, all scenes in one table.
+Section gpu_section(const Measurements& measurements, const std::vector<std::string>& names);
+
 }  // namespace tureen::test

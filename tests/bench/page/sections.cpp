@@ -80,6 +80,7 @@ struct Kind {
   Section (*section)(const Measurements&, const std::vector<std::string>&);
 };
 constexpr Kind kinds[] = {
+    {"gpu", gpu_section},
     {"stages", stages_section},
     {"slim", slim_section},
     {"agreement", agreement_section},

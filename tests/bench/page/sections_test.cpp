@@ -150,6 +150,24 @@ TEST_F(BenchPage, StagesOfAllScenesStandInOneTable) {
           "| fox | hemisphere:8 | 1280x720 | 15 | 240 | 2.0 % | 0.0 % | 10.0 | 25.0 (2.50) |"));
 }
 
+TEST_F(BenchPage, AGpuIsHeldAgainstItsCeilings) {
+  cli::BenchResult bench;
+  bench.scene.triangles = 15000;
+  bench.device.renderer = "a GPU";
+  bench.configurations = {{"tureen", {}, {}, 0, 0, 0}, {"published", {}, {}, 0, 0, 0}};
+  bench.measurements = {timed("tureen", "1280x720", 0.5), timed("published", "1280x720", 2),
+                        timed("triangles", "1280x720", 0.1), timed("copy", "1280x720", 0.4),
+                        timed("tureen", "640x360", 0.5)};
+  bench.measurements[0].fps = 1996;
+  measure("gpu-cloud", "");
+  write("gpu-cloud/bench.json", cli::to_json(bench).dump());
+  const std::string text = section("gpu").text;
+  EXPECT_THAT(text, HasSubstr("| cloud | 15000 | hemisphere:8 | 1280x720 | 240 | 2.0 % | 0.0 % | "
+                              "0.500 | 1996 | 80.0 % | 2.00 (4.00) | 0.100 (0.20) | "
+                              "0.400 (0.80) | – | – |"));
+  EXPECT_THAT(text, HasSubstr("| 640x360 | 240 | 2.0 % | 0.0 % | 0.500 | 0 | – | – |"));
+}
+
 TEST_F(BenchPage, AStudyTellsTheChoiceAndEveryKnobAlone) {
   nlohmann::json study = lego();
   auto& drawing = study["drawing"]["configurations"];
