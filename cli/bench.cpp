@@ -16,6 +16,7 @@
 #include "cli/import_option.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory_option.hpp"
+#include "cli/number_range.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/version.hpp"
@@ -34,7 +35,6 @@ struct Options {
   double seconds = 20;
   bool processor_time = false;
   BenchReportOptions reports;
-  bool json = false;
   std::vector<std::string> imports;    // of bench.html; none: measure the scene
   std::vector<std::string> arguments;  // all of them, as typed
 };
@@ -133,8 +133,7 @@ void check_arguments(const CLI::App& command, const Options& options) {
 
 ExitCode bench(const Options& options) {
   if (!options.imports.empty())
-    return import_benches(
-        {.files = options.imports, .reports = options.reports, .json = options.json});
+    return import_benches({.files = options.imports, .reports = options.reports});
   // Everything that can be wrong with the arguments is said before the scene is read.
   check(options.views);
   check(options.contestants);
@@ -145,7 +144,6 @@ ExitCode bench(const Options& options) {
   say_list("Plan of " + result.configurations.front().name + ":",
            result.configurations.front().plan);
   for (const std::string& line : bench_table(result)) say(line);
-  if (options.json) print_json(to_json(result));
   return report_bench(options.reports, result, then);
 }
 
@@ -187,19 +185,18 @@ written.)");
   command
       ->add_option("--rounds", options->rounds,
                    "how often the views are gone through at most, 5 by default")
-      ->check(CLI::Range(1, 10000))
+      ->check(between(1, 10000))
       ->option_text("N");
   command
       ->add_option("--seconds", options->seconds,
                    "make fewer rounds, but one at least, to be done in about this time; 20 by "
                    "default, 0 for no limit")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(between(0.0, 1e6))
       ->option_text("S");
   command->add_flag("--processor-time", options->processor_time,
                     "processor time of all threads instead of time that passed: for ratios on a "
                     "busy machine; software OpenGL only");
   add_bench_report_options(*command, options->reports);
-  command->add_flag("--json", options->json, "the result as JSON on standard output");
   add_import_option(*command, options->imports,
                     "tell what bench.html measured in a browser, a download of it each, instead of "
                     "measuring; several are put side by side");

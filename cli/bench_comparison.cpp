@@ -95,6 +95,43 @@ std::vector<BenchRatio> slower_than(const BenchComparison& comparison, double pe
   return result;
 }
 
+namespace {
+
+const char* verdict_word(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::unknown:
+      return "unknown";
+    case Verdict::equal:
+      return "equal";
+    case Verdict::faster:
+      return "faster";
+    case Verdict::slower:
+      return "slower";
+  }
+  return "";
+}
+
+}  // namespace
+
+Json to_json(const BenchComparison& comparison, const std::string& against) {
+  Json ratios = Json::array();
+  for (const BenchRatio& ratio : comparison.ratios)
+    ratios.push_back({{"configuration", ratio.configuration},
+                      {"camera_set", ratio.camera_set},
+                      {"size", ratio.size},
+                      {"then_ms", ratio.then_ms},
+                      {"now_ms", ratio.now_ms},
+                      {"ratio", ratio.ratio},
+                      {"spread", ratio.spread ? Json(*ratio.spread) : Json()},
+                      {"rounds", ratio.rounds},
+                      {"verdict", verdict_word(ratio.verdict)},
+                      {"same_pixels", ratio.same_pixels}});
+  return {{"against", against},
+          {"ratios", std::move(ratios)},
+          {"circumstances", comparison.circumstances},
+          {"unmatched", comparison.unmatched}};
+}
+
 std::vector<std::string> comparison_lines(const BenchComparison& comparison) {
   std::vector<std::string> lines;
   std::size_t name_width = 0;

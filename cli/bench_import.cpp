@@ -101,16 +101,16 @@ ExitCode import_benches(const BenchImport& import) {
         "--against compares one scene on one device, and the files hold {} of them", count));
   const std::optional<BenchResult> then = prepare_bench_reports(import.reports);
 
-  Json json = Json::array();
+  Json all = Json::array();
   for (const DeviceBench& device : devices)
     for (const BenchResult& result : device.results) {
       say_result(result);
-      json.push_back(to_json(result));
+      all.push_back(to_json(result));
     }
   if (devices.size() > 1)
     for (const std::string& line : device_lines(device_table(devices))) say(line);
-  if (import.json) print_json(count > 1 ? json : json.front());
   if (count == 1) return report_bench(import.reports, devices.front().results.front(), then);
+  if (import.reports.json) print_json(all);
   report_several(import.reports, devices);
   return ExitCode::done;
 }

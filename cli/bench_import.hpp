@@ -13,7 +13,6 @@ namespace tureen::cli {
 struct BenchImport {
   std::vector<std::string> files;  // one a device, at least one
   BenchReportOptions reports;
-  bool json = false;
 };
 
 /// Reads all files before it says or writes anything. Where they hold one scene, the reports are

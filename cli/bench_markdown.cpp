@@ -50,4 +50,22 @@ std::string bench_markdown(const BenchResult& result) {
   return text;
 }
 
+std::string comparison_markdown(const BenchComparison& comparison, const std::string& against) {
+  std::string text =
+      "\nAgainst " + markdown_cell(against) +
+      ":\n\n| configuration | cameras | size | ms then | ms now | times as long | spread | verdict "
+      "|\n|---|---|---|---|---|---|---|---|\n";
+  for (const BenchRatio& ratio : comparison.ratios)
+    text += fmt::format("| {} | {} | {} | {} | {} | {:.3f} | {} | {}{} |\n",
+                        markdown_cell(ratio.configuration), markdown_cell(ratio.camera_set),
+                        markdown_cell(ratio.size), ms(ratio.then_ms), ms(ratio.now_ms), ratio.ratio,
+                        ratio.spread ? fmt::format("{:.1f} %", 100 * *ratio.spread) : not_known,
+                        verdict_text(ratio.verdict, ratio.rounds),
+                        ratio.same_pixels ? "" : "; another picture");
+  std::string list;
+  for (const auto* sentences : {&comparison.circumstances, &comparison.unmatched})
+    for (const std::string& sentence : *sentences) list += "- " + markdown_cell(sentence) + "\n";
+  return text + (list.empty() ? "" : "\n" + list);
+}
+
 }  // namespace tureen::cli

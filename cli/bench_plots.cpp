@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <limits>
+#include <set>
 
 #include "cli/bench_words.hpp"
 #include "runtime/camera_sets.hpp"
@@ -59,6 +60,14 @@ class Lines {
 /// Software rasterisers are never to be mistaken for hardware.
 std::string device_of(const BenchResult& result) {
   return result.device.renderer + (result.device.software ? " (software)" : "");
+}
+
+/// Two at least: one says nothing about growth.
+bool has_sizes(const BenchResult& result, const std::string& cameras) {
+  std::set<double> sizes;
+  for (const BenchMeasurement& m : result.measurements)
+    if (m.camera_set == cameras) sizes.insert(megapixels(m));
+  return sizes.size() > 1;
 }
 
 Figure time_against_pixels(const BenchResult& result, const std::string& cameras) {
@@ -193,7 +202,7 @@ std::vector<Figure> ratio_bars(const BenchResult& result) {
 std::vector<Figure> bench_plots(const BenchResult& result) {
   std::vector<Figure> plots;
   for (const std::string& cameras : camera_sets(result)) {
-    plots.push_back(time_against_pixels(result, cameras));
+    if (has_sizes(result, cameras)) plots.push_back(time_against_pixels(result, cameras));
     for (Figure& plot : times_by_view(result, cameras)) plots.push_back(std::move(plot));
   }
   for (Figure& plot : ratio_bars(result)) plots.push_back(std::move(plot));

@@ -11,6 +11,7 @@
 #include "cli/bench_page.hpp"
 #include "cli/bench_plots.hpp"
 #include "cli/bench_words.hpp"
+#include "cli/number_range.hpp"
 #include "cli/output_argument.hpp"
 #include "formats/existing_path.hpp"
 #include "formats/input.hpp"
@@ -58,12 +59,24 @@ std::vector<BenchPage::Picture> pictures_of(const BenchResult& result) {
   return pictures;
 }
 
-/// Draws all plots into `folder`, and says so; none where gnuplot is missing, which it says, too.
-std::vector<DrawnFigure> write_plots(const BenchResult& result, const fs::path& folder) {
-  const auto drawn = write_figures(bench_plots(result), folder);
-  say(drawn ? fmt::format("wrote {} plots to {}", drawn->size(), folder.string())
+struct Plots {
+  std::vector<DrawnFigure> drawn;
+  std::string missing;  // why there are none; empty where there are
+};
+
+/// Draws all plots into `folder`, and says so, or why not.
+Plots write_plots(const BenchResult& result, const fs::path& folder) {
+  const std::vector<Figure> figures = bench_plots(result);
+  if (figures.empty()) {
+    Plots none{{}, "no plots: one size, one view and one configuration have nothing to compare"};
+    say(none.missing);
+    return none;
+  }
+  auto drawn = write_figures(figures, folder);
+  say(drawn ? fmt::format("wrote {} to {}", count_text(int(drawn->size()), "plot"), folder.string())
             : gnuplot_missing);
-  return drawn.value_or(std::vector<DrawnFigure>());
+  if (!drawn) return {{}, gnuplot_missing};
+  return {std::move(*drawn), {}};
 }
 
 /// What --fail-slower cannot say of what has passed.
@@ -111,8 +124,9 @@ void add_bench_report_options(CLI::App& command, BenchReportOptions& options) {
                   "exit code 1 where something is slower than before by more than so many percent "
                   "and by more than twice the spread")
       ->option_text("PERCENT")
-      ->check(CLI::Range(0.0, 1e4))
+      ->check(between(0.0, 1e4))
       ->needs(against);
+  command.add_flag("--json", options.json, "the result as JSON on standard output");
 }
 
 std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& options) {
@@ -145,20 +159,25 @@ ExitCode report_bench(const BenchReportOptions& options, const BenchResult& now,
   std::optional<BenchComparison> comparison;
   if (then) comparison = compare_benches(now, *then);
   if (comparison) say_comparison(*comparison, options.against);
+  Json told = to_json(now);
+  if (comparison) told["comparison"] = to_json(*comparison, options.against);
+  if (options.json) print_json(told);
 
   if (!options.csv.empty()) write_and_say(options.csv, bench_csv(now));
   if (!options.plots.empty()) write_plots(now, options.plots);
   if (!options.folder.empty()) {
     const fs::path folder = options.folder;
-    write_and_say(folder / json_name, json_text(to_json(now)));
+    write_and_say(folder / json_name, json_text(told));
     write_and_say(folder / csv_name, bench_csv(now));
-    write_and_say(folder / markdown_name, bench_markdown(now));
-    BenchPage page{.figures = write_plots(now, folder),
+    std::string markdown = bench_markdown(now);
+    if (comparison) markdown += comparison_markdown(*comparison, options.against);
+    write_and_say(folder / markdown_name, markdown);
+    Plots plots = write_plots(now, folder);
+    BenchPage page{.figures = std::move(plots.drawn),
                    .pictures = pictures_of(now),
                    .compared_with = options.against,
                    .comparison = comparison ? &*comparison : nullptr,
-                   .missing = {}};
-    if (page.figures.empty()) page.missing = gnuplot_missing;
+                   .missing = std::move(plots.missing)};
     write_and_say(folder / page_name, bench_page(now, page));
   }
 

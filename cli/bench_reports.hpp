@@ -17,9 +17,10 @@ struct BenchReportOptions {
   std::string plots;    // a folder
   std::string against;  // an earlier bench.json
   std::optional<double> fail_slower;
+  bool json = false;  // the result on standard output
 };
 
-/// --output, --csv, --plots, --against and --fail-slower.
+/// --output, --csv, --plots, --against, --fail-slower and --json.
 void add_bench_report_options(CLI::App& command, BenchReportOptions& options);
 
 /// To be called before anything is measured: reads what --against names, so that a bad file is

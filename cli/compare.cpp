@@ -9,6 +9,7 @@
 #include "cli/choice.hpp"
 #include "cli/commands.hpp"
 #include "cli/memory_option.hpp"
+#include "cli/number_range.hpp"
 #include "cli/output_argument.hpp"
 #include "cli/picture_file.hpp"
 #include "cli/report.hpp"
@@ -133,7 +134,7 @@ Exit codes: 0 done, 1 past --tolerance, 2 wrong usage, 3 a picture cannot be rea
   command
       ->add_option("--pixel-tolerance", options->metrics.pixel_tolerance,
                    "a pixel fails when a channel is off by more than this; 1/255 by default")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(between(0.0, 1.0))
       ->option_text("VALUE");
   std::vector<std::pair<std::string, SsimBorder>> borders;
   for (const SsimBorder border : {SsimBorder::zero_pad, SsimBorder::valid, SsimBorder::uniform7})

@@ -3,16 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 
 #include "cli/bench_words.hpp"
+#include "cli/number_range.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/scene_page.hpp"
 #include "cli/scratch.hpp"
 #include "cli/slim.hpp"
 #include "formats/diffsoup_export.hpp"
+#include "formats/extension.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {
@@ -36,22 +37,22 @@ std::optional<std::uint64_t> published_bytes(const Scene& scene, const fs::path&
   return bytes_on_disk(folder.path());
 }
 
+/// Whose folder it was is nobody's business.
+std::string name_of(const DatasetArgument& dataset) {
+  const fs::path folder = fs::path(dataset.path).lexically_normal();
+  return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
+}
+
 /// What the loss was measured on: "9 photographs of fox at scale 0.25", or recorded cameras.
 std::string measured_on(const SlimResult& result, const DatasetArgument& photographs) {
   if (photographs.path.empty()) return result.views;
-  // Whose folder it was is nobody's business.
-  const fs::path folder = fs::path(photographs.path).lexically_normal();
-  const fs::path name = folder.has_filename() ? folder.filename() : folder.parent_path().filename();
-  return fmt::format("{} of {} at scale {:g}", result.views, name.string(),
+  return fmt::format("{} of {} at scale {:g}", result.views, name_of(photographs),
                      photographs.options.scale);
 }
 
 /// What makes the promise of the loss worth less than it seems.
 std::vector<std::string> doubts_about(const Scene& scene, const SlimResult& result,
                                       bool with_photographs) {
-  // The worst of our trainings came to 21 dB of its test photographs (docs/benchmarks.md), a soup
-  // before those of another scene to 8.
-  constexpr double hopeless_db = 12;
   std::vector<std::string> doubts;
   const auto& notes = scene.info.notes;
   if (std::any_of(notes.begin(), notes.end(),
@@ -91,6 +92,10 @@ std::vector<std::string> losses_of(const SlimResult& result, const DatasetArgume
                   "steps of {:.1f}/255 in the mean; what no alpha shows is not kept.",
                   result.position_bits, result.geometry_loss.db, result.color_step)};
   const auto texels = std::get<LatticeTexture>(result.kept.appearance).texel_count();
+  if (result.lent_cameras > 0)
+    losses.push_back(fmt::format("Slim: what of the scene shows, {} of {} {}.",
+                                 count_text(int(result.lent_cameras), "training camera"),
+                                 name_of(photographs), result.lent_cameras == 1 ? "says" : "say"));
   if (result.unseen_texels > 0)
     losses.push_back(fmt::format(
         "Slim: {} of {} texels are kept only roughly: {} recorded views show nothing of "
@@ -109,7 +114,7 @@ void add_slim_arguments(CLI::App& command, SlimArguments& arguments) {
       .add_option("--max-error", arguments.max_error_db,
                   "with --slim: how many decibels of PSNR against photographs may be lost; 0.1 by "
                   "default")
-      ->check(CLI::Range(1e-4, 20.0))
+      ->check(between(1e-4, 20.0))
       ->option_text("DB")
       ->needs(slim);
   CLI::Option* photographs =
@@ -132,18 +137,20 @@ void add_slim_arguments(CLI::App& command, SlimArguments& arguments) {
 }
 
 void check_slim(const SlimArguments& arguments, const fs::path& output) {
-  std::string extension = output.extension().string();
-  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
-  if (arguments.slim && extension != ".glb" && !is_scene_page(output))
+  if (arguments.slim && extension_of(output) != ".glb" && !is_scene_page(output))
     throw UsageError("--slim writes .glb files and .html pages of them, not " + output.string());
 }
 
 Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& glb) {
   SlimRequest request{.max_loss_db = arguments.max_error_db, .keep_unseen = arguments.keep_unseen};
   if (!arguments.photographs.path.empty()) {
-    request.photographs = read(arguments.photographs, DatasetPart::test).test;
+    const bool tells = scene.cameras.size() >= telling_cameras;
+    Dataset dataset = read(arguments.photographs, tells ? DatasetPart::test : DatasetPart::all);
+    request.photographs = std::move(dataset.test);
     if (request.photographs.empty())
       throw InputError({arguments.photographs.path, {}, {}}, "it holds no test photographs");
+    for (const Photograph& photograph : dataset.train)
+      request.training_cameras.push_back(photograph.camera);
   }
   const std::optional<std::uint64_t> published = published_bytes(scene, glb);
   SlimResult result;

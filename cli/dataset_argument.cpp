@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cli/number_range.hpp"
 #include "cli/progress.hpp"
 #include "soup/error.hpp"
 
@@ -41,13 +42,13 @@ void add_dataset_argument(CLI::App& command, DatasetArgument& argument) {
       .add_option("--images", argument.options.images_folder,
                   "take the photographs of the folder images_N, which some datasets have beside "
                   "images, N times smaller")
-      ->check(CLI::Range(1, 64))
+      ->check(between(1, 64))
       ->option_text("N");
   command
       .add_option("--test-every", argument.options.test_every,
                   "where the dataset has no split of its own, every N-th photograph in name order "
                   "is a test view, from the first on; 8 by default")
-      ->check(CLI::Range(2, 1000000))
+      ->check(between(2, 1000000))
       ->option_text("N");
 }
 

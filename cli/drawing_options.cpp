@@ -1,6 +1,7 @@
 #include "cli/drawing_options.hpp"
 
 #include "cli/choice.hpp"
+#include "cli/number_range.hpp"
 #include "cli/progress.hpp"
 
 namespace tureen::cli {
@@ -73,7 +74,7 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
   CLI::Option* supersample = command.add_option_function<int>(
       "--supersample", [&options](int n) { preset_of(options).supersampling = n; },
       "smooth edges: N x N samples a pixel, 1 to 8; costs N x N times the pixels");
-  supersample->check(CLI::Range(1, 8))->option_text("N");
+  supersample->check(between(1, 8))->option_text("N");
 }
 
 void add_drawing_scale(CLI::App& command, DrawingOptions& options) {
@@ -81,7 +82,7 @@ void add_drawing_scale(CLI::App& command, DrawingOptions& options) {
       .add_option_function<double>(
           "--scale", [&options](double scale) { preset_of(options).resolution_scale = scale; },
           "faster and blurred: draw S of the rows and columns, 0.25 to 1, and enlarge")
-      ->check(CLI::Range(0.25, 1.0))
+      ->check(between(0.25, 1.0))
       ->excludes(command.get_option("--supersample"))
       ->option_text("S");
 }

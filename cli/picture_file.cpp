@@ -1,9 +1,9 @@
 #include "cli/picture_file.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 #include "formats/existing_path.hpp"
+#include "formats/extension.hpp"
 #include "formats/output.hpp"
 #include "formats/png.hpp"
 
@@ -59,10 +59,7 @@ void write_picture(const Image8& image, const std::filesystem::path& path) {
 }
 
 void require_png_name(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension != ".png")
+  if (extension_of(path) != ".png")
     throw UsageError("'" + path.string() + "' does not end in .png; pictures are written as PNG");
 }
 

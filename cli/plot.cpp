@@ -10,6 +10,7 @@
 #include "cli/output_argument.hpp"
 #include "cli/report.hpp"
 #include "cli/training_plot.hpp"
+#include "formats/extension.hpp"
 #include "formats/output.hpp"
 #include "soup/error.hpp"
 
@@ -71,7 +72,7 @@ Json report(const Options& options, const std::vector<TrainingRun>& runs) {
 }
 
 ExitCode plot(const Options& options) {
-  if (fs::path(options.output).extension() != ".svg")
+  if (extension_of(options.output) != ".svg")
     throw UsageError("'" + options.output + "' does not end in .svg; plots are written as SVG");
   if (!options.labels.empty() && options.labels.size() != options.logs.size())
     throw UsageError(fmt::format("{} labels for {} logs; give one for each, in their order",

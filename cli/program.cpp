@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <new>
 #include <optional>
@@ -97,19 +96,6 @@ std::optional<std::string> empty_argument(const CLI::App& command) {
   return std::nullopt;
 }
 
-/// Ranges of CLI11 let NaN through: it is neither below nor above them.
-void refuse_nan(CLI::App& app) {
-  const auto refusal = [](const std::string& text) {
-    double value = 0;
-    const bool is_nan = CLI::detail::lexical_cast(text, value) && std::isnan(value);
-    return is_nan ? text + " is not a number" : std::string();
-  };
-  for (CLI::Option* option : app.get_options())
-    if (option->get_type_name().starts_with("FLOAT")) option->check(refusal);
-  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
-    refuse_nan(*command);
-}
-
 /// CLI11 would take a mistyped subcommand for an argument too many.
 bool is_unknown_command(const CLI::App& program, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return false;
@@ -130,7 +116,6 @@ void add_commands(CLI::App& program, Action& action, const std::vector<std::stri
   add_bench(program, action, arguments);
   add_plot(program, action);
   add_tradeoff(program, action, arguments);
-  refuse_nan(program);
 }
 
 int run_program(int argc, char** argv) {

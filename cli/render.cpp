@@ -8,6 +8,7 @@
 #include "cli/drawing_options.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory_option.hpp"
+#include "cli/number_range.hpp"
 #include "cli/output_argument.hpp"
 #include "cli/picture_file.hpp"
 #include "cli/pictures.hpp"
@@ -224,7 +225,7 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
   command
       ->add_option("--frames", options->frames,
                    "draw so many frames more, after a warm-up, and tell the time of each")
-      ->check(CLI::Range(1, 1000000))
+      ->check(between(1, 1000000))
       ->excludes(show)
       ->option_text("N");
   command->add_flag("--json", options->json,

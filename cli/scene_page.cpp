@@ -1,8 +1,6 @@
 #include "cli/scene_page.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdlib>
 #include <optional>
 #include <string_view>
@@ -11,6 +9,7 @@
 #include "cli/base64.hpp"
 #include "cli/html_page.hpp"
 #include "cli/program_folder.hpp"
+#include "formats/extension.hpp"
 #include "formats/glb_container.hpp"
 #include "formats/input.hpp"
 #include "formats/output.hpp"
@@ -44,12 +43,7 @@ ScenePageTemplate read_template(const fs::path& path) {
 
 }  // namespace
 
-bool is_scene_page(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".html";
-}
+bool is_scene_page(const fs::path& path) { return extension_of(path) == ".html"; }
 
 bool is_our_glb(const fs::path& path) {
   if (!fs::is_regular_file(path)) return false;

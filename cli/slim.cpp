@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "cli/interrupt.hpp"
 #include "cli/slim_importance.hpp"
@@ -52,9 +53,10 @@ TriangleSoup seen_faces(const gl::Context& context, const Scene& scene,
 }
 
 /// Those that faces may be left out by: all that the loss and the weights know, and some more.
-std::vector<Camera> all_views(const Scene& scene, const std::vector<Camera>& views) {
+std::vector<Camera> all_views(const Scene& scene, std::span<const Camera> recorded,
+                              const std::vector<Camera>& views) {
   std::vector<Camera> all = views;
-  if (scene.cameras.size() < telling_cameras) return all;
+  if (recorded.size() < telling_cameras) return all;
   const auto around = hemisphere(subject_of(scene), views_around, {.width = 800, .height = 600});
   all.insert(all.end(), around.begin(), around.end());
   return all;
@@ -68,19 +70,26 @@ void lower_levels(TriangleSoup& soup) {
   texture = at_levels(texture, smallest_levels(texture, {}, interrupted), interrupted);
 }
 
+/// Whether training cameras tell more than the scene's own of where it is looked at from.
+bool lends_cameras(const Scene& scene, const SlimRequest& request, const SlimJudge& judge) {
+  return scene.cameras.size() < telling_cameras &&
+         scene.cameras.size() < request.training_cameras.size() && judge.model_db() >= hopeless_db;
+}
+
 class Search {
  public:
   Search(const Scene& scene, const SlimRequest& request)
       : request_(request),
         origin_(scene.origin),
-        weighs_texels_(scene.cameras.size() >= telling_cameras),
         context_(gl::Context::create(request.context)),
         judge_(context_, scene, request.photographs),
-        views_(slim_views(scene, counted_views)),
+        lends_cameras_(lends_cameras(scene, request, judge_)),
+        recorded_(lends_cameras_ ? request.training_cameras : scene.cameras),
+        views_(slim_views(scene, recorded_, counted_views)),
         soup_(std::get<TriangleSoup>(scene.primitives)) {
     // Without recorded cameras nobody knows where the scene is looked at from.
-    if (request.keep_unseen || scene.cameras.empty()) return;
-    const std::vector<Camera> all = all_views(scene, views_);
+    if (request.keep_unseen || recorded_.empty()) return;
+    const std::vector<Camera> all = all_views(scene, recorded_, views_);
     const std::size_t faces = soup_.triangles.size();
     soup_ = seen_faces(context_, scene, all);
     unseen_ = faces - soup_.triangles.size();
@@ -93,7 +102,8 @@ class Search {
     result.views = judge_.views();
     find_bits(result);
     lower_levels(soup_);
-    const SlimImportance importance(context_, soup_, origin_, views_, weighs_texels_);
+    const SlimImportance importance(context_, soup_, origin_, views_,
+                                    recorded_.size() >= telling_cameras);
     const bool found = std::any_of(alpha_steps.begin(), alpha_steps.end(), [&](std::uint8_t alpha) {
       return find_step(result, importance, alpha);
     });
@@ -105,6 +115,7 @@ class Search {
     result.unseen = unseen_;
     result.seeing_views = seeing_views_;
     result.weighing_views = views_.size();
+    result.lent_cameras = lends_cameras_ ? recorded_.size() : 0;
     result.unseen_texels = importance.unseen_texels();
     result.kept = std::move(soup_);
     return result;
@@ -166,9 +177,10 @@ class Search {
 
   const SlimRequest& request_;
   const glm::dvec3 origin_;
-  const bool weighs_texels_;
   gl::Context context_;
   SlimJudge judge_;
+  const bool lends_cameras_;
+  std::span<const Camera> recorded_;
   std::vector<Camera> views_;
   TriangleSoup soup_;
   std::size_t unseen_ = 0, seeing_views_ = 0;

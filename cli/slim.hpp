@@ -19,6 +19,9 @@ struct SlimRequest {
   bool keep_unseen = false;
   /// Empty: the loss is estimated from the scene's own pictures.
   std::vector<Photograph> photographs = {};
+  /// From where others of the same scene were taken: what they see counts as what recorded cameras
+  /// do, where the scene has fewer than telling_cameras and is that of the photographs.
+  std::vector<Camera> training_cameras = {};
   gl::ContextRequest context = {};
   /// Called now and then with the fraction done, 0..1; may throw to end the search.
   std::function<void(double)> progress = {};
@@ -34,6 +37,7 @@ struct SlimResult {
   /// roughly.
   std::size_t unseen_texels = 0;
   std::size_t weighing_views = 0;
+  std::size_t lent_cameras = 0;  // training cameras that stand for recorded ones
   SlimLoss loss;
   SlimLoss geometry_loss;  // the part of positions alone
   int position_bits = 0;
@@ -42,14 +46,15 @@ struct SlimResult {
   std::string views;      // that it was measured on: SlimJudge::views
 };
 
-/// Where the scene has recorded cameras, faces that neither they (200 at most) nor views from the
-/// upper half of a sphere around it (64) show in any pixel are left out; without them nobody knows
-/// where the scene is looked at from, and all faces stay. Positions may take a twelfth of the loss:
-/// they get the fewest bits that keep within it. Faces that a lower level says to half a step of 8
-/// bits get that level. Then the largest step of colour that keeps all of it within the bound is
-/// found by bisection and a scan, with finer alphas where the coarse ones alone lose more.
-/// Texels of which the recorded views show little, where there are telling_cameras, or whose
-/// features hardly move the colour, may be off further than others (SlimImportance).
+/// Where the scene has recorded cameras, or training cameras stand for them, faces that neither
+/// they (200 at most) nor views from the upper half of a sphere around it (64) show in any pixel
+/// are left out; without them nobody knows where the scene is looked at from, and all faces stay.
+/// Positions may take a twelfth of the loss: they get the fewest bits that keep within it. Faces
+/// that a lower level says to half a step of 8 bits get that level. Then the largest step of colour
+/// that keeps all of it within the bound is found by bisection and a scan, with finer alphas where
+/// the coarse ones alone lose more. Texels of which the recorded views show little, where there are
+/// telling_cameras, or whose features hardly move the colour, may be off further than others
+/// (SlimImportance).
 ///
 /// Throws UsageError where the scene has no lattice texture or nothing keeps within the bound, and
 /// what drawing throws.

@@ -28,13 +28,13 @@ Camera limited(const Camera& camera) {
 
 }  // namespace
 
-std::vector<Camera> slim_views(const Scene& scene, std::size_t count) {
+std::vector<Camera> slim_views(const Scene& scene, std::span<const Camera> recorded,
+                               std::size_t count) {
   std::vector<Camera> views;
-  const std::size_t recorded = scene.cameras.size();
-  const std::size_t some = std::min(count, recorded);
+  const std::size_t some = std::min(count, recorded.size());
   for (std::size_t i = 0; i < some; ++i)
-    views.push_back(limited(scene.cameras[i * recorded / some]));
-  if (recorded >= telling_cameras || some == count) return views;
+    views.push_back(limited(recorded[i * recorded.size() / some]));
+  if (recorded.size() >= telling_cameras || some == count) return views;
   const std::vector<Camera> around =
       hemisphere(subject_of(scene), int(std::min(count - some, views_around)),
                  {.width = most_pixels, .height = 600});
@@ -52,7 +52,7 @@ SlimJudge::SlimJudge(const gl::Context& context, const Scene& scene,
   if (!photographs_.empty()) {
     views_ = count_text(int(photographs_.size()), "photograph");
   } else {
-    cameras_ = slim_views(scene, judged_views);
+    cameras_ = slim_views(scene, scene.cameras, judged_views);
     const std::size_t recorded = scene.cameras.size();
     views_ = recorded >= telling_cameras
                  ? fmt::format("{} of its {} recorded cameras", cameras_.size(), recorded)

@@ -60,9 +60,15 @@ class SlimJudge {
 /// trains takes dozens.
 inline constexpr std::size_t telling_cameras = 8;
 
-/// Recorded cameras of the scene, at most `count`, evenly spread over their order; where they are
-/// fewer than telling_cameras also so many, but no more than 64, on the upper half of a sphere
-/// around it. None is larger than 800 pixels a side.
-std::vector<Camera> slim_views(const Scene& scene, std::size_t count);
+/// A scene that comes only so near to photographs, SlimJudge::model_db, is most likely not theirs:
+/// the worst of our trainings came to 21 dB of its test photographs (docs/benchmarks.md), a soup
+/// before those of another scene to 8.
+inline constexpr double hopeless_db = 12;
+
+/// Of the cameras from which the scene was recorded, at most `count`, evenly spread over their
+/// order; where they are fewer than telling_cameras also so many, but no more than 64, on the upper
+/// half of a sphere around it. None is larger than 800 pixels a side.
+std::vector<Camera> slim_views(const Scene& scene, std::span<const Camera> recorded,
+                               std::size_t count);
 
 }  // namespace tureen::cli

@@ -11,6 +11,7 @@
 #include "cli/import_option.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory_option.hpp"
+#include "cli/number_range.hpp"
 #include "cli/output_argument.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
@@ -23,6 +24,7 @@
 #include "cli/tradeoff_study.hpp"
 #include "cli/tradeoff_views.hpp"
 #include "cli/version.hpp"
+#include "formats/extension.hpp"
 #include "formats/output.hpp"
 #include "runtime/benchmark.hpp"
 #include "runtime/preset_check.hpp"
@@ -99,7 +101,7 @@ void require_writable_outputs(const Options& options) {
   if (!options.folder.empty()) require_writable_folder(options.folder);
   if (!options.write_preset) return;
   const fs::path path = preset_path(options);
-  if (path.extension() != ".glb")
+  if (extension_of(path) != ".glb")
     throw UsageError("'" + path.string() + "' does not end in .glb; presets are kept in our GLB");
   std::error_code error;
   if (fs::equivalent(path, options.scene.path, error))
@@ -366,28 +368,28 @@ on the device or cannot be written.)");
       ->option_text("SET[,SET..]")
       ->delimiter(',');
   command->add_option("--rounds", options->rounds, "how often all views are gone through")
-      ->check(CLI::Range(1, 1000))
+      ->check(between(1, 1000))
       ->option_text("N");
   command
       ->add_option("--combinations", options->combinations,
                    "at most so many combinations of the knobs that matter, of drawing and of "
                    "antialiasing ones each, 48 by default; 0 turns one knob at a time")
-      ->check(CLI::Range(0, 10000))
+      ->check(between(0, 10000))
       ->option_text("N");
   command
       ->add_option("--photographs", options->photographs,
                    "at most so many of the dataset's test photographs, evenly spread")
-      ->check(CLI::Range(1, 1000000))
+      ->check(between(1, 1000000))
       ->option_text("N");
   command
       ->add_option("--least-psnr", options->limits.least_psnr_db,
                    "E_render in dB that the choice keeps, 50 by default")
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(between(0.0, 100.0))
       ->option_text("DB");
   command
       ->add_option("--most-mismatch", options->limits.most_coverage_mismatch,
                    "the part of the pixels that the choice may cover wrongly, 1e-4 by default")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(between(0.0, 1.0))
       ->option_text("FRACTION");
   CLI::Option* preset =
       command

@@ -14,6 +14,7 @@
 #include "cli/held_out.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory_option.hpp"
+#include "cli/number_range.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/run_lock.hpp"
@@ -365,14 +366,14 @@ void add_file_options(CLI::App& command, Options& options) {
   command
       .add_option("--checkpoint-every", options.checkpoint_every,
                   "write OUT.checkpoint every N steps; every two minutes by default")
-      ->check(CLI::Range(1, 10'000'000))
+      ->check(between(1, 10'000'000))
       ->option_text("N");
   command.add_flag("--resume", options.resume,
                    "go on from OUT.checkpoint, to the same soup as without the break");
   command
       .add_option("--preview-every", options.preview_every,
                   "every N steps draw a test view beside its photograph into OUT.previews")
-      ->check(CLI::Range(1, 10'000'000))
+      ->check(between(1, 10'000'000))
       ->option_text("N");
   command
       .add_option("--export-diffsoup", options.diffsoup_export,
@@ -411,7 +412,7 @@ Exit codes: 0 done, 2 wrong usage, which a dataset or constants other than the c
                      "what does the arithmetic: auto (a GPU where one answers), cpu or cuda")
       ->option_text("NAME");
   command->add_option("--threads", options->threads, "of the processor; all cores by default")
-      ->check(CLI::Range(1, 1024))
+      ->check(between(1, 1024))
       ->option_text("N");
   command->add_flag("--print-config", options->print_config,
                     "print all constants of this run as JSON instead of training");

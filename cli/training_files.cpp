@@ -6,6 +6,7 @@
 
 #include "cli/output_argument.hpp"
 #include "cli/training_plot.hpp"
+#include "formats/extension.hpp"
 #include "formats/input.hpp"
 #include "soup/error.hpp"
 
@@ -39,7 +40,7 @@ void check_log(const TrainingFiles& files) {
 }  // namespace
 
 TrainingFiles training_files(const fs::path& scene) {
-  if (scene.extension() != ".glb")
+  if (extension_of(scene) != ".glb")
     throw UsageError("'" + scene.string() + "' does not end in .glb, which is what is written");
   const auto beside = [&](const char* extension) {
     return fs::path(scene).replace_extension(extension);

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 
+#include "cli/number_range.hpp"
 #include "cli/values.hpp"
 #include "formats/camera_file.hpp"
 #include "formats/existing_path.hpp"
@@ -107,14 +108,14 @@ void add_film_options(CLI::App& command, ViewOptions& options) {
                       "the frames of one turn around the up axis in so many seconds, like --orbit, "
                       "or from --eye about --target")
           ->option_text("SECONDS")
-          ->check(CLI::Range(0.001, 36000.0));
+          ->check(between(0.001, 36000.0));
   for (CLI::Option* other : {command.get_option("--camera"), command.get_option("--orbit"), path})
     turntable->excludes(other);
   command
       .add_option("--fps", options.frames_per_second,
                   "frames a second of --path and --turntable, 30 by default")
       ->option_text("N")
-      ->check(CLI::Range(0.01, 1000.0));
+      ->check(between(0.01, 1000.0));
 }
 
 }  // namespace
@@ -152,13 +153,13 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
       .add_option("--fov", options.fov_degrees,
                   "the full vertical angle of view in degrees, 40 by default")
       ->option_text("DEGREES")
-      ->check(CLI::Range(0.1, 179.0))
+      ->check(between(0.1, 179.0))
       ->excludes(camera);
   command
       .add_option("--orbit", options.orbit,
                   "so many views around the up axis, slightly from above, all of the scene in each")
       ->option_text("N")
-      ->check(CLI::Range(1, most_orbit_views))
+      ->check(between(1, most_orbit_views))
       ->excludes(camera)
       ->excludes(eye);
   add_film_options(command, options);

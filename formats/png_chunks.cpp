@@ -1,28 +1,12 @@
 #include "formats/png_chunks.hpp"
 
-#include <array>
 #include <cstring>
+
+#include "formats/crc32.hpp"
 
 namespace tureen {
 
 namespace {
-
-/// The checksum of PNG's annex D, a byte at a time: a browser build has no zlib, and inflating
-/// takes several times as long.
-std::uint32_t crc32(std::span<const std::byte> bytes) {
-  static constexpr auto table = [] {
-    std::array<std::uint32_t, 256> sums{};
-    for (std::uint32_t i = 0; i < 256; ++i) {
-      sums[i] = i;
-      for (int bit = 0; bit < 8; ++bit) sums[i] = sums[i] >> 1 ^ (sums[i] & 1 ? 0xedb88320u : 0u);
-    }
-    return sums;
-  }();
-  std::uint32_t sum = ~0u;
-  for (const std::byte byte : bytes)
-    sum = table[(sum ^ std::to_integer<std::uint32_t>(byte)) & 0xff] ^ sum >> 8;
-  return ~sum;
-}
 
 std::uint32_t big_endian(std::span<const std::byte> bytes) {
   std::uint32_t value = 0;
@@ -48,7 +32,7 @@ std::optional<PngDamage> png_damage(std::span<const std::byte> bytes) {
     // A capital begins what no picture can do without; stb reads tRNS, too.
     const bool is_critical = (std::to_integer<unsigned>(chunk[4]) & 0x20) == 0;
     if ((is_critical || is("tRNS")) &&
-        crc32(chunk.subspan(4, 4 + length)) != big_endian(chunk.subspan(8 + length)))
+        crc32_of(chunk.subspan(4, 4 + length)) != big_endian(chunk.subspan(8 + length)))
       return PngDamage{at, "a chunk's checksum is not that of its bytes"};
     if (is_last) return std::nullopt;
     at += around + length;

@@ -2,11 +2,11 @@
 #include "formats/scene_file.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <span>
 
 #include "formats/checkpoint.hpp"
 #include "formats/diffsoup_export.hpp"
+#include "formats/extension.hpp"
 #include "formats/gltf.hpp"
 #include "formats/input.hpp"
 #include "formats/mobilenerf.hpp"
@@ -85,13 +85,6 @@ const std::vector<Format>& formats() {
        .read = read_mobilenerf},
   };
   return table;
-}
-
-std::string extension_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
 }
 
 bool contains(const std::vector<const char*>& extensions, const std::string& extension) {

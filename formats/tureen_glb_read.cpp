@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "formats/crc32.hpp"
 #include "formats/glb_arrays.hpp"
 #include "formats/json_vector.hpp"
 #include "formats/png.hpp"
@@ -67,23 +68,29 @@ class Reader {
   }
 
   void read_geometry(TriangleSoup& soup) {
-    const auto slim = extension_.find("slim_geometry");
-    if (!slim) {
+    if (!extension_.find("slim_geometry")) {
       tureen::read_geometry(arrays_, geometry_layout(arrays_, extension_), soup);
       return;
     }
     PassingMemory passing(input_.budget());
     SlimGeometry geometry = decode_slim_geometry(
-        buffer_view(*slim), arrays_.index(extension_["vertex_count"]),
-        arrays_.index(extension_["face_count"]), arrays_.file(), input_.budget());
+        coded(extension_, "slim_geometry", "slim_geometry_crc32"),
+        arrays_.index(extension_["vertex_count"]), arrays_.index(extension_["face_count"]),
+        arrays_.file(), input_.budget());
     passing.keep(geometry.positions.capacity() * sizeof geometry.positions[0] +
                  geometry.triangles.capacity() * sizeof geometry.triangles[0]);
     soup.positions = std::move(geometry.positions);
     soup.triangles = std::move(geometry.triangles);
   }
 
-  std::vector<std::byte> buffer_view(const JsonView& reference) {
-    return arrays_.read_at<std::byte>(arrays_.view_location(reference), "slim bytes");
+  /// What an entropy coder made of an array. Damage to that decodes to something else more often
+  /// than to nothing: the checksum beside it tells.
+  std::vector<std::byte> coded(const JsonView& holder, const char* key, const char* crc32_key) {
+    auto bytes = arrays_.read_at<std::byte>(arrays_.view_location(holder[key]), "slim bytes");
+    const auto sum = holder.find(crc32_key);
+    if (sum && sum->natural(0xffffffffu) != crc32_of(bytes))
+      holder[key].fail("it is damaged: its checksum is not that of its bytes");
+    return bytes;
   }
 
   void read_preset(Scene& scene, const TriangleSoup& soup) {
@@ -174,12 +181,13 @@ class Reader {
   }
 
   LatticeTexture lattice_texture(const JsonView& view, const TriangleSoup& soup) {
-    if (const auto slim = view.find("slim_texels")) {
+    if (view.find("slim_texels")) {
       // The network lies before the texels.
       std::optional<ColorMlp> mlp = color_mlp(view);
       PassingMemory passing(input_.budget());
-      LatticeTexture texture = decode_slim_texels(buffer_view(*slim), soup.triangles.size(),
-                                                  arrays_.file(), input_.budget());
+      LatticeTexture texture =
+          decode_slim_texels(coded(view, "slim_texels", "slim_texels_crc32"), soup.triangles.size(),
+                             arrays_.file(), input_.budget());
       passing.keep(soup.triangles.size() * sizeof texture.patches[0] +
                    texture.texel_count() * LatticeTexture::channels);
       texture.mlp = std::move(mlp);

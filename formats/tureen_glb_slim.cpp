@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "formats/crc32.hpp"
 #include "formats/tureen_glb.hpp"
 #include "formats/tureen_glb_writing.hpp"
 #include "soup/error.hpp"
@@ -39,11 +40,15 @@ std::vector<std::string> write_slim_glb(const Scene& scene, const SlimSoup& slim
   extension["version"] = tureen_slim_version;
   extension["vertex_count"] = used_vertices(soup->triangles);
   extension["face_count"] = soup->triangles.size();
-  extension["slim_geometry"] = plan.view(slim.geometry);
+  const auto put = [&](json& holder, const std::string& key, std::span<const std::byte> bytes) {
+    holder[key] = plan.view(bytes);
+    holder[key + "_crc32"] = crc32_of(bytes);
+  };
+  put(extension, "slim_geometry", slim.geometry);
   extension["appearance"] = {{"type", "lattice_texture"}};
   json& appearance = extension["appearance"];
   if (texture->mlp) appearance["color_mlp"] = mlp_json(plan, *texture->mlp);
-  appearance["slim_texels"] = plan.view(slim.texels);
+  put(appearance, "slim_texels", slim.texels);
   write_glb({{"asset", {{"version", "2.0"}, {"generator", "Tureen"}}},
              {"extensionsUsed", json::array({tureen_extension})},
              {"extensionsRequired", json::array({tureen_extension})},

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cctype>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -17,6 +16,7 @@
 #include <string_view>
 #include <utility>
 
+#include "formats/extension.hpp"
 #include "formats/output_path.hpp"
 #include "soup/error.hpp"
 
@@ -27,13 +27,6 @@ namespace tureen {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string extension_of(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 int even(int side) { return side + side % 2; }
 

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "cli/program_fixture.hpp"
+#include "support/schema.hpp"
 
 namespace tureen {
 namespace {
@@ -44,8 +45,17 @@ TEST_F(BenchFiles, ARunIsComparedWithAnEarlierOne) {
   }
   before["machine"]["cpu"] = "an abacus";
   write("fast.json", before.dump());
-  const ChildResult told = bench({"--against", "fast.json"});
+  const ChildResult told = bench({"--against", "fast.json", "--json"});
   EXPECT_EQ(told.exit_code, 0) << "it fails only where that was asked for";
+  const auto json = nlohmann::json::parse(told.out);
+  EXPECT_EQ(test::schema_violations(json, "bench.schema.json"), "");
+  EXPECT_EQ(json["comparison"]["against"], "fast.json");
+  for (const auto& ratio : json["comparison"]["ratios"]) {
+    EXPECT_EQ(ratio["verdict"], "slower");
+    EXPECT_EQ(ratio["same_pixels"], true);
+    EXPECT_GT(ratio["ratio"], 100);
+  }
+  EXPECT_EQ(json["comparison"]["ratios"].size(), before["measurements"].size());
   EXPECT_THAT(told.err, HasSubstr("slower"));
   EXPECT_THAT(told.err, HasSubstr("then an abacus"));
   const ChildResult failed = bench({"--against", "fast.json", "--fail-slower", "50"});

@@ -69,7 +69,8 @@ TEST_F(Program, WrongUsageIsTwoAndAHint) {
   expect({"render", "scene.off", "-o", "out%s.png"}, "no name for pictures");
   expect({"compare", "a.png", "b.png", "--metric", "psnr"}, "did you mean psnr_db?");
   expect({"compare", "a.png", "b.png", "--pixel-tolerance", "nan"},
-         "--pixel-tolerance: nan is not a number");
+         "--pixel-tolerance: 'nan' is not a number from 0 to 1");
+  expect({"bench", "scene.off", "--rounds", "2.5"}, "'2.5' is not a whole number from 1 to 10000");
 }
 
 TEST_F(Program, ABadInputIsThreeAndAPlace) {
@@ -208,62 +209,6 @@ TEST_F(Program, ConvertNeverOverwritesSilently) {
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_THAT(unknown.err, HasSubstr("no format that we write ends in .xyz"));
   EXPECT_FALSE(exists("scene.xyz"));
-}
-
-TEST_F(Program, ConvertSlimIsSmallAndSaysWhatItLost) {
-  Scene scene = read_scene(std::string(TUREEN_SOURCE_DIR) + "/examples/soup.glb");
-  auto& soup = std::get<TriangleSoup>(scene.primitives);
-  soup.triangles.resize(400);
-  std::get<LatticeTexture>(soup.appearance).patches.resize(400);
-  scene.cameras.resize(2);
-  for (Camera& camera : scene.cameras) camera = resized(camera, 160, 120);
-  ASSERT_THAT(tureen::write_scene(scene, folder / "part.glb"), IsEmpty());
-
-  const ChildResult result =
-      run({"convert", "part.glb", "slim.glb", "--slim", "--max-error", "0.3", "--json"});
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  const auto json = nlohmann::json::parse(result.out);
-  EXPECT_LE(json["loss_db"], 0.3);
-  EXPECT_EQ(json["loss_is_measured"], false);
-  EXPECT_EQ(json["bytes_on_disk"], fs::file_size(folder / "slim.glb"));
-  // As measured for all of the example (docs/slim.md), less what JSON and network take of so few.
-  EXPECT_GT(json["times_smaller"], 3);
-  EXPECT_THAT(result.err, HasSubstr("Slim: of 2 recorded cameras only the first is kept."));
-  EXPECT_THAT(result.err, HasSubstr("times smaller than the published export of the same soup"));
-  EXPECT_FALSE(exists("slim.glb.export"));
-
-  const Scene back = read_scene(folder / "slim.glb");
-  EXPECT_EQ(std::get<TriangleSoup>(back.primitives).triangles.size(), 400u);
-  EXPECT_EQ(back.cameras.size(), 1u);
-  EXPECT_THAT(run({"info", "slim.glb"}).err, HasSubstr("Slim: coded with a loss of"));
-
-  // What makes the promise worth less is said.
-  EXPECT_THAT(result.err,
-              HasSubstr("with only 2 recorded cameras nobody knows where the scene is"));
-  EXPECT_THAT(result.err, Not(HasSubstr("slim already")));
-  const ChildResult again = run({"convert", "slim.glb", "SLIM.GLB", "--slim", "--max-error", "3"});
-  EXPECT_EQ(again.exit_code, 0) << again.err;
-  EXPECT_THAT(again.err, HasSubstr("the scene was slim already"));
-  const ChildResult finer =
-      run({"convert", "part.glb", "fine.glb", "--slim", "--max-error", "0.0001"});
-  EXPECT_EQ(finer.exit_code, 2);
-  EXPECT_THAT(finer.err, HasSubstr("dB with the finest steps"));
-  EXPECT_FALSE(exists("fine.glb"));
-
-  EXPECT_THAT(run({"convert", "part.glb", "slim.ply", "--slim"}).err,
-              HasSubstr("--slim writes .glb files and .html pages of them, not slim.ply"));
-  EXPECT_EQ(run({"convert", "part.glb", "other.glb", "--max-error", "1"}).exit_code, 2);
-}
-
-// What slim files are to reach (docs/slim.md), here with nothing but the scene to judge by.
-TEST_F(Program, ConvertSlimMakesTheExampleFourTimesSmallerForATenthOfADecibel) {
-  const std::string example = std::string(TUREEN_SOURCE_DIR) + "/examples/soup.glb";
-  const ChildResult result = run({"convert", example, "slim.glb", "--slim", "--json"});
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  const auto json = nlohmann::json::parse(result.out);
-  EXPECT_GE(json["times_smaller"], 4);
-  EXPECT_LE(json["loss_db"], 0.1);
-  EXPECT_EQ(json["scene_bytes"], fs::file_size(folder / "slim.glb"));
 }
 
 // --- render ---------------------------------------------------------------------------------

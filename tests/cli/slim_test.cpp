@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/scene_file.hpp"
+#include "runtime/renderer.hpp"
 #include "soup/error.hpp"
 #include "soup/lattice.hpp"
 #include "support/random.hpp"
@@ -30,6 +31,25 @@ std::vector<Photograph> grey_photographs(const Scene& scene) {
   for (const Camera& camera : scene.cameras) {
     Image8 image(camera.width, camera.height);
     for (glm::u8vec4& pixel : image.pixels) pixel = {120, 130, 140, 255};
+    photographs.push_back({camera, image});
+  }
+  return photographs;
+}
+
+/// The scene's own pictures, every pixel off by `off` one way or the other.
+std::vector<Photograph> own_photographs(const Scene& scene, int off) {
+  const gl::Context context = gl::Context::create({});
+  Renderer renderer(context, std::get<TriangleSoup>(scene.primitives), scene.origin,
+                    {.background = {scene.info.background, 1.0f}});
+  std::vector<Photograph> photographs;
+  for (const Camera& camera : scene.cameras) {
+    renderer.draw(camera);
+    Image8 image = renderer.read_color();
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+      for (int c = 0; c < 3; ++c) {
+        std::uint8_t& value = image.pixels[i][c];
+        value = std::uint8_t(value < 128 ? value + off : value - off);
+      }
     photographs.push_back({camera, image});
   }
   return photographs;
@@ -130,6 +150,31 @@ TEST(Slim, TexelsThatNoViewShowsTakeLittle) {
   EXPECT_EQ(few.unseen_texels, 0u);
 }
 
+TEST(Slim, TrainingCamerasStandForRecordedOnes) {
+  Scene scene = part_of_the_example(300);
+  SlimRequest request{.max_loss_db = 0.1, .photographs = own_photographs(scene, 8)};
+  const SlimResult recorded = slim(scene, request);
+  EXPECT_EQ(recorded.lent_cameras, 0u);
+  EXPECT_GT(recorded.unseen_texels, 0u);
+  request.training_cameras = std::move(scene.cameras);
+  scene.cameras = {request.training_cameras[0]};
+  const SlimResult lent = slim(scene, request);
+  EXPECT_EQ(lent.lent_cameras, 8u);
+  EXPECT_EQ(lent.soup.texels, recorded.soup.texels);
+  EXPECT_EQ(lent.unseen_texels, recorded.unseen_texels);
+  EXPECT_EQ(lent.unseen, recorded.unseen);
+  EXPECT_EQ(lent.seeing_views, 8u + 64u);
+
+  // Who knows where those of another scene look.
+  Scene all = scene;
+  all.cameras = request.training_cameras;
+  request.photographs = own_photographs(all, 127);
+  const SlimResult other = slim(scene, request);
+  EXPECT_LT(other.model_db, hopeless_db);
+  EXPECT_EQ(other.lent_cameras, 0u);
+  EXPECT_EQ(other.unseen_texels, 0u);
+}
+
 // A camera that sees nothing of the scene cannot make it lose nothing.
 TEST(Slim, OneCameraDoesNotSpeakForAll) {
   Scene scene = part_of_the_example(100, 1);
@@ -193,21 +238,21 @@ TEST(Slim, RefusesWhatItCannotHold) {
 
 TEST(Slim, ViewsAreRecordedCamerasOrAround) {
   Scene scene = part_of_the_example(2);
-  EXPECT_EQ(slim_views(scene, 2).size(), 2u);
-  EXPECT_EQ(slim_views(scene, 9).size(), 8u);
+  EXPECT_EQ(slim_views(scene, scene.cameras, 2).size(), 2u);
+  EXPECT_EQ(slim_views(scene, scene.cameras, 9).size(), 8u);
   scene.cameras[0] = resized(scene.cameras[0], 4000, 2000);
-  EXPECT_EQ(slim_views(scene, 1)[0].width, 800);
-  EXPECT_EQ(slim_views(scene, 1)[0].height, 400);
+  EXPECT_EQ(slim_views(scene, scene.cameras, 1)[0].width, 800);
+  EXPECT_EQ(slim_views(scene, scene.cameras, 1)[0].height, 400);
   // Too few to tell: others join them.
   scene.cameras.resize(7);
-  EXPECT_EQ(slim_views(scene, 5).size(), 5u);
-  EXPECT_EQ(slim_views(scene, 9).size(), 9u);
-  EXPECT_EQ(slim_views(scene, 9)[6].name, scene.cameras[6].name);
-  EXPECT_EQ(slim_views(scene, 9)[7].name, "hemisphere 0");
-  EXPECT_EQ(slim_views(scene, 200).size(), 7u + 64u);
+  EXPECT_EQ(slim_views(scene, scene.cameras, 5).size(), 5u);
+  EXPECT_EQ(slim_views(scene, scene.cameras, 9).size(), 9u);
+  EXPECT_EQ(slim_views(scene, scene.cameras, 9)[6].name, scene.cameras[6].name);
+  EXPECT_EQ(slim_views(scene, scene.cameras, 9)[7].name, "hemisphere 0");
+  EXPECT_EQ(slim_views(scene, scene.cameras, 200).size(), 7u + 64u);
   scene.cameras.clear();
-  EXPECT_EQ(slim_views(scene, 9).size(), 9u);
-  EXPECT_EQ(slim_views(scene, 200).size(), 64u);
+  EXPECT_EQ(slim_views(scene, scene.cameras, 9).size(), 9u);
+  EXPECT_EQ(slim_views(scene, scene.cameras, 200).size(), 64u);
 }
 
 }  // namespace

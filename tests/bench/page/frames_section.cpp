@@ -136,7 +136,7 @@ Section bench_section(const Measurements& measurements, const std::string& name)
   std::map<std::string, int> sizes;
   for (const Place& place : places_of(bench)) ++sizes[place.cameras];
   for (const auto& [cameras, count] : sizes) {
-    if (count < 2) continue;  // a plot of a single point
+    if (count < 2) continue;
     const std::string file = cli::plot_identifier("pixels " + cameras) + ".svg";
     add_plot(section, measurements.file(name, file),
              "Frame time against pixels, cameras " + cameras);

@@ -1,0 +1,110 @@
+// `tureen convert --slim` from outside: what it makes, and what it says of its loss.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/photographs_fixture.hpp"
+#include "formats/scene_file.hpp"
+
+namespace tureen {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ChildResult;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+const std::string example = TUREEN_SOURCE_DIR "/examples/soup.glb";
+
+using ConvertSlim = test::ProgramWithPhotographs;
+
+TEST_F(ConvertSlim, IsSmallAndSaysWhatItLost) {
+  Scene scene = read_scene(example);
+  auto& soup = std::get<TriangleSoup>(scene.primitives);
+  soup.triangles.resize(400);
+  std::get<LatticeTexture>(soup.appearance).patches.resize(400);
+  scene.cameras.resize(2);
+  for (Camera& camera : scene.cameras) camera = resized(camera, 160, 120);
+  ASSERT_THAT(tureen::write_scene(scene, folder / "part.glb"), IsEmpty());
+
+  const ChildResult result =
+      run({"convert", "part.glb", "slim.glb", "--slim", "--max-error", "0.3", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_LE(json["loss_db"], 0.3);
+  EXPECT_EQ(json["loss_is_measured"], false);
+  EXPECT_EQ(json["bytes_on_disk"], fs::file_size(folder / "slim.glb"));
+  // As measured for all of the example (docs/slim.md), less what JSON and network take of so few.
+  EXPECT_GT(json["times_smaller"], 3);
+  EXPECT_THAT(result.err, HasSubstr("Slim: of 2 recorded cameras only the first is kept."));
+  EXPECT_THAT(result.err, HasSubstr("times smaller than the published export of the same soup"));
+  EXPECT_FALSE(exists("slim.glb.export"));
+
+  const Scene back = read_scene(folder / "slim.glb");
+  EXPECT_EQ(std::get<TriangleSoup>(back.primitives).triangles.size(), 400u);
+  EXPECT_EQ(back.cameras.size(), 1u);
+  EXPECT_THAT(run({"info", "slim.glb"}).err, HasSubstr("Slim: coded with a loss of"));
+
+  // What makes the promise worth less is said.
+  EXPECT_THAT(result.err,
+              HasSubstr("with only 2 recorded cameras nobody knows where the scene is"));
+  EXPECT_THAT(result.err, Not(HasSubstr("slim already")));
+  const ChildResult again = run({"convert", "slim.glb", "SLIM.GLB", "--slim", "--max-error", "3"});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_THAT(again.err, HasSubstr("the scene was slim already"));
+  const ChildResult finer =
+      run({"convert", "part.glb", "fine.glb", "--slim", "--max-error", "0.0001"});
+  EXPECT_EQ(finer.exit_code, 2);
+  EXPECT_THAT(finer.err, HasSubstr("dB with the finest steps"));
+  EXPECT_FALSE(exists("fine.glb"));
+
+  EXPECT_THAT(run({"convert", "part.glb", "slim.ply", "--slim"}).err,
+              HasSubstr("--slim writes .glb files and .html pages of them, not slim.ply"));
+  EXPECT_EQ(run({"convert", "part.glb", "other.glb", "--max-error", "1"}).exit_code, 2);
+}
+
+// What slim files are to reach (docs/slim.md), here with nothing but the scene to judge by.
+TEST_F(ConvertSlim, MakesTheExampleFourTimesSmallerForATenthOfADecibel) {
+  const ChildResult result = run({"convert", example, "slim.glb", "--slim", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_GE(json["times_smaller"], 4);
+  EXPECT_LE(json["loss_db"], 0.1);
+  EXPECT_EQ(json["scene_bytes"], fs::file_size(folder / "slim.glb"));
+}
+
+// The search looks at nothing but how near pictures come to the photographs.
+TEST_F(ConvertSlim, PhotographsOfAnotherSceneAreNoticed) {
+  Scene scene = read_scene(example);
+  auto& soup = std::get<TriangleSoup>(scene.primitives);
+  soup.triangles.resize(400);
+  std::get<LatticeTexture>(soup.appearance).patches.resize(400);
+  scene.cameras.clear();
+  ASSERT_THAT(tureen::write_scene(scene, folder / "part.glb"), IsEmpty());
+  // As near as a trained scene comes to its photographs.
+  const glm::vec3 background = scene.info.background;
+  scene.info.background = glm::mix(background, glm::vec3(0.5f), 0.1f);
+  ASSERT_THAT(tureen::write_scene(scene, folder / "near.glb"), IsEmpty());
+  // Nothing of what is there, and light instead of dark.
+  scene.info.background = glm::vec3(1) - background;
+  soup.positions.assign(soup.positions.size(), glm::vec3(0));
+  ASSERT_THAT(tureen::write_scene(scene, folder / "other.glb"), IsEmpty());
+  for (const bool same : {false, true}) {
+    SCOPED_TRACE(same);
+    photograph(same ? "near.glb" : "other.glb");
+    const ChildResult result = run({"convert", "part.glb", "slim.glb", "--slim", "--photographs",
+                                    "data", "--max-error", "20", "--force", "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(nlohmann::json::parse(result.out)["loss_is_measured"], true);
+    const auto is_noticed = HasSubstr("DB OF THESE PHOTOGRAPHS: most likely they show another one");
+    const auto lends = HasSubstr("what of the scene shows, 1 training camera of data says");
+    if (same)
+      EXPECT_THAT(result.err, AllOf(Not(is_noticed), lends));
+    else
+      EXPECT_THAT(result.err, AllOf(is_noticed, Not(lends)));
+  }
+}
+
+}  // namespace
+}  // namespace tureen
