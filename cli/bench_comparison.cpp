@@ -95,24 +95,6 @@ std::vector<BenchRatio> slower_than(const BenchComparison& comparison, double pe
   return result;
 }
 
-namespace {
-
-const char* verdict_word(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::unknown:
-      return "unknown";
-    case Verdict::equal:
-      return "equal";
-    case Verdict::faster:
-      return "faster";
-    case Verdict::slower:
-      return "slower";
-  }
-  return "";
-}
-
-}  // namespace
-
 Json to_json(const BenchComparison& comparison, const std::string& against) {
   Json ratios = Json::array();
   for (const BenchRatio& ratio : comparison.ratios)

@@ -51,10 +51,11 @@ std::string bench_markdown(const BenchResult& result) {
 }
 
 std::string comparison_markdown(const BenchComparison& comparison, const std::string& against) {
-  std::string text =
-      "\nAgainst " + markdown_cell(against) +
-      ":\n\n| configuration | cameras | size | ms then | ms now | times as long | spread | verdict "
-      "|\n|---|---|---|---|---|---|---|---|\n";
+  std::string text = "\nAgainst " + markdown_cell(against) + ": ";
+  text += comparison.ratios.empty() ? "nothing was measured in both.\n"
+                                    : "\n\n| configuration | cameras | size | ms then | ms now | "
+                                      "times as long | spread | verdict "
+                                      "|\n|---|---|---|---|---|---|---|---|\n";
   for (const BenchRatio& ratio : comparison.ratios)
     text += fmt::format("| {} | {} | {} | {} | {} | {:.3f} | {} | {}{} |\n",
                         markdown_cell(ratio.configuration), markdown_cell(ratio.camera_set),

@@ -63,7 +63,7 @@ std::string device_of(const BenchResult& result) {
 }
 
 /// Two at least: one says nothing about growth.
-bool has_sizes(const BenchResult& result, const std::string& cameras) {
+bool has_several_sizes(const BenchResult& result, const std::string& cameras) {
   std::set<double> sizes;
   for (const BenchMeasurement& m : result.measurements)
     if (m.camera_set == cameras) sizes.insert(megapixels(m));
@@ -202,7 +202,7 @@ std::vector<Figure> ratio_bars(const BenchResult& result) {
 std::vector<Figure> bench_plots(const BenchResult& result) {
   std::vector<Figure> plots;
   for (const std::string& cameras : camera_sets(result)) {
-    if (has_sizes(result, cameras)) plots.push_back(time_against_pixels(result, cameras));
+    if (has_several_sizes(result, cameras)) plots.push_back(time_against_pixels(result, cameras));
     for (Figure& plot : times_by_view(result, cameras)) plots.push_back(std::move(plot));
   }
   for (Figure& plot : ratio_bars(result)) plots.push_back(std::move(plot));

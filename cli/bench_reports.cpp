@@ -68,7 +68,8 @@ struct Plots {
 Plots write_plots(const BenchResult& result, const fs::path& folder) {
   const std::vector<Figure> figures = bench_plots(result);
   if (figures.empty()) {
-    Plots none{{}, "no plots: one size, one view and one configuration have nothing to compare"};
+    Plots none{{},
+               "no plots: no cameras have two sizes or two views, and there is one configuration"};
     say(none.missing);
     return none;
   }

@@ -47,10 +47,10 @@ std::string ratio_text(double ratio, const BenchMeasurement& a, const BenchMeasu
              : verdict_text(verdict, std::min(a.frame_ms.rounds, b.frame_ms.rounds));
 }
 
-std::string verdict_text(Verdict verdict, int rounds) {
+const char* verdict_word(Verdict verdict) {
   switch (verdict) {
     case Verdict::unknown:
-      return count_text(rounds, "round");
+      return "unknown";
     case Verdict::equal:
       return "equal";
     case Verdict::faster:
@@ -58,7 +58,11 @@ std::string verdict_text(Verdict verdict, int rounds) {
     case Verdict::slower:
       return "slower";
   }
-  return {};
+  return "";
+}
+
+std::string verdict_text(Verdict verdict, int rounds) {
+  return verdict == Verdict::unknown ? count_text(rounds, "round") : verdict_word(verdict);
 }
 
 std::string spread_text(const FrameStatistics& ms) {

@@ -38,7 +38,10 @@ std::string times_as_fast_text(const BenchResult& result, const BenchMeasurement
 /// A ratio of two measurements of one run, where it means something: "5.20". Else its verdict.
 std::string ratio_text(double ratio, const BenchMeasurement& a, const BenchMeasurement& b);
 
-/// "equal", "faster", "slower"; "1 round" where that is not known, of the one of the two that has
+/// "unknown", "equal", "faster", "slower".
+const char* verdict_word(Verdict verdict);
+
+/// The same, but "1 round" where that is not known, of the one of the two that has
 /// fewer `rounds`.
 std::string verdict_text(Verdict verdict, int rounds);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "cli/bench_words.hpp"
@@ -41,6 +42,24 @@ std::optional<std::uint64_t> published_bytes(const Scene& scene, const fs::path&
 std::string name_of(const DatasetArgument& dataset) {
   const fs::path folder = fs::path(dataset.path).lexically_normal();
   return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
+}
+
+/// Those of its training photographs at their own size, whatever the scale; none, and a sentence,
+/// where they cannot be read: it goes without.
+std::vector<Camera> training_cameras(const DatasetArgument& dataset) {
+  std::vector<Camera> cameras;
+  try {
+    for (const Photograph& photograph : read(dataset, DatasetPart::train).train) {
+      const Camera& camera = photograph.camera;
+      const double scale = dataset.options.scale;
+      cameras.push_back(resized(camera, int(std::lround(camera.width / scale)),
+                                int(std::lround(camera.height / scale))));
+    }
+  } catch (const InputError& error) {
+    say(fmt::format("its training cameras say nothing of what shows: {}", error.what()));
+    return {};
+  }
+  return cameras;
 }
 
 /// What the loss was measured on: "9 photographs of fox at scale 0.25", or recorded cameras.
@@ -93,9 +112,10 @@ std::vector<std::string> losses_of(const SlimResult& result, const DatasetArgume
                   result.position_bits, result.geometry_loss.db, result.color_step)};
   const auto texels = std::get<LatticeTexture>(result.kept.appearance).texel_count();
   if (result.lent_cameras > 0)
-    losses.push_back(fmt::format("Slim: what of the scene shows, {} of {} {}.",
-                                 count_text(int(result.lent_cameras), "training camera"),
-                                 name_of(photographs), result.lent_cameras == 1 ? "says" : "say"));
+    losses.push_back(
+        fmt::format("Slim: {} training cameras of {} stand for recorded ones: they say what of the "
+                    "scene shows.",
+                    result.lent_cameras, name_of(photographs)));
   if (result.unseen_texels > 0)
     losses.push_back(fmt::format(
         "Slim: {} of {} texels are kept only roughly: {} recorded views show nothing of "
@@ -120,8 +140,9 @@ void add_slim_arguments(CLI::App& command, SlimArguments& arguments) {
   CLI::Option* photographs =
       command
           .add_option("--photographs", arguments.photographs.path,
-                      "with --slim: the dataset on whose test photographs the loss is measured; "
-                      "without, it is estimated from the scene's own pictures")
+                      "with --slim: the dataset on whose test photographs the loss is measured, "
+                      "and whose training cameras say what shows where the scene has few; "
+                      "without, the loss is estimated from the scene's own pictures")
           ->option_text("DATASET")
           ->needs(slim);
   add_scale_option(command, arguments.photographs)->needs(photographs);
@@ -144,13 +165,11 @@ void check_slim(const SlimArguments& arguments, const fs::path& output) {
 Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& glb) {
   SlimRequest request{.max_loss_db = arguments.max_error_db, .keep_unseen = arguments.keep_unseen};
   if (!arguments.photographs.path.empty()) {
-    const bool tells = scene.cameras.size() >= telling_cameras;
-    Dataset dataset = read(arguments.photographs, tells ? DatasetPart::test : DatasetPart::all);
-    request.photographs = std::move(dataset.test);
+    request.photographs = read(arguments.photographs, DatasetPart::test).test;
     if (request.photographs.empty())
       throw InputError({arguments.photographs.path, {}, {}}, "it holds no test photographs");
-    for (const Photograph& photograph : dataset.train)
-      request.training_cameras.push_back(photograph.camera);
+    if (scene.cameras.size() < telling_cameras)
+      request.training_cameras = training_cameras(arguments.photographs);
   }
   const std::optional<std::uint64_t> published = published_bytes(scene, glb);
   SlimResult result;

@@ -12,7 +12,7 @@ namespace tureen::cli {
 
 namespace {
 
-/// A number in (0, 1], which CLI::Range, closed at both ends, cannot say.
+/// A number in (0, 1], which between(), closed at both ends, cannot say.
 std::string refuse_scale(const std::string& text) {
   double scale = 0;
   if (CLI::detail::lexical_cast(text, scale) && scale > 0 && scale <= 1) return {};

@@ -17,6 +17,7 @@
 #include <string_view>
 
 #include "cli/html_page.hpp"
+#include "formats/extension.hpp"
 #include "formats/output.hpp"
 #include "soup/error.hpp"
 
@@ -176,7 +177,7 @@ std::optional<std::string> draw_plot(const Plot& plot, PlotFormat format) {
 }
 
 bool write_plot(const Plot& plot, const std::filesystem::path& path) {
-  const PlotFormat format = path.extension() == ".png" ? PlotFormat::png : PlotFormat::svg;
+  const PlotFormat format = extension_of(path) == ".png" ? PlotFormat::png : PlotFormat::svg;
   const std::optional<std::string> picture = draw_plot(plot, format);
   if (!picture) return false;
   Output output(path);

@@ -70,10 +70,15 @@ void lower_levels(TriangleSoup& soup) {
   texture = at_levels(texture, smallest_levels(texture, {}, interrupted), interrupted);
 }
 
-/// Whether training cameras tell more than the scene's own of where it is looked at from.
-bool lends_cameras(const Scene& scene, const SlimRequest& request, const SlimJudge& judge) {
-  return scene.cameras.size() < telling_cameras &&
-         scene.cameras.size() < request.training_cameras.size() && judge.model_db() >= hopeless_db;
+/// The scene's own, first of all the one that its slim file keeps, and what joins them.
+std::vector<Camera> recorded_cameras(const Scene& scene, const SlimRequest& request,
+                                     const SlimJudge& judge) {
+  std::vector<Camera> cameras = scene.cameras;
+  const std::vector<Camera>& others = request.training_cameras;
+  if (cameras.size() < telling_cameras && others.size() >= telling_cameras &&
+      judge.model_db() >= hopeless_db)
+    cameras.insert(cameras.end(), others.begin(), others.end());
+  return cameras;
 }
 
 class Search {
@@ -83,8 +88,8 @@ class Search {
         origin_(scene.origin),
         context_(gl::Context::create(request.context)),
         judge_(context_, scene, request.photographs),
-        lends_cameras_(lends_cameras(scene, request, judge_)),
-        recorded_(lends_cameras_ ? request.training_cameras : scene.cameras),
+        recorded_(recorded_cameras(scene, request, judge_)),
+        lent_(recorded_.size() - scene.cameras.size()),
         views_(slim_views(scene, recorded_, counted_views)),
         soup_(std::get<TriangleSoup>(scene.primitives)) {
     // Without recorded cameras nobody knows where the scene is looked at from.
@@ -115,7 +120,7 @@ class Search {
     result.unseen = unseen_;
     result.seeing_views = seeing_views_;
     result.weighing_views = views_.size();
-    result.lent_cameras = lends_cameras_ ? recorded_.size() : 0;
+    result.lent_cameras = lent_;
     result.unseen_texels = importance.unseen_texels();
     result.kept = std::move(soup_);
     return result;
@@ -179,8 +184,8 @@ class Search {
   const glm::dvec3 origin_;
   gl::Context context_;
   SlimJudge judge_;
-  const bool lends_cameras_;
-  std::span<const Camera> recorded_;
+  const std::vector<Camera> recorded_;
+  const std::size_t lent_;
   std::vector<Camera> views_;
   TriangleSoup soup_;
   std::size_t unseen_ = 0, seeing_views_ = 0;

@@ -19,8 +19,9 @@ struct SlimRequest {
   bool keep_unseen = false;
   /// Empty: the loss is estimated from the scene's own pictures.
   std::vector<Photograph> photographs = {};
-  /// From where others of the same scene were taken: what they see counts as what recorded cameras
-  /// do, where the scene has fewer than telling_cameras and is that of the photographs.
+  /// From where other photographs of the same dataset were taken. Where they are telling_cameras at
+  /// least, the scene has fewer, and comes nearer to its photographs than hopeless_db, they join
+  /// its recorded ones.
   std::vector<Camera> training_cameras = {};
   gl::ContextRequest context = {};
   /// Called now and then with the fraction done, 0..1; may throw to end the search.
@@ -37,7 +38,7 @@ struct SlimResult {
   /// roughly.
   std::size_t unseen_texels = 0;
   std::size_t weighing_views = 0;
-  std::size_t lent_cameras = 0;  // training cameras that stand for recorded ones
+  std::size_t lent_cameras = 0;  // training cameras that joined the recorded ones
   SlimLoss loss;
   SlimLoss geometry_loss;  // the part of positions alone
   int position_bits = 0;
@@ -46,7 +47,7 @@ struct SlimResult {
   std::string views;      // that it was measured on: SlimJudge::views
 };
 
-/// Where the scene has recorded cameras, or training cameras stand for them, faces that neither
+/// Where the scene has recorded cameras, or training cameras that join them, faces that neither
 /// they (200 at most) nor views from the upper half of a sphere around it (64) show in any pixel
 /// are left out; without them nobody knows where the scene is looked at from, and all faces stay.
 /// Positions may take a twelfth of the loss: they get the fewest bits that keep within it. Faces

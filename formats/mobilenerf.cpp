@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "formats/extension.hpp"
 #include "formats/json_file.hpp"
 #include "formats/obj.hpp"
 #include "formats/png.hpp"
@@ -189,7 +190,7 @@ Camera published_camera() {
 bool is_mobilenerf(const fs::path& path) {
   std::error_code ignored;
   const std::string name = path.filename().string();
-  if (!fs::is_directory(path, ignored) && name != "mlp.json" && path.extension() != ".obj")
+  if (!fs::is_directory(path, ignored) && name != "mlp.json" && extension_of(path) != ".obj")
     return false;
   const fs::path mlp = folder_of(path) / "mlp.json";
   if (!fs::is_regular_file(mlp, ignored)) return false;

@@ -74,9 +74,8 @@ class Reader {
     }
     PassingMemory passing(input_.budget());
     SlimGeometry geometry = decode_slim_geometry(
-        coded(extension_, "slim_geometry", "slim_geometry_crc32"),
-        arrays_.index(extension_["vertex_count"]), arrays_.index(extension_["face_count"]),
-        arrays_.file(), input_.budget());
+        coded(extension_, "slim_geometry"), arrays_.index(extension_["vertex_count"]),
+        arrays_.index(extension_["face_count"]), arrays_.file(), input_.budget());
     passing.keep(geometry.positions.capacity() * sizeof geometry.positions[0] +
                  geometry.triangles.capacity() * sizeof geometry.triangles[0]);
     soup.positions = std::move(geometry.positions);
@@ -85,11 +84,12 @@ class Reader {
 
   /// What an entropy coder made of an array. Damage to that decodes to something else more often
   /// than to nothing: the checksum beside it tells.
-  std::vector<std::byte> coded(const JsonView& holder, const char* key, const char* crc32_key) {
-    auto bytes = arrays_.read_at<std::byte>(arrays_.view_location(holder[key]), "slim bytes");
-    const auto sum = holder.find(crc32_key);
+  std::vector<std::byte> coded(const JsonView& holder, const std::string& key) {
+    const JsonView view = holder[key.c_str()];
+    auto bytes = arrays_.read_at<std::byte>(arrays_.view_location(view), "slim bytes");
+    const auto sum = holder.find((key + "_crc32").c_str());
     if (sum && sum->natural(0xffffffffu) != crc32_of(bytes))
-      holder[key].fail("it is damaged: its checksum is not that of its bytes");
+      view.fail("it is damaged: its checksum is not that of its bytes");
     return bytes;
   }
 
@@ -185,9 +185,8 @@ class Reader {
       // The network lies before the texels.
       std::optional<ColorMlp> mlp = color_mlp(view);
       PassingMemory passing(input_.budget());
-      LatticeTexture texture =
-          decode_slim_texels(coded(view, "slim_texels", "slim_texels_crc32"), soup.triangles.size(),
-                             arrays_.file(), input_.budget());
+      LatticeTexture texture = decode_slim_texels(coded(view, "slim_texels"), soup.triangles.size(),
+                                                  arrays_.file(), input_.budget());
       passing.keep(soup.triangles.size() * sizeof texture.patches[0] +
                    texture.texel_count() * LatticeTexture::channels);
       texture.mlp = std::move(mlp);

@@ -28,8 +28,8 @@ void plan_published(PlanDraft& draft) {
   draft.say(
       "published pipeline: two RGBA8 feature targets, every fragment samples all eight channels, "
       "faces in file order, the network on every pixel with its weights in uniforms");
-  if (!(draft.preferences.leave_out == LeaveOutSet::all()))
-    draft.say("nothing is left out by the published pipeline, whatever is to be kept");
+  if (draft.preferences.leave_out != LeaveOutSet::all())
+    draft.say("what is to be kept changes nothing: the published pipeline leaves nothing out");
 }
 
 }  // namespace tureen

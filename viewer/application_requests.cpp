@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "formats/extension.hpp"
 #include "viewer/application.hpp"
 #include "viewer/names.hpp"
 
@@ -44,7 +45,7 @@ void Application::carry_out(const OpenPath& request) {
     state_.ask(OpenPhotographs{fs::absolute(request.path).parent_path()});
   else if (looks_like_photographs(request.path))
     state_.ask(OpenPhotographs{request.path});
-  else if (request.path.extension() == ".json")
+  else if (extension_of(request.path) == ".json")
     state_.ask(LoadPath{request.path});
   else
     open_scene(request.path, false);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "formats/extension.hpp"
 #include "formats/scene_file.hpp"
 
 namespace tureen::viewer {
@@ -13,7 +14,7 @@ namespace fs = std::filesystem;
 bool has_scene_name(const fs::path& path) {
   for (const FormatInfo& format : known_formats())
     for (const std::string& extension : format.read_extensions)
-      if (path.extension() == extension) return true;
+      if (extension_of(path) == extension) return true;
   return path.filename() == "transforms.json";
 }
 

@@ -187,11 +187,14 @@ draws_in_software() {
     grep -q '"software": true'
 }
 
+shades_as_compute() {
+  "$bin/tureen" render examples/soup.glb --shading compute --size 16x16 -o "$out/scenes/compute.png" >/dev/null 2>&1
+}
+
 # The shading pass as a fragment and as a compute shader.
 measure_stages() {
   local i options
-  if ! "$bin/tureen" render examples/soup.glb --shading compute --size 16x16 -o "$out/scenes/compute.png" \
-    >/dev/null 2>&1; then
+  if ! shades_as_compute; then
     skip "shading as compute, which this device cannot do"
     return
   fi
@@ -210,24 +213,31 @@ measure_stages() {
 # Against the device's ceilings: what it takes for triangles without colours, and for a copy of the pixels.
 part_gpu() {
   [[ -n $quick ]] || ! draws_in_software || { skip "gpu: OpenGL is drawn by the processor here"; return; }
-  local i only options dense=$out/scenes/dense.glb names=("${scene_names[@]}") paths=("${scene_paths[@]}")
+  local i only stages=tureen-fragment sizes options dense=$out/scenes/dense.glb names=("${scene_names[@]}") paths=("${scene_paths[@]}")
   if [[ -n $ficus || -n $quick ]]; then
-    "$bin/make_dense_soup" "${ficus:-examples/soup.glb}" "$dense" ${quick:+--triangles 50000} &&
+    if "$bin/make_dense_soup" "${ficus:-examples/soup.glb}" "$dense" ${quick:+--triangles 50000}; then
       names+=(dense) paths+=("$dense")
+    else
+      skip "gpu-dense, whose scene could not be written"
+    fi
   else
     skip "gpu-dense: the ficus soup is not here, give it with --ficus"
   fi
+  ! shades_as_compute || stages+=,tureen-compute
   for i in "${!names[@]}"; do
-    only=tureen,published,triangles,copy,tureen-fragment,tureen-compute
+    only=tureen,published,triangles,copy,$stages sizes=1280x720,1920x1080,3840x2160
     case ${names[i]} in
       ficus | dense) only=tureen,triangles,copy options=(--cameras orbit:8) ;; # opaque: forward, with no network
-      cloud-*) options=(--cameras "${paths[i]}") ;;
+      cloud-*)
+        options=(--cameras "${paths[i]}")
+        sizes+=,1237x822,2473x1643,4946x3286 # outdoor photographs of Mip-NeRF 360: a quarter, half, full
+        ;;
       *) options=(--cameras hemisphere:8) ;;
     esac
     if [[ $quick ]]; then
       options+=(--size 160x90 --rounds 1 --seconds 1)
     else
-      options+=(--size '1280x720,1920x1080,3840x2160' --rounds 5 --seconds 60)
+      options+=(--size "$sizes" --rounds 5 --seconds 60)
     fi
     measure "gpu-${names[i]}" "$bin/tureen" bench "${paths[i]}" "${options[@]}" --only "$only" -o "$out/gpu-${names[i]}"
   done

@@ -15,16 +15,19 @@ class ProgramWithPhotographs : public Program {
     return look_at(eye, {0, 0, 0}, {0, 0, 1}, 0.8, width, height);
   }
 
-  /// The dataset "data", as NeRF-synthetic has them: two views to test, one to train, all of them
-  /// pictures that the program draws of `scene`.
-  void photograph(const std::string& scene) const {
+  /// The dataset "data", as NeRF-synthetic has them: two views to test, and some to train, all of
+  /// them pictures that the program draws of `scene`.
+  void photograph(const std::string& scene, int training_views = 1) const {
     std::filesystem::create_directories(folder / "data/test");
     std::filesystem::create_directories(folder / "data/train");
     nlohmann::json test = transforms_of(camera_at({3, 0, 1}));
     nlohmann::json train = test;
     test["frames"] = {frame_of("test/r_0.png", camera_at({3, 0, 1})),
                       frame_of("test/r_1.png", camera_at({0, -3, 0.5}))};
-    train["frames"] = {frame_of("train/r_0.png", camera_at({-2, 2, 1}))};
+    train["frames"] = nlohmann::json::array();
+    for (int i = 0; i < training_views; ++i)
+      train["frames"].push_back(
+          frame_of("train/r_" + std::to_string(i) + ".png", camera_at({-2, 2 - 0.1 * i, 1})));
     write("data/transforms_test.json", test.dump());
     write("data/transforms_train.json", train.dump());
     for (const char* split : {"test", "train"}) {

@@ -36,6 +36,11 @@ std::vector<Photograph> grey_photographs(const Scene& scene) {
   return photographs;
 }
 
+Scene with_cameras(Scene scene, std::vector<Camera> cameras) {
+  scene.cameras = std::move(cameras);
+  return scene;
+}
+
 /// The scene's own pictures, every pixel off by `off` one way or the other.
 std::vector<Photograph> own_photographs(const Scene& scene, int off) {
   const gl::Context context = gl::Context::create({});
@@ -150,14 +155,14 @@ TEST(Slim, TexelsThatNoViewShowsTakeLittle) {
   EXPECT_EQ(few.unseen_texels, 0u);
 }
 
-TEST(Slim, TrainingCamerasStandForRecordedOnes) {
+TEST(Slim, TrainingCamerasJoinTheRecordedOnes) {
   Scene scene = part_of_the_example(300);
   SlimRequest request{.max_loss_db = 0.1, .photographs = own_photographs(scene, 8)};
+  request.training_cameras = scene.cameras;
   const SlimResult recorded = slim(scene, request);
   EXPECT_EQ(recorded.lent_cameras, 0u);
   EXPECT_GT(recorded.unseen_texels, 0u);
-  request.training_cameras = std::move(scene.cameras);
-  scene.cameras = {request.training_cameras[0]};
+  scene.cameras.clear();
   const SlimResult lent = slim(scene, request);
   EXPECT_EQ(lent.lent_cameras, 8u);
   EXPECT_EQ(lent.soup.texels, recorded.soup.texels);
@@ -165,14 +170,40 @@ TEST(Slim, TrainingCamerasStandForRecordedOnes) {
   EXPECT_EQ(lent.unseen, recorded.unseen);
   EXPECT_EQ(lent.seeing_views, 8u + 64u);
 
-  // Who knows where those of another scene look.
-  Scene all = scene;
-  all.cameras = request.training_cameras;
-  request.photographs = own_photographs(all, 127);
+  // What the camera sees that the file keeps has to stay: here, a face far from all others, too
+  // small for who looks at all of them.
+  TriangleSoup& soup = std::get<TriangleSoup>(scene.primitives);
+  const auto first = std::uint32_t(soup.positions.size());
+  for (const glm::vec3 corner : {glm::vec3(-1, -1, 0), glm::vec3(1, -1, 0), glm::vec3(0, 1, 0)})
+    soup.positions.push_back(0.02f * corner + glm::vec3(0, 0, -500));
+  soup.triangles[0] = {first, first + 1, first + 2};
+  auto& texture = std::get<LatticeTexture>(soup.appearance);
+  for (std::uint32_t i = 0; i < lattice::texel_count(int(texture.patches[0].level)); ++i)
+    std::get<std::vector<std::uint8_t>>(
+        texture.texels)[(texture.patches[0].first_texel + i) * LatticeTexture::channels +
+                        LatticeTexture::features] = 255;
+  request.photographs = own_photographs(with_cameras(scene, request.training_cameras), 8);
+  const SlimResult without = slim(scene, request);
+  const glm::dvec3 eye = scene.origin + glm::dvec3(0, 0, -499.9);
+  scene.cameras = {look_at(eye, eye - glm::dvec3(0, 0, 0.1), {0, 1, 0}, 0.7, 64, 48)};
+  const SlimResult with = slim(scene, request);
+  EXPECT_EQ(with.lent_cameras, 8u);
+  EXPECT_EQ(with.seeing_views, 9u + 64u);
+  EXPECT_EQ(with.unseen, without.unseen - 1);
+}
+
+TEST(Slim, TrainingCamerasOfAnotherSceneOrTooFewDoNot) {
+  const Scene all = part_of_the_example(300);
+  const Scene scene = with_cameras(all, {all.cameras[0]});
+  SlimRequest request{.max_loss_db = 0.1, .photographs = own_photographs(all, 127)};
+  request.training_cameras = all.cameras;
   const SlimResult other = slim(scene, request);
   EXPECT_LT(other.model_db, hopeless_db);
   EXPECT_EQ(other.lent_cameras, 0u);
   EXPECT_EQ(other.unseen_texels, 0u);
+  request.photographs = own_photographs(all, 8);
+  request.training_cameras.pop_back();
+  EXPECT_EQ(slim(scene, request).lent_cameras, 0u);
 }
 
 // A camera that sees nothing of the scene cannot make it lose nothing.

@@ -176,6 +176,15 @@ TEST(Plan, WithoutSpecialisationNothingIsLeftOut) {
   EXPECT_THAT(plan.sentences, Not(Contains(HasSubstr("left out:"))));
 }
 
+TEST(Plan, KeepingChangesNothingForThePublishedPipeline) {
+  const TriangleSoup soup = random_soup(1, {.kind = Kind::lattice_mlp, .level = 2});
+  PlanPreferences published{.pipeline = PipelineKind::published};
+  const auto says = Contains(HasSubstr("what is to be kept changes nothing"));
+  EXPECT_THAT(make_plan(soup, DeviceLimits{}, published).sentences, Not(says));
+  published.leave_out = LeaveOutSet::all().without(LeaveOut::alpha_test);
+  EXPECT_THAT(make_plan(soup, DeviceLimits{}, published).sentences, says);
+}
+
 TEST(Plan, ThePublishedPipelineRefusesWhatItCannotDraw) {
   const TriangleSoup soup = random_soup(1, {.kind = Kind::face_colors});
   try {
