@@ -50,11 +50,9 @@ std::vector<Photograph> own_photographs(const Scene& scene, int off) {
   for (const Camera& camera : scene.cameras) {
     renderer.draw(camera);
     Image8 image = renderer.read_color();
-    for (std::size_t i = 0; i < image.pixels.size(); ++i)
-      for (int c = 0; c < 3; ++c) {
-        std::uint8_t& value = image.pixels[i][c];
-        value = std::uint8_t(value < 128 ? value + off : value - off);
-      }
+    for (auto& pixel : image.pixels)
+      for (int c = 0; c < 3; ++c)
+        pixel[c] = std::uint8_t(pixel[c] < 128 ? pixel[c] + off : pixel[c] - off);
     photographs.push_back({camera, image});
   }
   return photographs;
