@@ -118,6 +118,14 @@ BenchResult run(const Options& options) {
   return result;
 }
 
+/// What is read: the scene, the dataset, and cameras, of which some are files.
+std::vector<std::string> inputs_of(const Options& options) {
+  std::vector<std::string> inputs = options.views.cameras;
+  inputs.push_back(options.scene.path);
+  if (!options.views.dataset.empty()) inputs.push_back(options.views.dataset);
+  return inputs;
+}
+
 /// Either there is a scene to measure, or there are imports and what can be made of them.
 void check_arguments(const CLI::App& command, const Options& options) {
   if (options.imports.empty()) {
@@ -137,7 +145,8 @@ ExitCode bench(const Options& options) {
   // Everything that can be wrong with the arguments is said before the scene is read.
   check(options.views);
   check(options.contestants);
-  const std::optional<BenchResult> then = prepare_bench_reports(options.reports);
+  const std::optional<BenchResult> then =
+      prepare_bench_reports(options.reports, inputs_of(options));
 
   const BenchResult result = run(options);
   say_list("Notes:", result.notes);

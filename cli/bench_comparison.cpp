@@ -46,7 +46,7 @@ BenchRatio ratio_of(const BenchMeasurement& now, const BenchMeasurement& then) {
 std::vector<std::string> circumstances_of(const BenchResult& now, const BenchResult& then) {
   std::vector<std::string> result;
   const auto compare = [&](const char* what, const std::string& a, const std::string& b) {
-    if (a != b) result.push_back(fmt::format("{}: {}, then {}", what, a, b));
+    if (a != b) result.push_back(fmt::format("{}: {} then, {} now", what, b, a));
   };
   const auto scene = [](const BenchResult& r) {
     return fmt::format("{}, {} triangles, {}", r.scene.name, counted(r.scene.triangles),
@@ -72,11 +72,24 @@ std::vector<std::string> circumstances_of(const BenchResult& now, const BenchRes
   return result;
 }
 
+/// Why no time of the one says anything of the other's; empty where it may.
+std::string incomparable(const BenchResult& now, const BenchResult& then) {
+  if (now.device.software != then.device.software)
+    return "not compared: one of the two was drawn in software";
+  if (now.protocol.clock != then.protocol.clock)
+    return "not compared: their times are of different clocks";
+  return {};
+}
+
 }  // namespace
 
 BenchComparison compare_benches(const BenchResult& now, const BenchResult& then) {
   BenchComparison result;
   result.circumstances = circumstances_of(now, then);
+  if (std::string reason = incomparable(now, then); !reason.empty()) {
+    result.circumstances.insert(result.circumstances.begin(), std::move(reason));
+    return result;
+  }
   for (const BenchMeasurement& measurement : now.measurements)
     if (const BenchMeasurement* other = find(then, measurement))
       result.ratios.push_back(ratio_of(measurement, *other));

@@ -22,7 +22,9 @@ struct BenchRatio {
 };
 
 struct BenchComparison {
-  std::vector<BenchRatio> ratios;  // in the order of the new result
+  /// In the order of the new result. None, as nothing unmatched, where the first of `circumstances`
+  /// says that the two are not to be compared: software and hardware, or different clocks.
+  std::vector<BenchRatio> ratios;
   /// Sentences on what else than the program changed or may have: scene, machine, driver, commit,
   /// build. What an older file does not tell is no change.
   std::vector<std::string> circumstances;

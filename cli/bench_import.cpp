@@ -62,7 +62,8 @@ class Subfolders {
   std::set<std::string> taken_;
 };
 
-void report_several(const BenchReportOptions& reports, const std::vector<DeviceBench>& devices) {
+void report_several(const BenchImport& import, const std::vector<DeviceBench>& devices) {
+  const BenchReportOptions& reports = import.reports;
   std::vector<BenchResult> all;
   Subfolders folders, plot_folders;
   for (const DeviceBench& device : devices)
@@ -70,7 +71,7 @@ void report_several(const BenchReportOptions& reports, const std::vector<DeviceB
       BenchReportOptions own;
       own.folder = folders(reports.folder, device.name, result.scene.name);
       own.plots = plot_folders(reports.plots, device.name, result.scene.name);
-      prepare_bench_reports(own);
+      prepare_bench_reports(own, import.files);
       report_bench(own, result, {});
       all.push_back(result);
     }
@@ -99,7 +100,7 @@ ExitCode import_benches(const BenchImport& import) {
   if (count > 1 && !import.reports.against.empty())
     throw UsageError(fmt::format(
         "--against compares one scene on one device, and the files hold {} of them", count));
-  const std::optional<BenchResult> then = prepare_bench_reports(import.reports);
+  const std::optional<BenchResult> then = prepare_bench_reports(import.reports, import.files);
 
   Json all = Json::array();
   for (const DeviceBench& device : devices)
@@ -111,7 +112,7 @@ ExitCode import_benches(const BenchImport& import) {
     for (const std::string& line : device_lines(device_table(devices))) say(line);
   if (count == 1) return report_bench(import.reports, devices.front().results.front(), then);
   if (import.reports.json) print_json(all);
-  report_several(import.reports, devices);
+  report_several(import, devices);
   return ExitCode::done;
 }
 

@@ -80,6 +80,16 @@ Plots write_plots(const BenchResult& result, const fs::path& folder) {
   return {std::move(*drawn), {}};
 }
 
+/// But for plots and pictures.
+std::vector<fs::path> files_of(const BenchReportOptions& options) {
+  std::vector<fs::path> files;
+  if (!options.folder.empty())
+    for (const char* name : {json_name, csv_name, markdown_name, page_name})
+      files.push_back(fs::path(options.folder) / name);
+  if (!options.csv.empty()) files.push_back(options.csv);
+  return files;
+}
+
 /// What --fail-slower cannot say of what has passed.
 void say_limits(const BenchComparison& comparison, double percent) {
   const auto coarse = [&](const BenchRatio& ratio) {
@@ -99,7 +109,7 @@ void say_limits(const BenchComparison& comparison, double percent) {
 
 void say_comparison(const BenchComparison& comparison, const std::string& file) {
   say_list("against " + file + ":", comparison_lines(comparison));
-  if (comparison.ratios.empty()) say("nothing was measured in both");
+  if (comparison.ratios.empty()) say("nothing can be compared");
 }
 
 }  // namespace
@@ -130,7 +140,11 @@ void add_bench_report_options(CLI::App& command, BenchReportOptions& options) {
   command.add_flag("--json", options.json, "the result as JSON on standard output");
 }
 
-std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& options) {
+std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& options,
+                                                 std::vector<std::string> inputs) {
+  if (!options.against.empty()) inputs.push_back(options.against);
+  for (const fs::path& output : files_of(options))
+    for (const std::string& input : inputs) require_not_input(output, input);
   std::optional<BenchResult> then;
   if (!options.against.empty()) {
     require_there(options.against);
@@ -148,10 +162,7 @@ std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& optio
     make_folder(each);
     require_writable_folder(each);
   }
-  if (!options.folder.empty())
-    for (const char* name : {json_name, csv_name, markdown_name, page_name})
-      require_writable_file(fs::path(options.folder) / name);
-  if (!options.csv.empty()) require_writable_file(options.csv);
+  for (const fs::path& file : files_of(options)) require_writable_file(file);
   return then;
 }
 

@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/bench_result.hpp"
 #include "cli/exit_code.hpp"
@@ -24,8 +25,10 @@ struct BenchReportOptions {
 void add_bench_report_options(CLI::App& command, BenchReportOptions& options);
 
 /// To be called before anything is measured: reads what --against names, so that a bad file is
-/// refused at once, and makes the folders. Throws InputError, UsageError and OutputError.
-std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& options);
+/// refused at once, and makes the folders. No file takes the place of that one or of `inputs`,
+/// files and folders that are read. Throws InputError, UsageError and OutputError.
+std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& options,
+                                                 std::vector<std::string> inputs);
 
 /// Writes the files, each whole or not at all, says where they are, and what changed since `then`.
 /// ExitCode::check_failed only where --fail-slower was given and something is slower than that.

@@ -44,9 +44,10 @@ std::string name_of(const DatasetArgument& dataset) {
   return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
 }
 
-/// Those of its training photographs at their own size, whatever the scale; none, and a sentence,
-/// where they cannot be read: it goes without.
-std::vector<Camera> training_cameras(const DatasetArgument& dataset) {
+/// Those of its training photographs at their own size, whatever the scale; none, and a sentence
+/// more in `lost`, where they cannot be read: it goes without.
+std::vector<Camera> training_cameras(const DatasetArgument& dataset,
+                                     std::vector<std::string>& lost) {
   std::vector<Camera> cameras;
   try {
     for (const Photograph& photograph : read(dataset, DatasetPart::train).train) {
@@ -56,7 +57,11 @@ std::vector<Camera> training_cameras(const DatasetArgument& dataset) {
                                 int(std::lround(camera.height / scale))));
     }
   } catch (const InputError& error) {
-    say(fmt::format("its training cameras say nothing of what shows: {}", error.what()));
+    say(fmt::format("the training photographs of {} cannot be read: {}", name_of(dataset),
+                    error.what()));
+    lost.push_back(fmt::format(
+        "Slim: the training cameras of {} say nothing of what shows: not all can be read.",
+        name_of(dataset)));
     return {};
   }
   return cameras;
@@ -70,19 +75,13 @@ std::string measured_on(const SlimResult& result, const DatasetArgument& photogr
 }
 
 /// What makes the promise of the loss worth less than it seems.
-std::vector<std::string> doubts_about(const Scene& scene, const SlimResult& result,
-                                      bool with_photographs) {
+std::vector<std::string> doubts_about(const Scene& scene, bool with_photographs) {
   std::vector<std::string> doubts;
   const auto& notes = scene.info.notes;
   if (std::any_of(notes.begin(), notes.end(),
                   [](const std::string& note) { return note.starts_with(coded_note); }))
     doubts.push_back(
         "Slim: the scene was slim already: what it lost then comes on top, and is not counted.");
-  if (with_photographs && result.model_db < hopeless_db)
-    doubts.push_back(
-        fmt::format("Slim: THE SCENE COMES ONLY WITHIN {:.2f} DB OF THESE PHOTOGRAPHS: most likely "
-                    "they show another one, and the loss means nothing.",
-                    result.model_db));
   if (!with_photographs && scene.cameras.size() < telling_cameras)
     doubts.push_back(fmt::format(
         "Slim: {} nobody knows where the scene is looked at from: the loss is estimated "
@@ -93,8 +92,10 @@ std::vector<std::string> doubts_about(const Scene& scene, const SlimResult& resu
   return doubts;
 }
 
-/// Sentences on what a slim file loses; they are stored in it, too.
-std::vector<std::string> losses_of(const SlimResult& result, const DatasetArgument& photographs) {
+/// Sentences on what a slim file loses; they are stored in it, too. `training_cameras` are those
+/// that the search was given.
+std::vector<std::string> losses_of(const SlimResult& result, const DatasetArgument& photographs,
+                                   std::size_t training_cameras) {
   const std::string views = measured_on(result, photographs);
   std::vector<std::string> losses{
       photographs.path.empty()
@@ -107,15 +108,21 @@ std::vector<std::string> losses_of(const SlimResult& result, const DatasetArgume
                         "the scene as it was: {:.2f} dB.",
                         coded_note, result.loss.db, views, result.model_db,
                         result.loss.render_psnr_db),
+      // What is negative by chance, as of photographs it may be, is no loss.
       fmt::format("Slim: positions on a grid of {} bits ({:.3f} dB of the loss), colours in "
                   "steps of {:.1f}/255 in the mean; what no alpha shows is not kept.",
-                  result.position_bits, result.geometry_loss.db, result.color_step)};
+                  result.position_bits, std::max(result.geometry_loss.db, 0.0), result.color_step)};
   const auto texels = std::get<LatticeTexture>(result.kept.appearance).texel_count();
   if (result.lent_cameras > 0)
     losses.push_back(
         fmt::format("Slim: {} training cameras of {} stand for recorded ones: they say what of the "
                     "scene shows.",
                     result.lent_cameras, name_of(photographs)));
+  else if (training_cameras > 0)
+    losses.push_back(
+        fmt::format("Slim: of {} training cameras of {} fewer than {} show any of the scene: none "
+                    "stands for a recorded one.",
+                    training_cameras, name_of(photographs), telling_cameras));
   if (result.unseen_texels > 0)
     losses.push_back(fmt::format(
         "Slim: {} of {} texels are kept only roughly: {} recorded views show nothing of "
@@ -142,7 +149,8 @@ void add_slim_arguments(CLI::App& command, SlimArguments& arguments) {
           .add_option("--photographs", arguments.photographs.path,
                       "with --slim: the dataset on whose test photographs the loss is measured, "
                       "and whose training cameras say what shows where the scene has few; "
-                      "without, the loss is estimated from the scene's own pictures")
+                      "without, the loss is estimated from the scene's own pictures. At a smaller "
+                      "--scale than the scene is looked at, it loses more than that")
           ->option_text("DATASET")
           ->needs(slim);
   add_scale_option(command, arguments.photographs)->needs(photographs);
@@ -164,12 +172,14 @@ void check_slim(const SlimArguments& arguments, const fs::path& output) {
 
 Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& glb) {
   SlimRequest request{.max_loss_db = arguments.max_error_db, .keep_unseen = arguments.keep_unseen};
-  if (!arguments.photographs.path.empty()) {
+  const bool with_photographs = !arguments.photographs.path.empty();
+  std::vector<std::string> lost = doubts_about(scene, with_photographs);
+  if (with_photographs) {
     request.photographs = read(arguments.photographs, DatasetPart::test).test;
     if (request.photographs.empty())
       throw InputError({arguments.photographs.path, {}, {}}, "it holds no test photographs");
     if (scene.cameras.size() < telling_cameras)
-      request.training_cameras = training_cameras(arguments.photographs);
+      request.training_cameras = training_cameras(arguments.photographs, lost);
   }
   const std::optional<std::uint64_t> published = published_bytes(scene, glb);
   SlimResult result;
@@ -178,8 +188,8 @@ Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& g
     request.progress = [&](double fraction) { progress.update(fraction); };
     result = slim(scene, request);
   }
-  std::vector<std::string> lost = doubts_about(scene, result, !request.photographs.empty());
-  for (std::string& sentence : losses_of(result, arguments.photographs))
+  for (std::string& sentence :
+       losses_of(result, arguments.photographs, request.training_cameras.size()))
     lost.push_back(std::move(sentence));
   const auto all_faces = std::get<TriangleSoup>(scene.primitives).triangles.size();
   if (result.unseen > 0)
@@ -217,7 +227,7 @@ Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& g
                {"position_bits", result.position_bits},
                {"color_step", result.color_step},
                {"loss_db", result.loss.db},
-               {"loss_is_measured", !request.photographs.empty()},
+               {"loss_is_measured", with_photographs},
                {"render_psnr_db", result.loss.render_psnr_db},
                {"views", result.views},
                {"faces_left_out", result.unseen},

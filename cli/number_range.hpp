@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <CLI/App.hpp>
+#include <charconv>
 #include <string>
+#include <system_error>
 #include <type_traits>
 
 namespace tureen::cli {
@@ -14,8 +15,11 @@ template <class T>
 auto between(T least, T most) {
   return [least, most](const std::string& text) -> std::string {
     T value{};
+    // CLI11 reads more than this, such as 0x10, which nobody means.
+    const char* end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, value);
     // A comparison with what is not a number is false.
-    if (CLI::detail::lexical_cast(text, value) && value >= least && value <= most) return {};
+    if (error == std::errc() && rest == end && value >= least && value <= most) return {};
     return fmt::format("'{}' is not a {}number from {} to {}", text,
                        std::is_integral_v<T> ? "whole " : "", least, most);
   };

@@ -53,10 +53,8 @@ TriangleSoup seen_faces(const gl::Context& context, const Scene& scene,
 }
 
 /// Those that faces may be left out by: all that the loss and the weights know, and some more.
-std::vector<Camera> all_views(const Scene& scene, std::span<const Camera> recorded,
-                              const std::vector<Camera>& views) {
+std::vector<Camera> all_views(const Scene& scene, const std::vector<Camera>& views) {
   std::vector<Camera> all = views;
-  if (recorded.size() < telling_cameras) return all;
   const auto around = hemisphere(subject_of(scene), views_around, {.width = 800, .height = 600});
   all.insert(all.end(), around.begin(), around.end());
   return all;
@@ -71,13 +69,21 @@ void lower_levels(TriangleSoup& soup) {
 }
 
 /// The scene's own, first of all the one that its slim file keeps, and what joins them.
-std::vector<Camera> recorded_cameras(const Scene& scene, const SlimRequest& request,
-                                     const SlimJudge& judge) {
+std::vector<Camera> recorded_cameras(const gl::Context& context, const Scene& scene,
+                                     const SlimRequest& request) {
   std::vector<Camera> cameras = scene.cameras;
+  if (cameras.size() >= telling_cameras || request.training_cameras.size() < telling_cameras)
+    return cameras;
+  // By a damaged pose, say, which would vote for leaving everything out.
   const std::vector<Camera>& others = request.training_cameras;
-  if (cameras.size() < telling_cameras && others.size() >= telling_cameras &&
-      judge.model_db() >= hopeless_db)
-    cameras.insert(cameras.end(), others.begin(), others.end());
+  const auto pixels = count_covered_pixels(context, std::get<TriangleSoup>(scene.primitives),
+                                           scene.origin, slim_views(scene, others, others.size()),
+                                           [](double) { throw_if_interrupted(); });
+  std::vector<Camera> showing;
+  for (std::size_t i = 0; i < others.size(); ++i)
+    if (pixels[i] > 0) showing.push_back(others[i]);
+  if (showing.size() >= telling_cameras)
+    cameras.insert(cameras.end(), showing.begin(), showing.end());
   return cameras;
 }
 
@@ -88,13 +94,13 @@ class Search {
         origin_(scene.origin),
         context_(gl::Context::create(request.context)),
         judge_(context_, scene, request.photographs),
-        recorded_(recorded_cameras(scene, request, judge_)),
+        recorded_(recorded_cameras(context_, scene, request)),
         lent_(recorded_.size() - scene.cameras.size()),
         views_(slim_views(scene, recorded_, counted_views)),
         soup_(std::get<TriangleSoup>(scene.primitives)) {
-    // Without recorded cameras nobody knows where the scene is looked at from.
-    if (request.keep_unseen || recorded_.empty()) return;
-    const std::vector<Camera> all = all_views(scene, recorded_, views_);
+    // Of fewer nobody knows where the scene is looked at from.
+    if (request.keep_unseen || recorded_.size() < telling_cameras) return;
+    const std::vector<Camera> all = all_views(scene, views_);
     const std::size_t faces = soup_.triangles.size();
     soup_ = seen_faces(context_, scene, all);
     unseen_ = faces - soup_.triangles.size();

@@ -19,9 +19,8 @@ struct SlimRequest {
   bool keep_unseen = false;
   /// Empty: the loss is estimated from the scene's own pictures.
   std::vector<Photograph> photographs = {};
-  /// From where other photographs of the same dataset were taken. Where they are telling_cameras at
-  /// least, the scene has fewer, and comes nearer to its photographs than hopeless_db, they join
-  /// its recorded ones.
+  /// From where other photographs of the same dataset were taken. Where telling_cameras of them at
+  /// least show any of the scene, which has fewer, those join its recorded ones.
   std::vector<Camera> training_cameras = {};
   gl::ContextRequest context = {};
   /// Called now and then with the fraction done, 0..1; may throw to end the search.
@@ -47,9 +46,9 @@ struct SlimResult {
   std::string views;      // that it was measured on: SlimJudge::views
 };
 
-/// Where the scene has recorded cameras, or training cameras that join them, faces that neither
-/// they (200 at most) nor views from the upper half of a sphere around it (64) show in any pixel
-/// are left out; without them nobody knows where the scene is looked at from, and all faces stay.
+/// Where the scene has telling_cameras, training cameras that join them counted in, faces that
+/// neither they (200 at most) nor views from the upper half of a sphere around it (64) show in any
+/// pixel are left out; of fewer nobody knows where the scene is looked at from, and all faces stay.
 /// Positions may take a twelfth of the loss: they get the fewest bits that keep within it. Faces
 /// that a lower level says to half a step of 8 bits get that level. Then the largest step of colour
 /// that keeps all of it within the bound is found by bisection and a scan, with finer alphas where
@@ -58,7 +57,7 @@ struct SlimResult {
 /// (SlimImportance).
 ///
 /// Throws UsageError where the scene has no lattice texture or nothing keeps within the bound, and
-/// what drawing throws.
+/// what SlimJudge throws.
 SlimResult slim(const Scene& scene, const SlimRequest& request);
 
 }  // namespace tureen::cli

@@ -8,6 +8,7 @@
 #include "cli/interrupt.hpp"
 #include "runtime/camera_sets.hpp"
 #include "runtime/renderer.hpp"
+#include "soup/error.hpp"
 #include "soup/metrics.hpp"
 #include "soup/render_error.hpp"
 
@@ -65,7 +66,13 @@ SlimJudge::SlimJudge(const gl::Context& context, const Scene& scene,
     pictures_.push_back(picture);
     if (!photographs_.empty()) errors.push_back(mean_squared_error(photographs_[i], picture));
   });
-  if (!photographs_.empty()) model_db_ = model_db(errors);
+  if (photographs_.empty()) return;
+  model_db_ = model_db(errors);
+  if (model_db_ < hopeless_db)
+    throw UsageError(
+        fmt::format("the scene comes only within {:.2f} dB of these photographs: most likely they "
+                    "show another one; without --photographs the loss is estimated",
+                    model_db_));
 }
 
 SlimLoss SlimJudge::loss(const TriangleSoup& soup) const {

@@ -27,8 +27,9 @@ class SlimJudge {
   static constexpr double assumed_model_db = 32;
 
   /// Draws the scene from where the photographs were taken, or, where there are none, from
-  /// slim_views, up to 24. `context` must outlive the judge and
-  /// be current. The scene holds a soup without defect().
+  /// slim_views, up to 24. `context` must outlive the judge and be current. The scene holds a soup
+  /// without defect(). Throws UsageError where the scene comes only within hopeless_db of the
+  /// photographs, where the loss means nothing, and what drawing throws.
   SlimJudge(const gl::Context& context, const Scene& scene,
             std::span<const Photograph> photographs);
 

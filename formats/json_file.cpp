@@ -13,6 +13,7 @@ namespace {
 
 /// Programs that write JSON by hand leave numbers in it that JSON does not have.
 std::string what_is_wrong(std::string_view text, std::size_t byte) {
+  if (text.empty()) return "the file is empty";
   for (const std::string_view word : {"NaN", "nan", "-Infinity", "Infinity", "-inf", "inf"})
     // The parser stops at the letter that it cannot take, which may lie within the word.
     for (std::size_t back = 0; back < word.size() && back <= byte; ++back)

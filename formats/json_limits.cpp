@@ -4,9 +4,23 @@
 
 namespace tureen {
 
+namespace {
+
+/// Whether a parser gets past the first character; of what is no JSON at all it should say so, not
+/// that some of its bytes look like deep nesting.
+bool may_be_json(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != text.npos &&
+         std::string_view("{[\"-0123456789tfn").find(text[first]) != std::string_view::npos;
+}
+
+}  // namespace
+
 std::uint64_t count_json_values(std::string_view text, const std::string& file,
                                 std::uint64_t first_byte) {
   std::uint64_t values = 1;
+  if (!may_be_json(text)) return values;
   int depth = 0;
   bool in_string = false;
   for (std::size_t i = 0; i < text.size(); ++i) {

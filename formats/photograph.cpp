@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "formats/decimal.hpp"
 #include "formats/png.hpp"
 #include "formats/uri.hpp"
 #include "soup/box_scale.hpp"
@@ -106,8 +107,9 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem:
   const glm::ivec2 size(scaled_side(full.x, options.scale), scaled_side(full.y, options.scale));
   known = scaled_rectangle(known, full, size);
   if (known.left >= known.right || known.top >= known.bottom)
-    throw InputError({input.name(), {}, {}},
-                     "nothing is left of it at " + size_text(size.x, size.y));
+    throw InputError({input.name(), {}, {}}, "nothing is left of it at " +
+                                                 size_text(size.x, size.y) + ", scaled by " +
+                                                 float_text(float(options.scale)));
   camera = stretched(std::move(camera), size.x, size.y);
   // Scaled, and perhaps cropped once more.
   input.take_memory(std::uint64_t(size.x) * std::uint64_t(size.y), 2 * sizeof(glm::u8vec4),

@@ -43,6 +43,19 @@ std::vector<std::uint64_t> count_visible_pixels(const gl::Context& context,
   return pixels;
 }
 
+std::vector<std::uint64_t> count_covered_pixels(const gl::Context& context,
+                                                const TriangleSoup& soup, glm::dvec3 origin,
+                                                std::span<const Camera> views,
+                                                const std::function<void(double)>& progress) {
+  std::vector<std::uint64_t> pixels;
+  visit_pictures(context, soup, origin, views, progress,
+                 [&](const Camera&, const std::vector<std::uint32_t>& faces) {
+                   const auto empty = std::count(faces.begin(), faces.end(), no_face);
+                   pixels.push_back(faces.size() - std::size_t(empty));
+                 });
+  return pixels;
+}
+
 std::vector<float> count_visible_texels(const gl::Context& context, const TriangleSoup& soup,
                                         glm::dvec3 origin, std::span<const Camera> views,
                                         const std::function<void(double)>& progress) {

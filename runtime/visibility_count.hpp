@@ -23,6 +23,12 @@ std::vector<std::uint64_t> count_visible_pixels(const gl::Context& context,
                                                 std::span<const Camera> views,
                                                 const std::function<void(double)>& progress = {});
 
+/// Pixels that each view shows of the soup, one count a view; otherwise as above.
+std::vector<std::uint64_t> count_covered_pixels(const gl::Context& context,
+                                                const TriangleSoup& soup, glm::dvec3 origin,
+                                                std::span<const Camera> views,
+                                                const std::function<void(double)>& progress = {});
+
 /// How often each texel shows over all views: the sum of the weights with which pixels' centres
 /// take it (lattice::footprint). A face's texels come to about its pixels: those whose centre the
 /// device finds in a face that exact edges do not are left out. The soup has a lattice texture;

@@ -94,6 +94,7 @@ TEST_F(BenchImport, WrongUsageAndBadFilesLeaveNothing) {
   expect(2, {"--import", "phone.json", "--rounds", "3"},
          "--rounds means nothing with --import: nothing is measured");
   expect(2, {"scene.off", "--import", "phone.json"}, "SCENE means nothing with --import");
+  expect(2, {"--import", "phone.json", "--csv", "phone.json"}, "phone.json is an input itself");
   expect(3, {"--import", "phon.json"}, "did you mean phone.json?");
   phone["scenes"][0]["measurements"][0]["entrants"][0]["frame_ms"][0][0] = -1;
   write("bad.json", phone.dump());

@@ -80,7 +80,7 @@ TEST_F(Bench, SaysWithHowManyThreadsLlvmpipeDraws) {
   unsetenv("LP_NUM_THREADS");
   ASSERT_THAT(two["device"]["renderer"].get<std::string>(), HasSubstr("llvmpipe"));
   EXPECT_EQ(two["machine"]["rasteriser_threads"], 2);
-  EXPECT_THAT(one.err, HasSubstr("another number of rasteriser threads: 1, then 2"));
+  EXPECT_THAT(one.err, HasSubstr("another number of rasteriser threads: 2 then, 1 now"));
 }
 
 TEST_F(Bench, SoftwareIsTimedByTheProcessorsClockAlone) {

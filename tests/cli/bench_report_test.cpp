@@ -333,8 +333,8 @@ TEST(BenchComparison, SaysWhatBuildAndThreadsChanged) {
   then.program.build = "release";
   then.machine.rasteriser_threads = 2;
   EXPECT_THAT(compare_benches(now, then).circumstances,
-              ElementsAre("another number of rasteriser threads: 4, then 2",
-                          "another build: debug, then release"));
+              ElementsAre("another number of rasteriser threads: 2 then, 4 now",
+                          "another build: release then, debug now"));
 }
 
 TEST(BenchComparison, SaysWhatElseChanged) {
@@ -344,10 +344,31 @@ TEST(BenchComparison, SaysWhatElseChanged) {
   now.machine.cores = 4;
   now.device.version = "another";
   now.program.commit = "def5678";
-  EXPECT_THAT(
-      compare_benches(now, then).circumstances,
-      ElementsAre(HasSubstr("another scene"), HasSubstr("another machine"),
-                  HasSubstr("another driver"), HasSubstr("another commit: def5678, then abc1234")));
+  EXPECT_THAT(compare_benches(now, then).circumstances,
+              ElementsAre(HasSubstr("another scene"), HasSubstr("another machine"),
+                          HasSubstr("another driver"),
+                          HasSubstr("another commit: abc1234 then, def5678 now")));
+}
+
+TEST(BenchComparison, SoftwareAndHardwareAreNotCompared) {
+  const BenchResult then = result();
+  BenchResult now = then;
+  now.device.software = !then.device.software;
+  BenchComparison comparison = compare_benches(now, then);
+  EXPECT_THAT(comparison.ratios, IsEmpty());
+  EXPECT_THAT(comparison.unmatched, IsEmpty());
+  EXPECT_THAT(comparison.circumstances, ElementsAre(StartsWith("not compared: one of the two")));
+  // What nobody could judge has not passed.
+  BenchReportOptions options;
+  options.against = "old.json";
+  options.fail_slower = 50;
+  EXPECT_EQ(report_bench(options, now, then), ExitCode::check_failed);
+  now = then;
+  now.protocol.clock = "processor time";
+  comparison = compare_benches(now, then);
+  EXPECT_THAT(comparison.ratios, IsEmpty());
+  EXPECT_THAT(comparison.circumstances,
+              ElementsAre(StartsWith("not compared: their times"), StartsWith("another clock")));
 }
 
 TEST(BenchComparison, DoesNotPairWhatIsNotTheSame) {
@@ -427,10 +448,10 @@ TEST(BenchReports, WritesTheFolderAndFailsOnlyWhereAsked) {
                              .fail_slower = {}};
   // Every name is tried before minutes of measuring.
   std::filesystem::create_directories(folder / "new/out/bench.csv");
-  EXPECT_THROW(prepare_bench_reports(options), OutputError);
+  EXPECT_THROW(prepare_bench_reports(options, {}), OutputError);
   EXPECT_FALSE(std::filesystem::exists(folder / "new/out/bench.json"));
   std::filesystem::remove(folder / "new/out/bench.csv");
-  const auto before = prepare_bench_reports(options);
+  const auto before = prepare_bench_reports(options, {});
   ASSERT_TRUE(before);
   EXPECT_EQ(report_bench(options, now, before), ExitCode::done);
   std::ifstream file(folder / "new/out/bench.md");
@@ -478,7 +499,7 @@ TEST(BenchReports, ABadFileIsRefusedBeforeAnythingIsMeasured) {
   const auto prepare = [&](const char* name) {
     BenchReportOptions options;
     options.against = (folder / name).string();
-    prepare_bench_reports(options);
+    prepare_bench_reports(options, {});
   };
   EXPECT_THAT(tureen::testing::input_error([&] { prepare("bad.json"); }),
               HasSubstr("no result of tureen bench"));

@@ -94,6 +94,18 @@ TEST_F(Outputs, AreNotTheInputs) {
   write("scenes.json", "{}");
   expect({"tradeoff", "--import", "scenes.json", "--import", "other.json", "-o", "."}, 2,
          "scenes.json is an input itself");
+  const auto bench = [&](std::vector<std::string> outputs, const char* what) {
+    outputs.insert(outputs.begin(), {"bench", "scene.off"});
+    expect(outputs, 2, what);
+  };
+  bench({"--csv", "scene.off"}, "scene.off is an input itself");
+  write("bench.json", "{}");
+  bench({"--against", "bench.json", "--csv", "bench.json"}, "bench.json is an input itself");
+  bench({"--against", "bench.json", "-o", "."}, "bench.json is an input itself");
+  bench({"--cameras", "bench.json", "-o", "."}, "bench.json is an input itself");
+  fs::create_directory(folder / "photographs");
+  write("photographs/transforms.json", "{}");
+  bench({"photographs", "--csv", "photographs/transforms.json"}, "in the folder of an input");
 }
 
 TEST_F(Outputs, ReplaceNothingInFoldersOfInputs) {

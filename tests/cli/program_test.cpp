@@ -70,6 +70,8 @@ TEST_F(Program, WrongUsageIsTwoAndAHint) {
   expect({"compare", "a.png", "b.png", "--metric", "psnr"}, "did you mean psnr_db?");
   expect({"compare", "a.png", "b.png", "--pixel-tolerance", "nan"},
          "--pixel-tolerance: 'nan' is not a number from 0 to 1");
+  expect({"compare", "a.png", "b.png", "--pixel-tolerance", "0x1"},
+         "--pixel-tolerance: '0x1' is not a number from 0 to 1");
   expect({"bench", "scene.off", "--rounds", "2.5"}, "'2.5' is not a whole number from 1 to 10000");
 }
 

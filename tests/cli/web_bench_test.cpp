@@ -173,7 +173,7 @@ TEST(WebBench, EveryValueIsOfItsKind) {
 }
 
 TEST(WebBench, SaysWhatIsWrong) {
-  EXPECT_THAT(refusal(""), HasSubstr("phone.json: byte 0: not valid JSON"));
+  EXPECT_THAT(refusal(""), HasSubstr("phone.json: byte 0: the file is empty"));
   EXPECT_THAT(refusal("{\"format\": NaN}"), HasSubstr("NaN is no number there"));
   EXPECT_THAT(refusal("[]"), HasSubstr("phone.json: expected an object"));
   EXPECT_THAT(refusal("{\"format\": \"tureen bench\"}"),

@@ -377,6 +377,9 @@ TEST(Dataset, RefusesWhatIsNoDataset) {
   EXPECT_THAT(refusal(folder / ""), HasSubstr("there is no \"frames\""));
   write_text(folder / "transforms.json", "{\"frames\": [");
   EXPECT_THAT(refusal(folder / ""), HasSubstr("not valid JSON"));
+  // Whatever its bytes look like.
+  write_text(folder / "transforms.json", "glTF" + std::string(100, '['));
+  EXPECT_THAT(refusal(folder / ""), HasSubstr("byte 0: not valid JSON"));
   for (const std::string word : {"NaN", "Infinity", "-Infinity"}) {
     write_text(folder / "transforms.json", "{\"fl_x\": " + word + ", \"frames\": []}");
     EXPECT_THAT(refusal(folder / ""), HasSubstr("not valid JSON: " + word + " is no number there"));
