@@ -51,8 +51,8 @@ std::string bench_markdown(const BenchResult& result) {
 }
 
 std::string comparison_markdown(const BenchComparison& comparison, const std::string& against) {
-  std::string text = "\nAgainst " + markdown_cell(against) + ": ";
-  text += comparison.ratios.empty() ? "nothing can be compared.\n"
+  std::string text = "\nAgainst " + markdown_cell(against) + ":";
+  text += comparison.ratios.empty() ? " nothing can be compared.\n"
                                     : "\n\n| configuration | cameras | size | ms then | ms now | "
                                       "times as long | spread | verdict "
                                       "|\n|---|---|---|---|---|---|---|---|\n";

@@ -103,21 +103,23 @@ void comparison(HtmlPage& page, const BenchPage& extra) {
   if (!extra.comparison) return;
   page.section("Against " + extra.compared_with);
   page.list(extra.comparison->circumstances);
+  if (extra.comparison->ratios.empty()) page.paragraph("Nothing can be compared.");
   std::vector<std::vector<std::string>> rows;
   for (const BenchRatio& r : extra.comparison->ratios)
     rows.push_back({r.configuration, r.camera_set, r.size, ms(r.then_ms), ms(r.now_ms),
                     fmt::format("{:.3f}", r.ratio), r.spread ? percent(*r.spread) : not_known,
                     verdict_text(r.verdict, r.rounds), r.same_pixels ? "the same" : "another"});
-  page.table({{"configuration", Column::text},
-              {"cameras", Column::text},
-              {"size", Column::text},
-              {"then ms"},
-              {"now ms"},
-              {"now / then"},
-              {"spread"},
-              {"by twice the spread", Column::text},
-              {"picture", Column::text}},
-             rows);
+  if (!rows.empty())
+    page.table({{"configuration", Column::text},
+                {"cameras", Column::text},
+                {"size", Column::text},
+                {"then ms"},
+                {"now ms"},
+                {"now / then"},
+                {"spread"},
+                {"by twice the spread", Column::text},
+                {"picture", Column::text}},
+               rows);
   page.list(extra.comparison->unmatched);
 }
 

@@ -363,6 +363,12 @@ TEST(BenchComparison, SoftwareAndHardwareAreNotCompared) {
   options.against = "old.json";
   options.fail_slower = 50;
   EXPECT_EQ(report_bench(options, now, then), ExitCode::check_failed);
+  BenchPage page;
+  page.comparison = &comparison;
+  EXPECT_THAT(bench_page(now, page),
+              AllOf(HasSubstr("Nothing can be compared."), Not(HasSubstr("then ms"))));
+  EXPECT_THAT(comparison_markdown(comparison, "old.json"),
+              AllOf(HasSubstr("old.json: nothing can be compared."), Not(HasSubstr("ms then"))));
   now = then;
   now.protocol.clock = "processor time";
   comparison = compare_benches(now, then);

@@ -348,7 +348,7 @@ Content training_checkpoint_bytes(const Scratch& scratch) {
   const auto path = scratch.folder() / "run.checkpoint";
   trainer::write_checkpoint(path, checkpoint);
   Content bytes = Input::open(path).read_rest();
-  bytes.resize(bytes.size() - 4);  // its checksum, which the target works out
+  bytes.erase(bytes.end() - 4, bytes.end());  // its checksum, which the target works out
   return bytes;
 }
 
