@@ -20,9 +20,9 @@ inline constexpr int max_json_depth = 64;
 /// node of the object's tree that holds it and its key, and what vectors have in reserve.
 inline constexpr std::size_t json_value_bytes = 128;
 
-/// An upper bound of the number of values and keys in `text`, whether it is JSON or not. Throws an
-/// InputError, with the byte of `file` of which `text` begins at `first_byte`, where it is nested
-/// deeper than max_json_depth.
+/// An upper bound of the number of values and keys that a parser makes of `text`, whether it is
+/// JSON or not: 1 where it stops at the first character. Throws an InputError, with the byte of
+/// `file` of which `text` begins at `first_byte`, where it is nested deeper than max_json_depth.
 std::uint64_t count_json_values(std::string_view text, const std::string& file,
                                 std::uint64_t first_byte = 0);
 
