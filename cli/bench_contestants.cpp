@@ -191,7 +191,8 @@ void check(const ContestantOptions& options) {
       throw UsageError(
           "--only takes tureen, tureen-fragment, tureen-compute, generic, published, triangles and "
           "copy, not '" +
-          name + "'" + did_you_mean(name, all_names));
+              name + "'",
+          did_you_mean(name, all_names));
     if (std::find(options.only.begin(), options.only.begin() + std::ptrdiff_t(i), name) !=
         options.only.begin() + std::ptrdiff_t(i))
       throw UsageError("--only names " + name + " twice");

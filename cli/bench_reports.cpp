@@ -154,8 +154,9 @@ std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& optio
     const auto few = [](const BenchMeasurement& m) { return m.frame_ms.rounds < least_rounds; };
     if (options.fail_slower &&
         std::any_of(then->measurements.begin(), then->measurements.end(), few))
-      throw UsageError(fmt::format("--fail-slower wants {} rounds of {}, too: measure it anew",
-                                   least_rounds, options.against));
+      throw UsageError(
+          fmt::format("--fail-slower wants {} rounds of {}, too", least_rounds, options.against),
+          "measure it anew");
   }
   for (const std::string& each : {options.folder, options.plots}) {
     if (each.empty()) continue;

@@ -39,7 +39,7 @@ CameraSet parse_set(const std::string& text) {
       if (colon != std::string::npos)
         set.count = parse_integer(text.substr(colon + 1), 1, most_views);
     } catch (const UsageError& error) {
-      throw UsageError("--cameras " + text + ": " + error.what());
+      throw UsageError("--cameras " + text + ": " + error.reason(), error.hint());
     }
     set.name = word + ":" + std::to_string(set.count);
     return set;

@@ -27,7 +27,7 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, T& value,
       list += (words.empty() ? "" : ", ") + known;
       words.push_back(known);
     }
-    throw UsageError(name + " takes " + list + ", not '" + word + "'" + did_you_mean(word, words));
+    throw UsageError(name + " takes " + list + ", not '" + word + "'", did_you_mean(word, words));
   };
   return command.add_option_function<std::string>(name, choose, help);
 }

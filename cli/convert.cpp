@@ -47,7 +47,8 @@ void require_known_extension(const fs::path& output) {
   try {
     require_written_format(output);
   } catch (const UsageError& error) {
-    throw UsageError(error.reason() + "; a page is .html");
+    throw UsageError(error.reason(),
+                     (error.hint().empty() ? "" : error.hint() + "; ") + "a page is .html");
   }
 }
 
@@ -64,7 +65,7 @@ void check_output(const Options& options) {
     require_writable_file(output);
   std::error_code error;
   if (fs::exists(output, error) && !options.force)
-    throw UsageError(options.output + " exists already; --force replaces it");
+    throw UsageError(options.output + " exists already", "--force replaces it");
 }
 
 /// Writes `file`, in the format that its name says. Says what that lost, and returns it.
@@ -92,7 +93,7 @@ Json write_page(const ScenePageTemplate& page, Scene scene, const Options& optio
   try {
     figures = write(std::move(scene), options, glb.path());
   } catch (const OutputError& error) {
-    throw OutputError({options.output, {}, {}}, error.reason());
+    throw OutputError({options.output, {}, {}}, error.reason(), error.hint());
   }
   page.write(glb.path(), name, output);
   return figures;

@@ -60,9 +60,9 @@ void require_sides(const DatasetArgument& argument, const Dataset& dataset, Side
       const std::string bound = shorter < limits.least ? fmt::format("at least {}", limits.least)
                                                        : fmt::format("at most {}", limits.most);
       throw InputError({argument.path, {}, {}},
-                       fmt::format("{} is {} x {} pixels; there must be {} each way{}",
-                                   view.camera.name, view.camera.width, view.camera.height, bound,
-                                   longer > limits.most ? ": --scale makes it smaller" : ""));
+                       fmt::format("{} is {} x {} pixels; there must be {} each way",
+                                   view.camera.name, view.camera.width, view.camera.height, bound),
+                       longer > limits.most ? "--scale makes it smaller" : "");
     }
 }
 

@@ -16,7 +16,7 @@ LeaveOut named(const std::string& name) {
     list += (names.empty() ? "" : ", ") + std::string(known.name);
     names.emplace_back(known.name);
   }
-  throw UsageError("--keep takes " + list + ", not '" + name + "'" + did_you_mean(name, names));
+  throw UsageError("--keep takes " + list + ", not '" + name + "'", did_you_mean(name, names));
 }
 
 }  // namespace

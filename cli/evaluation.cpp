@@ -57,8 +57,8 @@ void check_spared(const fs::path& spared, const fs::path& folder,
   for (const std::string& file : files)
     if (fs::exists(folder / file, error))
       throw UsageError((folder / file).string() +
-                       " is there already, and in the dataset's folder nothing is replaced; choose "
-                       "another folder for the pictures");
+                           " is there already, and in the dataset's folder nothing is replaced",
+                       "choose another folder for the pictures");
 }
 
 ViewMetrics mean_of(const std::vector<ViewMetrics>& views) {

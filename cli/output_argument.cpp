@@ -18,7 +18,7 @@ void try_in(const fs::path& folder, const fs::path& path) {
     // Removes its temporary file. No file has this name, so that only the folder can refuse it.
     const Output probe(folder / ".tureen-probe");
   } catch (const OutputError& error) {
-    throw OutputError({path.string(), {}, {}}, error.reason());
+    throw OutputError({path.string(), {}, {}}, error.reason(), error.hint());
   }
 }
 
@@ -27,14 +27,14 @@ void try_in(const fs::path& folder, const fs::path& path) {
 void require_not_input(const fs::path& output, const fs::path& input) {
   std::error_code error;  // what is not there is said where it is read
   if (fs::equivalent(output, input, error))
-    throw UsageError(output.string() + " is an input itself; choose another name");
+    throw UsageError(output.string() + " is an input itself", "choose another name");
   if (!fs::exists(output, error)) return;
   if (fs::is_directory(input, error) && lies_in(output, input))
     throw UsageError(output.string() + " is there already, and in the folder of an input, " +
-                     input.string() + ", nothing is replaced; choose another place");
+                         input.string() + ", nothing is replaced",
+                     "choose another place");
   if (fs::is_directory(output, error) && lies_in(input, output))
-    throw UsageError(output.string() + " holds an input, " + input.string() +
-                     "; choose another name");
+    throw UsageError(output.string() + " holds an input, " + input.string(), "choose another name");
 }
 
 void require_writable_file(const fs::path& path) { const Output probe(path); }
@@ -60,10 +60,11 @@ void require_writable_export(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(path, error) && !is_diffsoup_export(path) &&
       !(fs::is_directory(path, error) && fs::is_empty(path, error)))
-    throw UsageError(path.string() + " exists and is no DiffSoup export; choose another name");
+    throw UsageError(path.string() + " exists and is no DiffSoup export", "choose another name");
   if (const std::string foreign = foreign_to_diffsoup_export(path); !foreign.empty())
     throw UsageError(path.string() + " is replaced as a whole, and holds " + foreign +
-                     ", which is no part of an export; choose another name");
+                         ", which is no part of an export",
+                     "choose another name");
   require_writable_beside(writable_folder(path));
 }
 

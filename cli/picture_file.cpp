@@ -32,9 +32,8 @@ std::string expanded(const std::string& pattern, int index, bool& replaced) {
       // "%03d" and "%12d" are widths that make sense.
       const std::string width = pattern.substr(i + 1, end - i - 1);
       if (end == pattern.size() || pattern[end] != 'd' || width.size() > 2 || replaced)
-        throw UsageError("'" + pattern +
-                         "' is no name for pictures; the number goes where %d or %03d stands, "
-                         "once, and %% is a percent sign");
+        throw UsageError("'" + pattern + "' is no name for pictures",
+                         "the number goes where %d or %03d stands, once, and %% is a percent sign");
       result += padded(index, width.empty() ? 0 : std::stoi(width));
       replaced = true;
       i = end;

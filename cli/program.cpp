@@ -60,8 +60,8 @@ class HelpFormatter : public CLI::Formatter {
   }
 };
 
-/// A sentence for arguments that CLI11 refuses.
-std::string explain(const CLI::App& program, const CLI::ParseError& error) {
+/// What CLI11 refuses, as an error of ours.
+UsageError explain(const CLI::App& program, const CLI::ParseError& error) {
   const CLI::App& command = named_command(program);
   if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
     const std::vector<std::string> extras = command.remaining(true);
@@ -71,16 +71,16 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
       std::vector<std::string> known;
       for (const CLI::Option* option : command.get_options())
         for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-      return command.get_name() + " has no option " + word + did_you_mean(word, known);
+      return UsageError(command.get_name() + " has no option " + word, did_you_mean(word, known));
     }
-    if (!extras.empty()) return "'" + extras.front() + "' is one argument too many";
+    if (!extras.empty()) return UsageError("'" + extras.front() + "' is one argument too many");
   }
-  return error.what();
+  return UsageError(error.what());
 }
 
-int refuse(const CLI::App& program, const std::string& reason) {
+int refuse(const CLI::App& program, const UsageError& error) {
   const CLI::App& command = named_command(program);
-  say("tureen: " + reason);
+  say(std::string("tureen: ") + error.what());
   say("Try: tureen " + (&command == &program ? "" : command.get_name() + " ") + "--help");
   return int(ExitCode::usage);
 }
@@ -144,12 +144,12 @@ bad, 4 no OpenGL context, 5 anything else.)");
     return int(ExitCode::usage);
   }
   if (is_unknown_command(program, argc, argv))
-    return refuse(program, std::string("there is no command ") + argv[1] +
-                               did_you_mean(argv[1], command_names(program)));
+    return refuse(program, UsageError(std::string("there is no command ") + argv[1],
+                                      did_you_mean(argv[1], command_names(program))));
   try {
     program.parse(argc, argv);
     if (const auto name = empty_argument(named_command(program)))
-      return refuse(program, *name + " is empty");
+      return refuse(program, UsageError(*name + " is empty"));
   } catch (const CLI::Success& help_or_version) {
     std::ostringstream text;
     program.exit(help_or_version, text);
@@ -158,7 +158,7 @@ bad, 4 no OpenGL context, 5 anything else.)");
       return ExitCode::done;
     };
   } catch (const UsageError& error) {
-    return refuse(program, error.reason());
+    return refuse(program, error);
   } catch (const CLI::ParseError& error) {
     return refuse(program, explain(program, error));
   }

@@ -107,10 +107,9 @@ void check_output(const Options& options, const glm::vec4& background) {
                      "' is a video, which shows the frames of --path or "
                      "--turntable");
   if (!options.background.empty() && background.a < 1)
-    throw UsageError(
-        "a video shows no transparency: leave --background transparent away, or write "
-        "pictures, -o frame_%04d.png");
-  if (!have_ffmpeg()) throw UsageError(ffmpeg_missing);
+    throw UsageError("a video shows no transparency",
+                     "leave --background transparent away, or write pictures, -o frame_%04d.png");
+  if (!have_ffmpeg()) throw UsageError(ffmpeg_missing, ffmpeg_hint);
   require_not_input(options.output, options.scene.path);
   require_writable_file(options.output);
 }

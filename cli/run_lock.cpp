@@ -33,8 +33,8 @@ RunLock::RunLock(std::filesystem::path file) : file_(std::move(file)) {
                         std::string("cannot be written: ") + std::strerror(errno));
     if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       close(descriptor_);
-      throw UsageError("another run is writing the files beside " + file_.string() +
-                       ": wait for it, stop it, or choose another name with -o");
+      throw UsageError("another run is writing the files beside " + file_.string(),
+                       "wait for it, stop it, or choose another name with -o");
     }
     if (is_still(descriptor_, file_)) return;
     close(descriptor_);

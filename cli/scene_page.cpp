@@ -55,10 +55,11 @@ ScenePageTemplate ScenePageTemplate::find() {
   const char* named = std::getenv(template_variable);
   if (named && *named) return read_template(named);
   if (const std::optional<fs::path> file = template_of_program()) return read_template(*file);
-  throw OutputError({}, std::string("a page needs the viewer that goes into it, "
-                                    "share/tureen/scene_template.html, which is not there: ./dev "
-                                    "web makes it; ") +
-                            template_variable + " names one that lies elsewhere");
+  throw OutputError(
+      {},
+      "a page needs the viewer that goes into it, share/tureen/scene_template.html, "
+      "which is not there",
+      std::string("./dev web makes it; ") + template_variable + " names one that lies elsewhere");
 }
 
 ScenePageTemplate::ScenePageTemplate(std::string text, const std::string& file)
@@ -77,9 +78,9 @@ void ScenePageTemplate::write(const fs::path& glb, const std::string& name,
   Input scene = Input::open(glb);
   if (scene.size() > max_scene_page_bytes)
     throw UsageError("the scene takes " + std::to_string(scene.size()) +
-                     " bytes, and a page that a browser opens holds at most " +
-                     std::to_string(max_scene_page_bytes) +
-                     "; --slim makes it smaller, and a .glb beside the viewer may have any size");
+                         " bytes, and a page that a browser opens holds at most " +
+                         std::to_string(max_scene_page_bytes),
+                     "--slim makes it smaller, and a .glb beside the viewer may have any size");
   const std::string_view text = text_, element = scene_element;
   const std::string_view name_at = R"(data-name=")", digits_at = R"(">)";
   const std::size_t name_begin = element_ + element.find(name_at) + name_at.size();

@@ -18,7 +18,7 @@ Inspection named(const std::string& name) {
     list += (names.empty() ? "" : ", ") + std::string(known.name);
     names.emplace_back(known.name);
   }
-  throw UsageError("--show takes " + list + ", not '" + name + "'" + did_you_mean(name, names));
+  throw UsageError("--show takes " + list + ", not '" + name + "'", did_you_mean(name, names));
 }
 
 /// "3" or "4-6".

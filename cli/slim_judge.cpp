@@ -71,8 +71,9 @@ SlimJudge::SlimJudge(const gl::Context& context, const Scene& scene,
   if (model_db_ < hopeless_db)
     throw UsageError(
         fmt::format("the scene comes only within {:.2f} dB of these photographs: most likely they "
-                    "show another one; without --photographs the loss is estimated",
-                    model_db_));
+                    "show another one",
+                    model_db_),
+        "without --photographs the loss is estimated");
 }
 
 SlimLoss SlimJudge::loss(const TriangleSoup& soup) const {

@@ -105,10 +105,10 @@ void require_writable_outputs(const Options& options) {
     throw UsageError("'" + path.string() + "' does not end in .glb; presets are kept in our GLB");
   std::error_code error;
   if (fs::equivalent(path, options.scene.path, error))
-    throw UsageError(path.string() +
-                     " is the scene itself, which stays as it is; name another file");
+    throw UsageError(path.string() + " is the scene itself, which stays as it is",
+                     "name another file");
   if (fs::exists(path, error) && !options.force)
-    throw UsageError(path.string() + " exists; name another file, or give --force to replace it");
+    throw UsageError(path.string() + " exists", "name another file, or give --force to replace it");
   require_writable_file(path);
 }
 

@@ -85,7 +85,7 @@ Config config_of(const Options& options, Preset otherwise, const Checkpoint* che
       throw UsageError("--resume cannot go on with another configuration: " + *reason);
   if (config.initialisation == trainer::Initialisation::mesh && !checkpoint &&
       options.config.mesh().empty())
-    throw UsageError("initialisation \"mesh\" needs the scene: --init FILE");
+    throw UsageError("initialisation \"mesh\" needs the scene", "--init FILE names it");
   return config;
 }
 
@@ -242,9 +242,9 @@ std::optional<Scene> read_mesh(const ConfigOptions& options) {
   if (path.empty()) return std::nullopt;
   const std::vector<std::string> words{"random", "points"};
   if (is_missing(path))
-    throw InputError({path.string(), {}, {}}, why_missing(path) +
-                                                  "; --init takes random, points or a scene" +
-                                                  did_you_mean(path.string(), words));
+    throw InputError({path.string(), {}, {}},
+                     why_missing(path) + ", and --init takes random, points or a scene",
+                     did_you_mean(path.string(), words));
   return read(SceneArgument{.path = path.string(), .vertex_colors = {}, .up = {}});
 }
 
@@ -252,14 +252,13 @@ std::optional<Scene> read_mesh(const ConfigOptions& options) {
 void check_existing(const Options& options, const TrainingFiles& files) {
   std::error_code error;
   if (const fs::path mesh = options.config.mesh(); fs::equivalent(mesh, files.scene, error))
-    throw UsageError("-o would replace " + mesh.string() +
-                     ", from which --init begins; choose another name");
+    throw UsageError("-o would replace " + mesh.string() + ", from which --init begins",
+                     "choose another name");
   if (!options.resume && fs::exists(files.scene, error))
     say(files.scene.string() + " is there and will be replaced in the end, its log now");
   if (!options.resume && fs::exists(files.checkpoint, error))
-    throw UsageError(files.checkpoint.string() +
-                     " is there, of a run that was not finished: --resume goes on with it; remove "
-                     "it to begin again");
+    throw UsageError(files.checkpoint.string() + " is there, of a run that was not finished",
+                     "--resume goes on with it; remove it to begin again");
 }
 
 /// Reads what a run begins with. Ctrl-C in it, unlike later, leaves no checkpoint, which people may

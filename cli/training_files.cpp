@@ -25,7 +25,7 @@ void check_kind(const fs::path& file, std::string_view beginning, const char* ki
   std::string found(beginning.size(), '\0');
   found.resize(input.read_some(std::as_writable_bytes(std::span(found))));
   if (found != beginning.substr(0, found.size()))
-    throw UsageError(file.string() + " exists and is no " + kind + "; choose another name");
+    throw UsageError(file.string() + " exists and is no " + kind, "choose another name");
 }
 
 void check_log(const TrainingFiles& files) {

@@ -55,7 +55,8 @@ ParsedLog parse_log(const std::filesystem::path& path) {
       const auto line = parse_json(text.substr(begin, end - begin), input.name(), begin);
       log.records.push_back(record_of(JsonView(line, input.name())));
     } catch (const InputError& error) {
-      throw InputError({input.name(), {}, number}, "no record of training: " + error.reason());
+      throw InputError({input.name(), {}, number}, "no record of training: " + error.reason(),
+                       error.hint());
     }
     const std::size_t count = log.records.size();
     if (count > 1 && log.records[count - 1].step <= log.records[count - 2].step)

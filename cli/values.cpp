@@ -44,8 +44,8 @@ PictureSize parse_any_size(const std::string& text) {
     height = whole_number(text.substr(times + 1), 1, max_image_side);
   }
   if (!width || !height)
-    throw UsageError("'" + text + "' is no size; write it as 1280x720, each side from 1 to " +
-                     std::to_string(max_image_side));
+    throw UsageError("'" + text + "' is no size",
+                     "write it as 1280x720, each side from 1 to " + std::to_string(max_image_side));
   return {*width, *height};
 }
 
@@ -59,7 +59,7 @@ PictureSize parse_size(const std::string& text) {
 
 glm::dvec3 parse_vector(const std::string& text) {
   if (const auto vector = three_numbers(text)) return *vector;
-  throw UsageError("'" + text + "' is no vector; write it as 1,-2.5,3");
+  throw UsageError("'" + text + "' is no vector", "write it as 1,-2.5,3");
 }
 
 glm::vec4 parse_background(const std::string& text) {
@@ -68,8 +68,8 @@ glm::vec4 parse_background(const std::string& text) {
   if (text == "transparent") return glm::vec4(0);
   const auto color = three_numbers(text);
   if (!color || *color != glm::clamp(*color, 0.0, 1.0))
-    throw UsageError("'" + text +
-                     "' is no background; write white, black, transparent or 0.2,0.4,1");
+    throw UsageError("'" + text + "' is no background",
+                     "write white, black, transparent or 0.2,0.4,1");
   return {glm::vec3(*color), 1};
 }
 

@@ -43,9 +43,11 @@ ExitCode become_window(const std::vector<std::string>& arguments) {
   execvp(program.c_str(), argv.data());
 #endif
   if (errno == ENOENT)
-    throw UsageError("the window is a program of its own, " + std::string(window_program) +
-                     ", which is neither beside this one nor on PATH: build it with GLFW and Dear "
-                     "ImGui (libglfw3-dev, libimgui-dev). tureen render draws without it");
+    throw UsageError(
+        "the window is a program of its own, " + std::string(window_program) +
+            ", which is neither beside this one nor on PATH",
+        "build it with GLFW and Dear ImGui (libglfw3-dev, libimgui-dev); tureen render "
+        "draws without it");
   throw OutputError({program, {}, {}}, "cannot be started");
 }
 

@@ -61,9 +61,9 @@ void require_undoable(const ColmapLensModel& model) {
   std::string read;
   for (const ColmapLensModel& other : lens_models)
     if (other.can_be_undone) read += (read.empty() ? "" : ", ") + std::string(other.name);
-  throw ColmapRefusal{"the camera model " + std::string(model.name) +
-                      " is not among those we read (" + read +
-                      "): undistort the images first, with colmap image_undistorter"};
+  throw ColmapRefusal{
+      "the camera model " + std::string(model.name) + " is not among those we read (" + read + ")",
+      "undistort the images first, with colmap image_undistorter"};
 }
 
 ColmapCamera to_camera(const ColmapCameraRecord& record) {

@@ -27,7 +27,7 @@ auto convert_at(const Input& input, std::uint64_t begin, Convert&& convert) {
   try {
     return convert();
   } catch (const ColmapRefusal& refusal) {
-    input.fail_at(begin, refusal.reason);
+    input.fail_at(begin, refusal.reason, refusal.hint);
   }
 }
 

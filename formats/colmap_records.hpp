@@ -40,6 +40,7 @@ struct ColmapPoseRecord {
 /// Why a record is refused; the reader knows which place to name.
 struct ColmapRefusal {
   std::string reason;
+  std::string hint = {};
 };
 
 /// Throws ColmapRefusal where the model is none that can be undone.

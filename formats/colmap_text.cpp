@@ -38,7 +38,7 @@ auto convert_here(const TextScanner& text, Convert&& convert) {
   try {
     return convert();
   } catch (const ColmapRefusal& refusal) {
-    text.fail(refusal.reason);
+    text.fail(refusal.reason, refusal.hint);
   }
 }
 

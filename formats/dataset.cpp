@@ -61,10 +61,12 @@ Outline file_a_split(const fs::path& folder, const DatasetOptions& options,
     outline.file = (folder / name).string();
     std::error_code ignored;
     if (!fs::exists(folder / name, ignored))
-      throw InputError({(folder / name).string(), {}, {}},
-                       "there is no such file, which the other half of the dataset's split goes "
-                       "with; without a split name the one file there is instead of the folder, "
-                       "and every n-th photograph is kept to test with");
+      throw InputError(
+          {(folder / name).string(), {}, {}},
+          "there is no such file, which the other half of the dataset's split goes "
+          "with",
+          "without a split name the one file there is instead of the folder, and every "
+          "n-th photograph is kept to test with");
     Frames frames = read_transforms_dataset(folder / name, options.images_folder, budget);
     sort_by_name(frames);
     return frames;
@@ -188,8 +190,8 @@ void require_budget(const std::string& file, const std::vector<const DatasetFram
                 scaled_side(frame->size->y, options.scale / options.images_folder);
   // Cutting off what has no source takes away from this, by less than half.
   if (pixels * sizeof(glm::u8vec4) > 2.0 * double(budget.left()))
-    throw InputError({file, {}, {}},
-                     budget.refusal("the photographs") + ", --scale makes them smaller");
+    throw InputError({file, {}, {}}, budget.refusal("the photographs"),
+                     std::string(max_memory_hint) + ", --scale makes them smaller");
 }
 
 void describe_undistortion(int columns, int rows, Dataset& dataset) {

@@ -202,7 +202,9 @@ class NewFolder {
 
   /// The same of the file's final place, which people know.
   OutputError in_place(const OutputError& error) const {
-    return {{(path_ / fs::path(error.place().file).filename()).string(), {}, {}}, error.reason()};
+    return {{(path_ / fs::path(error.place().file).filename()).string(), {}, {}},
+            error.reason(),
+            error.hint()};
   }
 
   void commit() {

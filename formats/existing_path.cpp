@@ -16,8 +16,8 @@ bool is_missing(const fs::path& path) {
 }
 
 void require_there(const fs::path& path) {
-  const auto fail = [&](const std::string& reason) {
-    throw InputError({path.string(), {}, {}}, reason);
+  const auto fail = [&](const std::string& reason, const std::string& hint = {}) {
+    throw InputError({path.string(), {}, {}}, reason, hint);
   };
   if (path.empty()) throw UsageError("the name of an input is empty");
   std::error_code error;
@@ -25,7 +25,8 @@ void require_there(const fs::path& path) {
   if (status.type() == fs::file_type::not_found) {
     std::error_code none;
     const fs::path target = fs::read_symlink(path, none);
-    fail(none ? why_missing(path) : "is a link to " + target.string() + ", which is not there");
+    if (!none) fail("is a link to " + target.string() + ", which is not there");
+    fail(why_missing(path), did_you_mean(path));
   }
   if (!fs::status_known(status)) fail("cannot be looked up: " + error.message());
   // What lies in a folder that may not be entered looks as if it were not there.

@@ -137,14 +137,16 @@ void GltfDocument::parse() {
   if (!parsed || !error.empty()) fail("", "not valid glTF: " + one_line(error));
 }
 
-void GltfDocument::fail(const std::string& where, const std::string& reason) const {
-  throw InputError({input_.name(), {}, {}}, where.empty() ? reason : where + ": " + reason);
+void GltfDocument::fail(const std::string& where, const std::string& reason,
+                        const std::string& hint) const {
+  throw InputError({input_.name(), {}, {}}, where.empty() ? reason : where + ": " + reason, hint);
 }
 
 void GltfDocument::take_memory(std::uint64_t elements, std::size_t each,
                                const std::string& where) const {
   MemoryBudget budget = input_.budget();
-  if (!budget.take(elements, each)) fail(where, budget.refusal(where.empty() ? "the scene" : "it"));
+  if (!budget.take(elements, each))
+    fail(where, budget.refusal(where.empty() ? "the scene" : "it"), max_memory_hint);
 }
 
 std::uint64_t GltfDocument::vertex_budget() const {
@@ -170,7 +172,7 @@ std::vector<std::byte> GltfDocument::load_uri(const JsonView& uri,
   } catch (const InputError& error) {
     // The scene's file is what the person named; the other is where it led.
     if (error.place().file == input_.name()) throw;
-    uri.fail(error.what());
+    uri.fail(error.without_hint(), error.hint());
   }
 }
 
@@ -233,21 +235,21 @@ GltfDocument::Elements GltfDocument::elements(int view, std::uint64_t offset, st
 Image8 GltfDocument::image(int index) {
   const JsonView images = JsonView(glb_.json, input_.name())["images"];
   const JsonView json = images.at(index < 0 ? images.size() : std::size_t(index));
-  Image8 result;
-  try {
-    if (const auto uri = json.find("uri")) {
-      PassingMemory passing(input_.budget());
-      result = decode_image(load_uri(*uri, std::nullopt), input_.name(), input_.budget());
-      passing.keep(result.pixels.size() * sizeof result.pixels[0]);
-    } else {
-      const auto view = int(json["bufferView"].natural(std::numeric_limits<int>::max()));
-      result = decode_image(view_bytes(view, json.path()), input_.name(), input_.budget());
+  const auto decode = [&](std::span<const std::byte> bytes) {
+    try {
+      return decode_image(bytes, input_.name(), input_.budget());
+    } catch (const InputError& error) {
+      json.fail(error.reason(), error.hint());
     }
-  } catch (const InputError& error) {
-    if (error.reason().rfind("images[", 0) == 0 || error.reason().rfind("buffer", 0) == 0) throw;
-    json.fail(error.reason());
+  };
+  if (const auto uri = json.find("uri")) {
+    PassingMemory passing(input_.budget());
+    Image8 result = decode(load_uri(*uri, std::nullopt));
+    passing.keep(result.pixels.size() * sizeof result.pixels[0]);
+    return result;
   }
-  return result;
+  const auto view = int(json["bufferView"].natural(std::numeric_limits<int>::max()));
+  return decode(view_bytes(view, json.path()));
 }
 
 }  // namespace tureen

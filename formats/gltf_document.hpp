@@ -47,7 +47,7 @@ class GltfDocument {
   void make_room_in(std::vector<T>& values, std::size_t more, const std::string& where) {
     MemoryBudget budget = input_.budget();
     if (!make_room(values, more, budget))
-      fail(where, budget.refusal(where.empty() ? "the scene" : "it"));
+      fail(where, budget.refusal(where.empty() ? "the scene" : "it"), max_memory_hint);
   }
   MemoryBudget budget() const { return input_.budget(); }
 
@@ -56,7 +56,8 @@ class GltfDocument {
   /// accessors without a buffer view can reach it.
   std::uint64_t vertex_budget() const;
 
-  [[noreturn]] void fail(const std::string& where, const std::string& reason) const;
+  [[noreturn]] void fail(const std::string& where, const std::string& reason,
+                         const std::string& hint = {}) const;
 
  private:
   std::span<const std::byte> buffer(int index, const std::string& where);

@@ -80,10 +80,12 @@ std::vector<std::byte> Input::read_rest() {
   return bytes;
 }
 
-void Input::fail(const std::string& reason) const { fail_at(position_, reason); }
+void Input::fail(const std::string& reason, const std::string& hint) const {
+  fail_at(position_, reason, hint);
+}
 
-void Input::fail_at(std::uint64_t byte, const std::string& reason) const {
-  throw InputError({name_, byte, {}}, reason);
+void Input::fail_at(std::uint64_t byte, const std::string& reason, const std::string& hint) const {
+  throw InputError({name_, byte, {}}, reason, hint);
 }
 
 void Input::fail_truncated(std::uint64_t count, std::size_t each, const char* what) const {

@@ -34,12 +34,12 @@ class Input {
   /// Counts what is about to be allocated: so many elements of `each` bytes. Throws InputError
   /// where that is more than the budget has left.
   void take_memory(std::uint64_t elements, std::size_t each, const char* what) {
-    if (!budget_.take(elements, each)) fail(budget_.refusal(what));
+    if (!budget_.take(elements, each)) fail(budget_.refusal(what), max_memory_hint);
   }
   /// make_room (formats/memory_budget.hpp), or an InputError.
   template <class T>
   void make_room_in(std::vector<T>& values, std::uint64_t more, const char* what) {
-    if (!make_room(values, more, budget_)) fail(budget_.refusal(what));
+    if (!make_room(values, more, budget_)) fail(budget_.refusal(what), max_memory_hint);
   }
 
   /// Throws InputError when `position` lies past the end.
@@ -75,8 +75,9 @@ class Input {
   std::vector<std::byte> read_rest();
 
   /// Throws an InputError at the current position, or at `byte`.
-  [[noreturn]] void fail(const std::string& reason) const;
-  [[noreturn]] void fail_at(std::uint64_t byte, const std::string& reason) const;
+  [[noreturn]] void fail(const std::string& reason, const std::string& hint = {}) const;
+  [[noreturn]] void fail_at(std::uint64_t byte, const std::string& reason,
+                            const std::string& hint = {}) const;
 
  private:
   struct Close {

@@ -62,7 +62,7 @@ void take_json_memory(std::string_view text, const std::string& file, std::uint6
                       MemoryBudget budget) {
   const std::uint64_t values = count_json_values(text, file, first_byte);
   if (!budget.take(values, json_value_bytes) || !budget.take(text.size()))
-    throw InputError({file, first_byte, {}}, budget.refusal("the JSON"));
+    throw InputError({file, first_byte, {}}, budget.refusal("the JSON"), max_memory_hint);
 }
 
 InputError json_number_too_large(std::string_view message, std::string_view text,

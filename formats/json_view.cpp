@@ -93,9 +93,10 @@ std::size_t JsonView::one_of(std::span<const char* const> names) const {
   fail("\"" + have + "\" is none of " + list);
 }
 
-void JsonView::fail(const std::string& reason) const {
+void JsonView::fail(const std::string& reason, const std::string& hint) const {
   // Both may hold what the file says: a letter 0 would end the sentence, a new line forge another.
-  throw InputError({*file_, {}, {}}, shown_text(path_.empty() ? reason : path_ + ": " + reason));
+  throw InputError({*file_, {}, {}}, shown_text(path_.empty() ? reason : path_ + ": " + reason),
+                   hint);
 }
 
 }  // namespace tureen

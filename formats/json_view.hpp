@@ -48,7 +48,7 @@ class JsonView {
   /// Which of `names` the text is; anything else fails and lists them.
   std::size_t one_of(std::span<const char* const> names) const;
 
-  [[noreturn]] void fail(const std::string& reason) const;
+  [[noreturn]] void fail(const std::string& reason, const std::string& hint = {}) const;
 
  private:
   const nlohmann::json* value_;

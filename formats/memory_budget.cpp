@@ -42,7 +42,7 @@ std::uint64_t max_memory() { return process_limit; }
 
 std::uint64_t parse_memory_size(const std::string& text) {
   const auto refuse = [&] {
-    throw UsageError("'" + text + "' is no amount of memory, as in 512MB or 8GB");
+    throw UsageError("'" + text + "' is no amount of memory", "write it as 512MB or 8GB");
   };
   const Decimal number = parse_decimal(text.c_str());
   if (!number.end) refuse();
@@ -85,7 +85,7 @@ void MemoryBudget::give_back(std::uint64_t bytes) {
 
 std::string MemoryBudget::refusal(const std::string& what) const {
   return what + " would take more than the " + memory_size_text(limit()) +
-         " of memory that reading may take; --max-memory changes that";
+         " of memory that reading may take";
 }
 
 }  // namespace tureen

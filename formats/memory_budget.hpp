@@ -24,6 +24,9 @@ inline constexpr std::uint64_t default_max_memory = std::uint64_t(4) << 30;
 void set_max_memory(std::uint64_t bytes);
 std::uint64_t max_memory();
 
+/// The hint of every error about this limit.
+inline constexpr const char* max_memory_hint = "--max-memory changes that";
+
 /// "512MB", "4 GB", "1.5GB" or a number of bytes, with kB, MB, GB and TB powers of 1024. Throws
 /// UsageError for anything else, for nothing and for more than a file can have.
 std::uint64_t parse_memory_size(const std::string& text);
@@ -46,7 +49,7 @@ class MemoryBudget {
   /// No more than was taken.
   void give_back(std::uint64_t bytes);
 
-  /// Why `what` was refused.
+  /// The reason for the error about `what`; its hint is max_memory_hint.
   std::string refusal(const std::string& what) const;
 
  private:

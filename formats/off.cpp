@@ -125,11 +125,11 @@ class OffReader {
     const std::string word(header_word(scanner_.peek(9)));
     if (word.empty()) scanner_.fail("does not begin with OFF or COFF");
     if (word != "OFF" && word != "COFF")
-      scanner_.fail(word + " is a kind of OFF that we do not read: " + kind(word) +
-                    "; write it as OFF or COFF");
+      scanner_.fail(word + " is a kind of OFF that we do not read: " + kind(word),
+                    "write it as OFF or COFF");
     scanner_.skip(word.size());
     if (!scanner_.next_content()) scanner_.fail("the file ends after its first word");
-    if (scanner_.peek(7) == "BINARY") scanner_.fail("binary OFF is not read; write it as text");
+    if (scanner_.peek(7) == "BINARY") scanner_.fail("binary OFF is not read", "write it as text");
 
     constexpr std::int64_t most = std::numeric_limits<std::uint32_t>::max();
     vertices_ = std::uint64_t(scanner_.read_integer("the number of vertices", 0, most));

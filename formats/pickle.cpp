@@ -423,7 +423,7 @@ Pickle::Pickle(std::string name, std::span<const std::byte> bytes,
   // items of another value; all of them lie in vectors that double. Texts are parts of the bytes.
   const std::uint64_t values = std::min<std::uint64_t>(bytes.size(), max_values);
   if (!budget.take(values, 3 * sizeof(Value)) || !budget.take(bytes.size(), 9 * sizeof(Ref) + 1))
-    throw InputError({name_, {}, {}}, budget.refusal("the pickle"));
+    throw InputError({name_, {}, {}}, budget.refusal("the pickle"), max_memory_hint);
   root_ = Machine(name_, bytes, globals, values_).run();
 }
 
@@ -436,8 +436,8 @@ const Pickle::Value* Pickle::find(const Value& dict, std::string_view key) const
   return nullptr;
 }
 
-void Pickle::fail(const Value& value, const std::string& reason) const {
-  throw InputError({name_, value.byte, {}}, reason);
+void Pickle::fail(const Value& value, const std::string& reason, const std::string& hint) const {
+  throw InputError({name_, value.byte, {}}, reason, hint);
 }
 
 }  // namespace tureen

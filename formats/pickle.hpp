@@ -65,7 +65,8 @@ class Pickle {
   const Value* find(const Value& dict, std::string_view key) const;
 
   /// Throws an InputError at the byte where `value` was made.
-  [[noreturn]] void fail(const Value& value, const std::string& reason) const;
+  [[noreturn]] void fail(const Value& value, const std::string& reason,
+                         const std::string& hint = {}) const;
 
  private:
   std::string name_;

@@ -89,8 +89,8 @@ void refuse_damaged(std::span<const std::byte> bytes, const std::string& name) {
 
 Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
                     MemoryBudget budget) {
-  const auto fail = [&](const std::string& reason) -> void {
-    throw InputError({name, {}, {}}, reason);
+  const auto fail = [&](const std::string& reason, const std::string& hint = {}) -> void {
+    throw InputError({name, {}, {}}, reason, hint);
   };
   if (bytes.size() > std::size_t(INT_MAX)) fail("an image of over 2 GiB");
   if (const auto table = oversized_huffman_table(bytes)) {
@@ -126,11 +126,12 @@ Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
   PassingMemory passing(budget);
   const std::string what = "an image of " + std::to_string(width) + " x " + std::to_string(height);
   const std::uint64_t result_bytes = std::uint64_t(width) * std::uint64_t(height) * 4;
-  if (!budget.take(result_bytes) || budget.left() < decoder_tables) fail(budget.refusal(what));
+  if (!budget.take(result_bytes) || budget.left() < decoder_tables)
+    fail(budget.refusal(what), max_memory_hint);
   const decoder_memory::Scope scope(budget, decoder_limit(bytes.size(), width, height));
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
       stbi_load_from_memory(data, size, &width, &height, &channels, 4), &stbi_image_free);
-  if (scope.beyond_budget()) fail(budget.refusal(what));
+  if (scope.beyond_budget()) fail(budget.refusal(what), max_memory_hint);
   if (scope.beyond_limit()) fail("the image is damaged: it unfolds to more than its pixels");
   if (!pixels) fail("the image is damaged: " + reason_of_stb());
   Image8 image(width, height);

@@ -127,7 +127,7 @@ const Format& format_to_read(const Candidate& candidate) {
   for (const Format& format : formats())
     if (format.read && format.recognises(candidate)) return format;
   if (const auto stray = stray_content(candidate.head); stray && !candidate.is_folder)
-    throw InputError({candidate.path.string(), {}, {}}, *stray);
+    throw InputError({candidate.path.string(), {}, {}}, stray->reason, stray->hint);
   const std::string extension = extension_of(candidate.path);
   for (const Format& format : formats())
     if (format.read && !candidate.is_folder && contains(format.read_extensions, extension))
@@ -147,8 +147,8 @@ const Format& format_to_write(const std::filesystem::path& path) {
         (extension.empty() ? format.is_folder : contains(format.written_extensions, extension)))
       return format;
   throw UsageError((extension.empty() ? "no extension tells which format to write"
-                                      : "no format that we write ends in " + extension) +
-                   std::string("; written are ") + listed(Direction::written));
+                                      : "no format that we write ends in " + extension),
+                   "written are " + listed(Direction::written));
 }
 
 }  // namespace

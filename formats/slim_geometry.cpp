@@ -179,7 +179,7 @@ SlimGeometry decode_slim_geometry(std::span<const std::byte> bytes, std::size_t 
       vertices > 3 * faces)
     throw damaged();
   if (!budget.take(faces, bytes_a_face))
-    throw InputError({file, {}, {}}, budget.refusal("the slim geometry"));
+    throw InputError({file, {}, {}}, budget.refusal("the slim geometry"), max_memory_hint);
   Grid grid;
   std::memcpy(&grid, bytes.data(), sizeof(Grid));
   for (int k = 0; k < 3; ++k)

@@ -56,7 +56,7 @@ LatticeTexture decode_slim_texels(std::span<const std::byte> bytes, std::size_t 
   RangeDecoder coder(bytes.subspan(sizeof(header)));
   const auto take = [&](std::uint64_t count, std::size_t each) {
     if (!budget.take(count, each))
-      throw InputError({file, {}, {}}, budget.refusal("the slim texels"));
+      throw InputError({file, {}, {}}, budget.refusal("the slim texels"), max_memory_hint);
   };
   take(1, sizeof(Models));
   const auto models = std::make_unique<Models>();

@@ -17,19 +17,22 @@ bool begins_with(std::string_view text, std::string_view lower_case) {
 
 }  // namespace
 
-std::optional<std::string> stray_content(std::span<const std::byte> head) {
-  if (head.empty()) return "the file is empty";
+std::optional<StrayContent> stray_content(std::span<const std::byte> head) {
+  if (head.empty()) return StrayContent{"the file is empty", ""};
   const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
   if (begins_with(text, "version https://git-lfs"))
-    return "a pointer of Git LFS in place of the file; git lfs pull fetches the file itself";
+    return StrayContent{"a pointer of Git LFS in place of the file",
+                        "git lfs pull fetches the file itself"};
   const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");  // a UTF-8 mark, too
   const std::string_view words = first == text.npos ? std::string_view() : text.substr(first);
   for (const char* start : {"<!doctype html", "<html", "<?xml"})
     if (begins_with(words, start))
-      return "a page of the web and no scene: most likely what a server sent in place of the file";
+      return StrayContent{
+          "a page of the web and no scene: most likely what a server sent in place of the file",
+          ""};
   if (text.substr(0, 4) == "\x89PNG" || text.substr(0, 3) == "\xFF\xD8\xFF")
-    return "a picture and no scene";
-  if (text.substr(0, 2) == "\x1F\x8B") return "compressed by gzip; gunzip it first";
+    return StrayContent{"a picture and no scene", ""};
+  if (text.substr(0, 2) == "\x1F\x8B") return StrayContent{"compressed by gzip", "gunzip it first"};
   return std::nullopt;
 }
 

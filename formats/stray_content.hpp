@@ -4,13 +4,17 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <string>
 
 namespace tureen {
 
-/// What a file is that no format recognises, for people and with what to do about it: a page that a
+struct StrayContent {
+  const char* reason;
+  const char* hint;
+};
+
+/// The reason and the hint for an error about a file that no format recognises: a page that a
 /// server sent in place of the file, a pointer of Git LFS, a picture. `head` is its first bytes, as
 /// many as there are. Nothing where nothing is known of it.
-std::optional<std::string> stray_content(std::span<const std::byte> head);
+std::optional<StrayContent> stray_content(std::span<const std::byte> head);
 
 }  // namespace tureen

@@ -5,6 +5,14 @@
 
 namespace tureen {
 
+namespace {
+
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+  return path.has_parent_path() ? path.parent_path() : ".";
+}
+
+}  // namespace
+
 int edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::vector<int>> distance(a.size() + 1, std::vector<int>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) distance[i][0] = int(i);
@@ -37,26 +45,29 @@ std::string nearest(const std::string& word, std::span<const std::string> known)
 
 std::string did_you_mean(const std::string& word, std::span<const std::string> known) {
   const std::string near = nearest(word, known);
-  return near.empty() ? "" : "; did you mean " + near + "?";
+  return near.empty() ? "" : "did you mean " + near + "?";
 }
 
-std::string why_missing(const std::filesystem::path& path) {
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  std::error_code error;
-  if (!std::filesystem::is_directory(folder, error)) return "there is no folder " + folder.string();
+std::string did_you_mean(const std::filesystem::path& path) {
   // A folder with more names than this is not searched: the message must not take seconds.
   constexpr std::size_t most_names = 10000;
   std::vector<std::string> names;
-  for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end;
+  std::error_code error;
+  for (std::filesystem::directory_iterator it(folder_of(path), error), end; !error && it != end;
        it.increment(error)) {
     if (names.size() == most_names) break;
     names.push_back(it->path().filename().string());
   }
   std::sort(names.begin(), names.end());  // the order of a folder is any
   const std::string near = nearest(path.filename().string(), names);
-  if (near.empty()) return "there is no such file or folder";
-  const std::filesystem::path whole = path.parent_path() / near;
-  return "there is no such file or folder; did you mean " + whole.string() + "?";
+  return near.empty() ? "" : "did you mean " + (path.parent_path() / near).string() + "?";
+}
+
+std::string why_missing(const std::filesystem::path& path) {
+  const std::filesystem::path folder = folder_of(path);
+  std::error_code error;
+  return std::filesystem::is_directory(folder, error) ? "there is no such file or folder"
+                                                      : "there is no folder " + folder.string();
 }
 
 }  // namespace tureen

@@ -15,11 +15,13 @@ int edit_distance(const std::string& a, const std::string& b);
 /// with the word, or else "".
 std::string nearest(const std::string& word, std::span<const std::string> known);
 
-/// "; did you mean NAME?" with the nearest of `known`, or "".
+/// "did you mean NAME?" with the nearest of `known`, or "": the hint of an error.
 std::string did_you_mean(const std::string& word, std::span<const std::string> known);
 
-/// A sentence on why this path does not exist: the folder that is not there, or a name in the
-/// folder that is close. The path does not exist.
+/// The same for a path that does not exist, with the names in its folder.
+std::string did_you_mean(const std::filesystem::path& path);
+
+/// The reason for an error about a path that does not exist: it, or its folder, is missing.
 std::string why_missing(const std::filesystem::path& path);
 
 }  // namespace tureen

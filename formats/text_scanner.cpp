@@ -147,8 +147,8 @@ void TextScanner::fail_expected(const char* what, const char* kind) {
        (*kind ? std::string(": not ") + kind : std::string()));
 }
 
-void TextScanner::fail(const std::string& reason) const {
-  throw InputError({input_.name(), {}, line_}, reason);
+void TextScanner::fail(const std::string& reason, const std::string& hint) const {
+  throw InputError({input_.name(), {}, line_}, reason, hint);
 }
 
 }  // namespace tureen

@@ -61,7 +61,7 @@ class TextScanner {
   /// Passes over `count` characters that peek() has shown.
   void skip(std::size_t count) { next_ += count; }
 
-  [[noreturn]] void fail(const std::string& reason) const;
+  [[noreturn]] void fail(const std::string& reason, const std::string& hint = {}) const;
 
  private:
   void skip_blanks();

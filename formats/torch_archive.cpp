@@ -113,7 +113,7 @@ Input expect_zip(Input input) {
   input.seek(0);
   std::array<std::byte, 2> head;
   if (input.read_some(head) == 2 && head[0] == std::byte(0x80) && head[1] == std::byte(2))
-    input.fail_at(0, "saved in the format of torch before 1.6: load it and save it again there");
+    input.fail_at(0, "saved in the format of torch before 1.6", "load it and save it again there");
   return input;
 }
 
@@ -306,7 +306,7 @@ void TorchArchive::take_memory(const TorchTensor& tensor, std::uint64_t elements
                                std::size_t each) const {
   MemoryBudget budget = zip_.budget();
   if (!budget.take(elements, each))
-    pickle().fail(*tensor.origin, budget.refusal("\"" + tensor.name + "\""));
+    pickle().fail(*tensor.origin, budget.refusal("\"" + tensor.name + "\""), max_memory_hint);
 }
 
 std::int64_t TorchArchive::integer(std::string_view key) const {

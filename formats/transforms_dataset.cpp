@@ -25,8 +25,10 @@ std::vector<DatasetFrame> read_transforms_dataset(const std::filesystem::path& p
                                                   int images_folder, const MemoryBudget& budget) {
   Input input = Input::open(path, budget);
   const nlohmann::json root = read_json(input);
-  const auto fail = [&](std::size_t frame, const std::string& reason) {
-    throw InputError({input.name(), {}, {}}, "frame " + std::to_string(frame) + ": " + reason);
+  const auto fail = [&](std::size_t frame, const std::string& reason,
+                        const std::string& hint = {}) {
+    throw InputError({input.name(), {}, {}}, "frame " + std::to_string(frame) + ": " + reason,
+                     hint);
   };
   if (!root.is_object() || !root.contains("frames"))
     throw InputError({input.name(), {}, {}}, "there is no \"frames\": no transforms.json");
@@ -35,9 +37,9 @@ std::vector<DatasetFrame> read_transforms_dataset(const std::filesystem::path& p
     const std::size_t number = result.size();
     if (frame.file_path.empty()) fail(number, "file_path is missing");
     if (!frame.other_lens.empty())
-      fail(number, "the lens (" + frame.other_lens +
-                       ") is not described by k1, k2, k3, p1 and p2 alone: undistort the images "
-                       "first");
+      fail(number,
+           "the lens (" + frame.other_lens + ") is not described by k1, k2, k3, p1 and p2 alone",
+           "undistort the images first");
     const std::optional<std::string> file = in_images_folder(frame.file_path, images_folder);
     if (!file)
       fail(number, "\"" + frame.file_path + "\" is not in images/, so there is none in images_" +

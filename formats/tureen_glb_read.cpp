@@ -314,7 +314,7 @@ class Reader {
     try {
       return decode_image(bytes, arrays_.file(), input_.budget());
     } catch (const InputError& error) {
-      reference.fail(error.reason());
+      reference.fail(error.reason(), error.hint());
     }
   }
 

@@ -106,7 +106,7 @@ VideoFile::VideoFile(fs::path path, const Format& format)
   assert(format.width > 0 && format.height > 0 && format.frames_per_second > 0);
   if (!is_video_name(path_))
     throw UsageError("'" + path_.string() + "' is no name for a video: it ends in .mp4 or .webm");
-  if (!have_ffmpeg()) throw UsageError(ffmpeg_missing);
+  if (!have_ffmpeg()) throw UsageError(ffmpeg_missing, ffmpeg_hint);
   target_ = writable_file(path_);
   const fs::path folder = target_.parent_path();
   std::error_code error;

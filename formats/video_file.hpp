@@ -16,10 +16,10 @@ namespace tureen {
 /// Whether the name ends in .mp4 or .webm, in any case.
 bool is_video_name(const std::filesystem::path& path);
 
-/// What to say where there is no ffmpeg.
+/// The reason and the hint for an error where there is no ffmpeg.
 inline constexpr const char* ffmpeg_missing =
-    "videos are written by ffmpeg, which is not installed (Debian and Ubuntu: ffmpeg); frames as "
-    "pictures need none: -o frame_%04d.png";
+    "videos are written by ffmpeg, which is not installed (Debian and Ubuntu: ffmpeg)";
+inline constexpr const char* ffmpeg_hint = "-o frame_%04d.png writes frames as pictures without it";
 
 /// Whether ffmpeg lies in one of the folders of PATH.
 bool have_ffmpeg();

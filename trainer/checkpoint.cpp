@@ -191,7 +191,8 @@ Config parsed_config(const std::string& text, const Input& input) {
     const Config config = read_config(memory);
     if (config_to_json(config) == text) return config;
   } catch (const InputError& error) {
-    throw InputError({input.name(), {}, {}}, "its configuration cannot be used: " + error.reason());
+    throw InputError({input.name(), {}, {}}, "its configuration cannot be used: " + error.reason(),
+                     error.hint());
   }
   throw InputError({input.name(), {}, {}},
                    "its configuration lacks constants that training has now: another version of "

@@ -58,12 +58,14 @@ std::vector<std::string> field_names() {
 /// Names all that are unknown at once: whoever mistyped one may have mistyped more.
 void require_known(const JsonView& root, const nlohmann::json& document,
                    const std::vector<std::string>& names) {
-  std::string unknown;
+  std::string unknown, hint;
   for (const auto& [key, ignored] : document.items())
-    if (std::find(names.begin(), names.end(), key) == names.end())
-      unknown += (unknown.empty() ? "\"" : "; \"") + key + "\" is no constant of training" +
-                 did_you_mean(key, names);
-  if (!unknown.empty()) root.fail(unknown);
+    if (std::find(names.begin(), names.end(), key) == names.end()) {
+      unknown += (unknown.empty() ? "\"" : "; \"") + key + "\" is no constant of training";
+      const std::string near = did_you_mean(key, names);
+      hint += (hint.empty() || near.empty() ? "" : " ") + near;
+    }
+  if (!unknown.empty()) root.fail(unknown, hint);
 }
 
 Preset preset_of(const JsonView& root, Preset otherwise) {

@@ -18,7 +18,7 @@ bool has_cuda_backend() { return false; }
 namespace {
 
 void require_cuda() {
-  throw ContextError("this build has no CUDA backend (nvcc was not there): use --device cpu");
+  throw ContextError("this build has no CUDA backend (nvcc was not there)", "use --device cpu");
 }
 
 std::unique_ptr<Backend> make_cuda_backend(std::span<const TrainingView>, const Config&) {

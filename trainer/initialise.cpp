@@ -225,7 +225,8 @@ Model initial_model(const Dataset& dataset, const Config& config, const Scene* m
   if (mesh) return from_mesh(*mesh, config);
   const bool has_points = !dataset.points.empty();
   if (config.initialisation == Initialisation::points && !has_points)
-    throw InputError({}, "the dataset has no points to begin at; random initialisation needs none");
+    throw InputError({}, "the dataset has no points to begin at",
+                     "random initialisation needs none");
   const auto count = std::size_t(config.initial_triangles);
   Region region = region_of_interest(dataset);
   Random random(config.seed, random_stream);

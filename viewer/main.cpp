@@ -74,7 +74,7 @@ std::optional<glm::ivec2> parse_size(const std::string& text) {
   int end = 0;
   if (std::sscanf(text.c_str(), "%5dx%5d%n", &size.x, &size.y, &end) != 2 ||
       std::size_t(end) != text.size() || size.x < 1 || size.y < 1)
-    throw UsageError("--size wants a width and a height, as in 1280x800");
+    throw UsageError("--size needs a width and a height", "write it as 1280x800");
   return size;
 }
 

@@ -21,8 +21,9 @@ std::string last_reason() {
 
 [[noreturn]] void fail(const std::string& what) {
   throw ContextError(what + " (" + last_reason() +
-                     "). tureen-view needs a display and OpenGL 3.3 or OpenGL ES 3.0; without a "
-                     "display, tureen render draws pictures: tureen render SCENE -o picture.png");
+                         "): tureen-view needs a display and OpenGL 3.3 or OpenGL ES 3.0",
+                     "without a display, tureen render draws pictures: tureen render SCENE -o "
+                     "picture.png");
 }
 
 /// GLFW itself, for as long as there is a window.

@@ -179,7 +179,8 @@ void throw_if_lost() {
   if (glGetGraphicsResetStatus && glGetGraphicsResetStatus() != GL_NO_ERROR)
     throw ContextError(
         "the graphics device was reset while it was drawing (its driver failed or was replaced, or "
-        "a draw took too long), and what it held is gone: start again");
+        "a draw took too long), and what it held is gone",
+        "start again");
 #endif
 }
 
@@ -205,9 +206,9 @@ Context Context::create(const ContextRequest& request) {
   if (request.backend != Backend::osmesa) platform = attempt(create_egl, "EGL");
   if (!platform && request.backend != Backend::egl) platform = attempt(create_osmesa, "OSMesa");
   if (!platform)
-    throw ContextError("no OpenGL context can be had (" + tried +
-                       "). Install a GPU driver with EGL, or Mesa's software renderer: on Debian "
-                       "and Ubuntu, apt-get install libegl1 libgl1-mesa-dri, or libosmesa6");
+    throw ContextError("no OpenGL context can be had (" + tried + ")",
+                       "install a GPU driver with EGL, or Mesa's software renderer: on Debian and "
+                       "Ubuntu, apt-get install libegl1 libgl1-mesa-dri, or libosmesa6");
   return Context(std::move(platform), request.api);
 }
 

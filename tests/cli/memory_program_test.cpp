@@ -53,7 +53,7 @@ TEST_F(MaxMemory, IsInTheHelpAndRefusedWhereItIsNone) {
     EXPECT_THAT(run({arguments[0], "--help"}).out, HasSubstr("--max-memory SIZE"));
     const ChildResult result = run({arguments[0], arguments[1], "--max-memory", "much"});
     EXPECT_EQ(result.exit_code, 2) << arguments[0];
-    EXPECT_THAT(result.err, HasSubstr("'much' is no amount of memory, as in 512MB or 8GB"));
+    EXPECT_THAT(result.err, HasSubstr("'much' is no amount of memory; write it as 512MB or 8GB"));
   }
 }
 

@@ -161,7 +161,8 @@ TEST(VideoFile, IsRefusedWithAdviceWhereFfmpegIsMissing) {
     VideoFile video(folder / "film.mp4", {64, 48, 30});
     FAIL() << "nothing thrown";
   } catch (const UsageError& error) {
-    EXPECT_STREQ(error.what(), ffmpeg_missing);
+    EXPECT_EQ(error.reason(), ffmpeg_missing);
+    EXPECT_EQ(error.hint(), ffmpeg_hint);
   }
 }
 

@@ -195,7 +195,8 @@ TEST(ConfigFile, SaysWhatIsWrong) {
   expect("[]", "expected an object");
   expect(R"({"step": 5})", "\"step\" is no constant of training; did you mean steps?");
   expect(R"({"mlp_rat": 5})", "did you mean mlp_rate?");
-  expect(R"({"mlp_rat": 5, "step": 5})", "did you mean mlp_rate?; \"step\" is no constant");
+  expect(R"({"mlp_rat": 5, "step": 5})",
+         "\"step\" is no constant of training; did you mean mlp_rate? did you mean steps?");
   expect(R"({"steps": 5, "steps": 6})", "\"steps\" stands there twice");
   expect(R"({"steps": "many"})", "steps: expected a number");
   expect(R"({"steps": 2.5})", "steps: expected a whole number, not 2.5");

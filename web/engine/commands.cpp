@@ -46,14 +46,6 @@ Commands all_commands() {
   return commands;
 }
 
-}  // namespace
-
-std::string without_options(const std::string& sentence) {
-  return sentence.substr(0, sentence.find("; --"));
-}
-
-namespace {
-
 Json failure(const char* kind, const std::string& message) {
   return {{"error", {{"kind", kind}, {"message", message}}}};
 }
@@ -64,13 +56,13 @@ Json run(const std::string& name, const std::string& given) {
   try {
     return {{"result", commands.at(name)(Json::parse(given))}};
   } catch (const InputError& error) {
-    return failure("input", without_options(error.what()));
+    return failure("input", error.without_hint());
   } catch (const UsageError& error) {
-    return failure("usage", error.what());
+    return failure("usage", error.without_hint());
   } catch (const DeviceLimitError& error) {
-    return failure("memory", error.what());
+    return failure("memory", error.without_hint());
   } catch (const Error& error) {
-    return failure("device", error.what());
+    return failure("device", error.without_hint());
   } catch (const std::bad_alloc&) {
     return failure("memory", no_memory);
   } catch (const std::exception& error) {

@@ -28,9 +28,6 @@ Commands viewer_commands();
 /// For that of bench.html.
 Commands bench_commands();
 
-/// What a reader says, without which option of the program would change it: a page has none.
-std::string without_options(const std::string& sentence);
-
 /// Tells the page that a command under way is so far: 0..1.
 void report_progress(double fraction);
 

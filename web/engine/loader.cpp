@@ -54,6 +54,9 @@ Json promise_of(const Scene& scene) {
           {"views", views}};
 }
 
+/// A note without the option of the program that would change it: a page has none.
+std::string without_options(const std::string& note) { return note.substr(0, note.find("; --")); }
+
 Json notes_of(const Scene& scene) {
   Json notes = Json::array();
   for (const std::string& note : scene.info.notes) notes.push_back(without_options(note));
