@@ -1,10 +1,10 @@
-// What docs/benchmarks.md says of browsers: frame times of bench.html in Chromium, against the published
-// pipeline in the same page, on both of the rasterisers that draw without a GPU; what a scene holds in
-// memory; and how long the first picture takes.
+// Frame times of bench.html in Chromium, against the baseline in the same page, on both rasterisers that
+// draw without a GPU; the memory of a scene; and the time until the first image.
 //
 //   node browser_benchmark.mjs OUT SCENE.glb.. [--quick]
 //
-// OUT gets SCENE-RASTERISER.json for `tureen bench --import`, and standard output a table of the rest.
+// OUT gets SCENE-RASTERISER.json for `tureen bench --import`; standard output gets the rest, a row of JSON a
+// line.
 
 import { copyFileSync, mkdirSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -28,7 +28,6 @@ const patience = 20 * 60_000;
 const restMs = 2000;
 
 const median = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
-const megabytes = (bytes) => (bytes / 1e6).toFixed(1);
 
 async function inPage(browser, address, body) {
   const profile = await browser.newContext({ viewport: { width: 1280, height: 720 } });
@@ -110,13 +109,12 @@ async function measureScene(browser, site, rasteriser, path) {
   writeFileSync(join(out, `${name}-${rasteriser}.json`), JSON.stringify(result, null, 1) + '\n');
   const { device, wasm } = await memory(browser, site, `scenes=${file}`);
   const { first, whole } = await openingTimes(browser, site, `scene=${file}`);
-  console.log(`| ${name} | ${rasteriser} | ${megabytes(device)} | ${megabytes(wasm)} | ${Math.round(first)} | ${Math.round(whole)} |`);
+  console.log(JSON.stringify({ scene: name, rasteriser, device_mb: device / 1e6, wasm_mb: wasm / 1e6,
+    first_image_ms: first, whole_scene_ms: whole }));
 }
 
 mkdirSync(out, { recursive: true });
 const folder = siteWith(), server = await serve(folder);
-console.log('| scene | drawn by | on the device, MB | WebAssembly, MB | first picture, ms | whole scene, ms |');
-console.log('|---|---|---|---|---|---|');
 try {
   for (const rasteriser of ['llvmpipe', 'swiftshader']) {
     const browser = await launch(rasteriser);

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <cstdint>
 #include <glm/geometric.hpp>
-#include <span>
 
-namespace tureen::testing {
+namespace tureen::test {
 
 namespace {
 
@@ -85,21 +84,4 @@ TriangleSoup dense_soup(const TriangleSoup& base, std::size_t triangles) {
   return soup;
 }
 
-std::uint64_t fingerprint(const TriangleSoup& soup) {
-  std::uint64_t hash = 0;
-  const auto add = [&](const auto& values) {
-    const auto bytes = std::as_bytes(std::span(values));
-    for (std::size_t i = 0; i + 4 <= bytes.size(); i += 4) {
-      std::uint32_t word;
-      std::memcpy(&word, &bytes[i], sizeof word);
-      hash = mixed(hash ^ word);
-    }
-  };
-  add(soup.positions);
-  add(soup.triangles);
-  if (const auto* faces = std::get_if<FaceColors>(&soup.appearance)) add(faces->rgba);
-  if (const auto* vertices = std::get_if<VertexColors>(&soup.appearance)) add(vertices->rgba);
-  return hash;
-}
-
-}  // namespace tureen::testing
+}  // namespace tureen::test

@@ -1,12 +1,11 @@
-// A large soup out of a small one, always the same: what loading is measured with.
+// A large soup out of a small one, always the same: for loading and for frames.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 #include "soup/triangle_soup.hpp"
 
-namespace tureen::testing {
+namespace tureen::test {
 
 /// Splits every triangle of `base` at its edges' midpoints into four, again and again, until there
 /// are at least `triangles`. Vertices are unshared and each is moved by up to 2 % of its triangle's
@@ -14,8 +13,4 @@ namespace tureen::testing {
 /// triangle, bytes / 255, alpha 1: nothing merges and every format holds it exactly.
 TriangleSoup dense_soup(const TriangleSoup& base, std::size_t triangles);
 
-/// Of positions, triangles and colours, bit by bit. Soups that differ have different ones, but for
-/// one chance in 2^64.
-std::uint64_t fingerprint(const TriangleSoup& soup);
-
-}  // namespace tureen::testing
+}  // namespace tureen::test

@@ -15,25 +15,12 @@ namespace {
 constexpr double field_of_view = glm::third<double>() * glm::pi<double>();
 constexpr double aspect = 16.0 / 9;
 
-struct Grid {
-  int rows, columns;
-};
-
-/// Of a layer: at least `cells`. The fewer of rows and columns are rounded and the others, which
-/// add less by one more of them, rounded up.
-Grid grid_of(double cells, double elongation) {
-  const double columns = std::sqrt(cells * aspect / elongation), rows = cells / columns;
-  const auto rounded = [](double count) { return std::max(1, int(std::lround(count))); };
-  const auto rest = [&](int others) { return std::max(1, int(std::ceil(cells / others))); };
-  if (rows < columns) return {rounded(rows), rest(rounded(rows))};
-  return {rest(rounded(columns)), rounded(columns)};
-}
-
 /// Positions of all triangles, layer by layer from the front.
 std::vector<glm::vec3> corners_of(const LayeredSoupOptions& options) {
+  // Cells of about a square, two triangles each; the columns are rounded up.
   const double cells = double(options.triangles) / (2.0 * options.layers);
-  const Grid grid = grid_of(cells, options.elongation);
-  const int rows = grid.rows, columns = grid.columns;
+  const int rows = std::max(1, int(std::lround(std::sqrt(cells / aspect))));
+  const int columns = std::max(1, int(std::ceil(cells / rows)));
   std::vector<glm::vec3> corners;
   for (int layer = 0; layer < options.layers; ++layer) {
     // Far enough apart for any depth buffer; what is further is larger by as much.
@@ -100,10 +87,6 @@ Scene layered_soup(const LayeredSoupOptions& options) {
   scene.info.source = "generated";
   scene.cameras.push_back(look_at({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, field_of_view, 1280, 720));
   return scene;
-}
-
-double layered_soup_fragments(const LayeredSoupOptions& options, int width, int height) {
-  return layered_soup_fill * layered_soup_fill * width * height * options.layers;
 }
 
 }  // namespace tureen::test

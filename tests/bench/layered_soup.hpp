@@ -13,23 +13,18 @@ struct LayeredSoupOptions {
   /// At least; two of them make a cell of a regular grid, so it becomes a few more.
   std::size_t triangles = 65536;
   int layers = 4;
-  /// A cell's width over its height on the picture, about: cells are whole. Triangles remain as
-  /// many and as large, and only their edges become longer. Above 0.
-  double elongation = 1;
   /// Opaque with a colour a face, or cut out: a lattice of level 1 with random features and alpha,
   /// and a random color MLP.
   enum class Kind { opaque, cut_out } kind = Kind::opaque;
   std::uint64_t seed = 1;
 };
 
-/// Of the width and of the height of a 16:9 picture, whatever its size.
+/// The part of a 16:9 image's width and height that a layer covers: a frame has fill^2 * pixels *
+/// layers fragments. tests/measure.py has the same number.
 inline constexpr double layered_soup_fill = 0.8;
 
 /// The layers face the one camera, whose size is that of 1280 x 720 (see resized()); the triangles
 /// stand in random order and share no vertices.
 Scene layered_soup(const LayeredSoupOptions& options = {});
-
-/// Fragments that rasterising every triangle makes: fill^2 * pixels * layers.
-double layered_soup_fragments(const LayeredSoupOptions& options, int width, int height);
 
 }  // namespace tureen::test

@@ -8,7 +8,7 @@
 #include "runtime/gl/state.hpp"
 #include "runtime/targets.hpp"
 
-namespace tureen::testing {
+namespace tureen::test {
 
 namespace {
 
@@ -94,4 +94,4 @@ void PlainRenderer::draw(const Camera& camera) {
 
 Image8 PlainRenderer::read_color() const { return read_pixels(framebuffer_.id(), width_, height_); }
 
-}  // namespace tureen::testing
+}  // namespace tureen::test

@@ -8,7 +8,7 @@
 #include "soup/image.hpp"
 #include "soup/triangle_soup.hpp"
 
-namespace tureen::testing {
+namespace tureen::test {
 
 class PlainRenderer {
  public:
@@ -33,4 +33,4 @@ class PlainRenderer {
   int width_ = 0, height_ = 0;
 };
 
-}  // namespace tureen::testing
+}  // namespace tureen::test

@@ -1,6 +1,6 @@
 // What a training step costs on the processor, stage by stage, and what a second thread gains.
-// Runs with one thread and with all are interleaved step by step, so that whatever else the machine
-// does hits them alike: only the ratios mean anything on another machine.
+// Runs with one thread and with all are interleaved step by step, so that other programs disturb
+// them alike: only the ratios hold on another machine. Prints a stage a line, as JSON.
 //
 //   training_benchmark [WIDTH] [HEIGHT] [STEPS] [LEVEL]
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <exception>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "support/cutout_cloud.hpp"
@@ -93,23 +94,21 @@ int run(int width, int height, int steps, int level) {
     }
 
   const StageTimes& last = contenders[0].steps.back();
-  std::printf("%zu triangles, level %d, 4 pictures of %d x %d, %d steps.\n", state.model.faces(),
-              level, width, height, steps);
-  std::printf("%.1f fragments and %.2f shaded pixels for each of %llu pixels.\n\n",
-              double(last.fragments) / double(last.pixels),
-              double(last.shaded_pixels) / double(last.pixels),
-              static_cast<unsigned long long>(last.pixels));
-  std::printf("| stage | 1 thread | a unit of work | %s | times as fast |\n|---|---|---|---|---|\n",
-              contenders[1].backend->description().c_str());
   double sums[2] = {};
+  const auto print = [](const char* stage, double one, double all, nlohmann::json row) {
+    row.update({{"stage", stage}, {"one_thread_ms", one}, {"all_threads_ms", all}});
+    row["speedup"] = one / all;
+    std::printf("%s\n", row.dump().c_str());
+  };
   for (const Stage& stage : stages) {
     const double one = contenders[0].ms(stage.seconds), all = contenders[1].ms(stage.seconds);
+    const double work = double(last.*stage.work);
     sums[0] += one;
     sums[1] += all;
-    std::printf("| %s | %.2f ms | %.1f ns a %s | %.2f ms | %.2f |\n", stage.name, one,
-                one * 1e6 / double(last.*stage.work), stage.unit, all, one / all);
+    print(stage.name, one, all,
+          {{"work", work}, {"unit", stage.unit}, {"ns_per_unit", one * 1e6 / work}});
   }
-  std::printf("| all | %.2f ms | | %.2f ms | %.2f |\n", sums[0], sums[1], sums[0] / sums[1]);
+  print("all", sums[0], sums[1], {{"work", 1}, {"unit", "step"}, {"ns_per_unit", sums[0] * 1e6}});
   return 0;
 }
 

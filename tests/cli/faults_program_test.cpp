@@ -274,13 +274,12 @@ TEST_F(Faults, ASignalAtAnyMomentLeavesTheOldOrTheNewWhole) {
       EXPECT_GT(replaced, 0) << "no moment was late enough";
       const std::string name = signal == SIGKILL ? "SIGKILL" : "SIGINT";
       test::leave_measured(
-          "signal-" + output + "-" + name,
-          {{"what", "convert over " + std::string(is_folder ? "a folder" : "a file")},
-           {"signal", name},
-           {"sent", sent},
-           {"cut_short", cut_short},
-           {"old", sent - replaced},
-           {"new", replaced}});
+          "signals", {{"what", "convert over " + std::string(is_folder ? "a folder" : "a file")},
+                      {"signal", name},
+                      {"sent", sent},
+                      {"cut_short", cut_short},
+                      {"old", sent - replaced},
+                      {"new", replaced}});
     }
   }
 }

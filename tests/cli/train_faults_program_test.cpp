@@ -175,22 +175,22 @@ TEST_F(TrainFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewAndIsAsIfItHadNotBeen)
     EXPECT_LT(replaced, sent) << "the old one was never left";
     EXPECT_GT(replaced, 0) << "no moment was late enough";
     const std::string name = signal == SIGKILL ? "SIGKILL" : "SIGINT";
-    test::leave_measured("signal-train-" + name, {{"what", "train over a file"},
-                                                  {"signal", name},
-                                                  {"sent", sent},
-                                                  {"cut_short", cut_short},
-                                                  {"old", sent - replaced},
-                                                  {"new", replaced}});
+    test::leave_measured("signals", {{"what", "train over a file"},
+                                     {"signal", name},
+                                     {"sent", sent},
+                                     {"cut_short", cut_short},
+                                     {"old", sent - replaced},
+                                     {"new", replaced}});
   }
   EXPECT_GT(resumed, 0) << "nothing went on from a checkpoint";
   EXPECT_GT(resumed_to_end, 0) << "nothing that went on came to its end";
   EXPECT_GT(half_written, 0) << "no file was being written when a run was killed";
-  test::leave_measured("resume", {{"sent", all},
-                                  {"cut_short", all_cut_short},
-                                  {"resumed", resumed},
-                                  {"resumed_to_end", resumed_to_end},
-                                  {"half_written", half_written},
-                                  {"steps", std::stoi(steps)}});
+  test::leave_measured("resumed", {{"sent", all},
+                                   {"cut_short", all_cut_short},
+                                   {"resumed", resumed},
+                                   {"resumed_to_end", resumed_to_end},
+                                   {"half_written", half_written},
+                                   {"steps", std::stoi(steps)}});
 }
 
 TEST_F(TrainFaults, AFullDiskLeavesTheOldSoupAndTheLastCheckpoint) {

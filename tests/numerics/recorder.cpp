@@ -11,25 +11,7 @@
 
 namespace tureen::test {
 
-namespace {
-
-/// JSON has no infinity.
-nlohmann::json error_of(double value) {
-  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json("none");
-}
-
-int next_number() {
-  static const testing::TestInfo* last = nullptr;
-  static int count = 0;
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  count = test == last ? count + 1 : 0;
-  last = test;
-  return count;
-}
-
-}  // namespace
-
-Recorder::Recorder(Case what) : case_(std::move(what)), number_(next_number()) {}
+Recorder::Recorder(Case what) : case_(std::move(what)) {}
 
 void Recorder::add(const Measurement& measured) {
   EXPECT_TRUE(measured.ours <= measured.tolerance)
@@ -75,22 +57,20 @@ Recorder::~Recorder() {
 }
 
 void Recorder::write() const {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  // Numbers that are not finite become null.
   nlohmann::json points = nlohmann::json::array();
   for (const Measurement& m : measurements_) {
-    nlohmann::json point = {
-        {"at", m.at}, {"ours", error_of(m.ours)}, {"tolerance", error_of(m.tolerance)}};
-    if (m.naive) point["naive"] = error_of(*m.naive);
+    nlohmann::json point = {{"at", m.at}, {"ours", m.ours}, {"tolerance", m.tolerance}};
+    if (m.naive) point["naive"] = *m.naive;
     points.push_back(std::move(point));
   }
-  const std::string suffix = number_ > 0 ? "-" + std::to_string(number_) : "";
-  leave_measured(test->name() + suffix, {{"test", test->name()},
-                                         {"stressed", case_.stressed},
-                                         {"parameter", case_.parameter},
-                                         {"unit", case_.unit},
-                                         {"naive", case_.naive},
-                                         {"passed", !test->result()->Failed()},
-                                         {"points", std::move(points)}});
+  const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+  leave_measured("numerics", {{"case", test.substr(0, test.find('_'))},
+                              {"stressed", case_.stressed},
+                              {"parameter", case_.parameter},
+                              {"quantity", case_.unit},
+                              {"naive_form", case_.naive},
+                              {"points", std::move(points)}});
 }
 
 }  // namespace tureen::test

@@ -1,4 +1,4 @@
-// What a test of numerics measures: a row of docs/numerics.md, and the assertion that goes with it.
+// What a test of numerics measures, and the assertion that goes with it.
 //
 // A case is one way in which numbers go wrong, stressed by one parameter. At each value of the
 // parameter stands the error of our form, the error that it may have, and, where the catalogue of
@@ -6,12 +6,10 @@
 // naive one must somewhere, or nothing would be lost by going back to it; and where the catalogue
 // says from which stress on, it must there.
 //
-// `./dev numerics` sets TUREEN_MEASURED to a folder, into which every case writes a file, named
-// after its test; numerics_report makes the page of them. Without it nothing is written.
-// "The catalogue" in these tests is the list of hazards that rows are named by, which
-// docs/numerics.md tells of: its table has those that are measured, its "Files" the rows X1 to X5.
-// Where a bound is called the catalogue's, it was set before this code was written, by what the
-// test says beside it.
+// `./dev numerics` sets TUREEN_MEASURED to a file, to which every case appends a line of JSON.
+// "The catalogue" in these tests is the list of hazards in docs/numerics.md, which names the cases.
+// Where a bound is called the catalogue's, it was set before this code was written, by the reason
+// that the test gives beside it.
 #pragma once
 
 #include <algorithm>
@@ -46,12 +44,12 @@ struct Measurement {
   double tolerance = 0;
 };
 
-/// One case of the test that runs. Several in one test are told apart by their order.
+/// One case of the running test, which may have several.
 class Recorder {
  public:
   explicit Recorder(Case what);
   /// Asserts that the naive form failed, where there is one, and that there were measurements to
-  /// either side of where it is said to; and writes the file.
+  /// either side of where it is said to; and writes the line.
   ~Recorder();  // NOLINT(bugprone-exception-escape), see there
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
@@ -63,7 +61,6 @@ class Recorder {
   void write() const;
 
   Case case_;
-  int number_;  // among the test's cases, from 0
   std::vector<Measurement> measurements_;
 };
 

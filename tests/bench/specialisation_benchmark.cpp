@@ -1,0 +1,169 @@
+// What each specialisation gains: a scene that has its trait, drawn by the whole plan and by the
+// plan without this one, frame by frame in turns; and the same for real scenes and whatever their
+// plans apply. Prints a row a line, as JSON. Only the ratios hold on another machine. Software
+// OpenGL is timed by the processor time of all its threads, which other programs disturb little.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "formats/scene_file.hpp"
+#include "runtime/benchmark.hpp"
+#include "runtime/navigation.hpp"
+#include "runtime/renderer.hpp"
+#include "support/cutout_cloud.hpp"
+#include "support/trait_soups.hpp"
+
+namespace tureen::test {
+namespace {
+
+struct Settings {
+  int rounds = 5;  // of the eight views
+  int width = 1280, height = 720;
+  std::vector<std::filesystem::path> scenes;
+};
+
+/// Frames of two plans that took turns, view by view. A disturbance meets both frames of a pair, so
+/// pairs show smaller differences than the medians of rounds do.
+nlohmann::json compared(const FrameTimes& with, const FrameTimes& without) {
+  std::vector<double> ratios;
+  std::size_t slower = 0;
+  for (std::size_t i = 0; i < with.ms.size(); ++i) {
+    ratios.push_back(without.ms[i] / with.ms[i]);
+    slower += ratios.back() > 1 ? 1 : 0;
+  }
+  // The sign test: of n pairs that differ by chance alone, half are slower, and within 2.58 sqrt(n)
+  // / 2 of that 99 times in 100.
+  const double n = double(ratios.size());
+  const bool significant = std::abs(double(slower) - 0.5 * n) > 1.29 * std::sqrt(n);
+  return {{"with_ms", statistics_of(with).median},
+          {"without_ms", statistics_of(without).median},
+          {"gain", percentile(ratios, 50)},
+          {"slower", slower},
+          {"pairs", ratios.size()},
+          {"significant", significant}};
+}
+
+/// Prints how much longer a frame takes by the plan that `without` asks for.
+void compare(const gl::Context& context, const Settings& settings, const char* what,
+             const std::string& scene, const TriangleSoup& soup, std::span<const Camera> cameras,
+             const PlanPreferences& without) {
+  Renderer fast(context, soup, glm::dvec3(0.0));
+  Renderer slow(context, soup, glm::dvec3(0.0), {.plan = without});
+  const auto entrant = [](const char* name, Renderer& renderer) {
+    return Entrant{name, [&renderer](const Camera& camera) { renderer.draw(camera); },
+                   [&renderer] { renderer.finish(); }};
+  };
+  const Entrant entrants[] = {entrant("with", fast), entrant("without", slow)};
+  BenchmarkOptions options{.rounds = settings.rounds};
+  if (context.capabilities().software) options.clock = processor_seconds;
+  const BenchmarkResult result = run_benchmark(entrants, cameras, options);
+  nlohmann::json row = compared(result.entrants[0].times, result.entrants[1].times);
+  row["specialisation"] = what;
+  row["scene"] = scene;
+  row["with_mib"] = double(fast.device_bytes()) / (1 << 20);
+  row["without_mib"] = double(slow.device_bytes()) / (1 << 20);
+  std::printf("%s\n", row.dump().c_str());
+  std::fflush(stdout);
+}
+
+bool is_of_the_network(LeaveOut what) {
+  switch (what) {
+    case LeaveOut::color_mlp:
+    case LeaveOut::base_color:
+    case LeaveOut::view_direction:
+    case LeaveOut::weight_uniforms:
+    case LeaveOut::dead_neurons:
+    case LeaveOut::latent_features:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// A large scene with the trait. Lattices are those of the cut-out cloud; the others are small
+/// random triangles.
+TriangleSoup large_soup(LeaveOut what, const Scene& cloud) {
+  const Kind kind = kind_of_trait(what);
+  TriangleSoup soup;
+  if (kind == Kind::lattice_mlp || kind == Kind::lattice) {
+    soup = std::get<TriangleSoup>(cloud.primitives);
+    if (kind == Kind::lattice) std::get<LatticeTexture>(soup.appearance).mlp.reset();
+  } else {
+    // Some pixels large; those that are to lie between pixels a tenth of that, when they are split.
+    const double size = what == LeaveOut::faces_between_pixels ? 0.005 : 0.02;
+    soup = random_soup(1, {.kind = kind, .faces = 200000, .size = size, .degree = 3});
+  }
+  give_trait(what, soup);
+  return soup;
+}
+
+void measure_traits(const gl::Context& context, const Settings& settings) {
+  const Scene cloud = cutout_cloud({.width = settings.width, .height = settings.height});
+  // A network shows its cost where it runs for every pixel and little else is done.
+  const Scene wall = cutout_cloud({.triangles = 1500,
+                                   .level = 2,
+                                   .coverage = CloudCoverage::all,
+                                   .width = settings.width,
+                                   .height = settings.height});
+  for (const LeaveOutName& row : leave_out_names()) {
+    const Scene& base = is_of_the_network(row.what) ? wall : cloud;
+    compare(context, settings, row.name, "made for it", large_soup(row.what, base), base.cameras,
+            {.leave_out = LeaveOutSet::all().without(row.what)});
+  }
+}
+
+void measure_scene(const gl::Context& context, const Settings& settings,
+                   const std::filesystem::path& path) {
+  Scene scene = read_scene(path);
+  const TriangleSoup& soup = opaque_soup(scene);
+  const Bounds box = bounds(soup);
+  std::vector<Camera> cameras;
+  for (int i = 0; i < 8; ++i) {
+    const double angle = i * std::acos(-1.0) / 4;
+    const glm::dvec3 up(scene.info.up),
+        side = std::abs(up.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 a = glm::normalize(glm::cross(up, side)), b = glm::cross(up, a);
+    const glm::dvec3 away = std::cos(angle) * a + std::sin(angle) * b + 0.4 * up;
+    cameras.push_back(look_at(box.centre() + 2.2 * box.radius() * glm::normalize(away),
+                              box.centre(), up, 0.7, settings.width, settings.height));
+  }
+  const std::string name = path.stem().string();
+  const LeaveOutSet applied = make_plan(soup, device_limits(context.capabilities())).left_out;
+  for (const LeaveOutName& row : leave_out_names())
+    if (applied.has(row.what))
+      compare(context, settings, row.name, name, soup, cameras,
+              {.leave_out = LeaveOutSet::all().without(row.what)});
+  compare(context, settings, "all of them", name, soup, cameras, {.specialise = false});
+}
+
+int run(int argc, char** argv) {
+  Settings settings;
+  CLI::App app("What each specialisation gains.");
+  app.add_option("scenes", settings.scenes, "real scenes to measure, too");
+  app.add_option("--rounds", settings.rounds, "how often the eight views are gone through")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--width", settings.width)->check(CLI::PositiveNumber);
+  app.add_option("--height", settings.height)->check(CLI::PositiveNumber);
+  CLI11_PARSE(app, argc, argv);
+  const gl::Context context = gl::Context::create({});
+  measure_traits(context, settings);
+  for (const auto& path : settings.scenes) measure_scene(context, settings, path);
+  return 0;
+}
+
+}  // namespace
+}  // namespace tureen::test
+
+int main(int argc, char** argv) {
+  try {
+    return tureen::test::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "specialisation_benchmark: %s\n", error.what());
+    return 1;
+  }
+}
