@@ -28,6 +28,7 @@
 #include "formats/suggestion.hpp"
 #include "soup/error.hpp"
 #include "soup/lattice_bytes.hpp"
+#include "trainer/config_fields.hpp"
 #include "trainer/config_file.hpp"
 #include "trainer/device.hpp"
 #include "trainer/initialise.hpp"
@@ -415,6 +416,9 @@ Exit codes: 0 done, 2 wrong usage, which a dataset or constants other than the c
       ->option_text("N");
   command->add_flag("--print-config", options->print_config,
                     "print all constants of this run as JSON instead of training");
+  command->set_version_flag(
+      "--list-config", trainer::config_reference,
+      "list all constants with their defaults, ranges and meanings, and exit");
   command->add_flag("--json", options->json, "the result as one line of JSON on standard output");
   command->callback([options, &action] { action = [options] { return train(*options); }; });
 }

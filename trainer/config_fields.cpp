@@ -219,10 +219,6 @@ std::string number_text(double value) {
                                                     : float_text(float(value));
 }
 
-std::string cell(const Config& config, const ConfigField& field) {
-  return "`" + value_text(config, field) + "`";
-}
-
 }  // namespace
 
 bool Range::contains(double value) const {
@@ -297,20 +293,21 @@ std::string config_reference() {
   const Config object = preset(Preset::object), scene = preset(Preset::scene);
   const Config published_object = published(Preset::object);
   const Config published_scene = published(Preset::scene);
-  std::string text =
-      "| field | object | scene | published | range | what it is |\n|---|---|---|---|---|---|\n";
+  std::string text;
   for (const ConfigField& field : fields) {
-    const std::string a = cell(object, field), b = cell(scene, field);
-    const std::string pa = cell(published_object, field), pb = cell(published_scene, field);
-    const std::string differing = pa == a && pb == b ? ""
-                                  : pa == pb         ? pa
-                                                     : "object " + pa + ", scene " + pb;
-    std::string range;
-    if (!numbers(object, field).empty()) range = field.range.text();
+    const std::string value = value_text(object, field), of_scene = value_text(scene, field);
+    const std::string a = value_text(published_object, field),
+                      b = value_text(published_scene, field);
+    text += std::string(field.name) + ": " + value;
+    if (of_scene != value) text += "; --preset scene: " + of_scene;
+    if (a != value || b != of_scene)
+      text += "; --compat: " + (a == b ? a : "object " + a + ", scene " + b);
+    text += "\n    " + std::string(field.meaning) + "\n";
+    if (!numbers(object, field).empty()) text += "    " + field.range.text() + "\n";
+    std::string words;
     for (const char* word : field.words)
-      range += (range.empty() ? "`" : ", `") + std::string(word) + "`";
-    text += "| `" + std::string(field.name) + "` | " + a + " | " + (b == a ? "" : b) + " | " +
-            differing + " | " + range + " | " + field.meaning + " |\n";
+      words += (words.empty() ? "    " : ", ") + std::string(word);
+    if (!words.empty()) text += words + "\n";
   }
   return text;
 }

@@ -60,8 +60,8 @@ std::optional<std::string> defect(const Config& config);
 /// The value as a --config file spells it: 0.8, true, "random", [1, 1, 1].
 std::string value_text(const Config& config, const ConfigField& field);
 
-/// A table in Markdown: field, default of each preset, published value where it differs, range,
-/// meaning.
+/// All constants as text: name, default, the defaults of other presets where they differ, meaning,
+/// range or words.
 std::string config_reference();
 
 }  // namespace tureen::trainer
