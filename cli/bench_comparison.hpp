@@ -37,7 +37,7 @@ BenchComparison compare_benches(const BenchResult& now, const BenchResult& then)
 /// Those that are slower by more than `percent`, and by more than their spread explains.
 std::vector<BenchRatio> slower_than(const BenchComparison& comparison, double percent);
 
-/// The member `comparison` of docs/bench.schema.json; `against` is the file of the earlier result.
+/// The member `comparison` of docs/json.md; `against` is the file of the earlier result.
 Json to_json(const BenchComparison& comparison, const std::string& against);
 
 /// Lines of text, a table first; for a terminal.

@@ -1,5 +1,5 @@
 // What `tureen bench` found: one struct, and the JSON file that it is written to and read from.
-// docs/bench.schema.json is the file's schema. Units are in the names; times of day are UTC.
+// docs/json.md explains the keys.
 #pragma once
 
 #include <cstdint>

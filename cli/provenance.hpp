@@ -1,5 +1,5 @@
 // What every result says of where it comes from: the program, the scene, the machine and the
-// device, as JSON. The keys are those of docs/bench.schema.json and docs/tradeoff.schema.json.
+// device, as JSON. docs/json.md explains the keys.
 // Include it in sources only.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The result of a run of `tureen tradeoff`, read back: what docs/tradeoff.schema.json describes.
+// The result of a run of `tureen tradeoff`, read back: docs/json.md explains its keys.
 #pragma once
 
 #include "cli/tradeoff_report.hpp"

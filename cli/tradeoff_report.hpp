@@ -1,5 +1,5 @@
 // What `tureen tradeoff` found, for people and for programs: a table, a JSON document
-// (docs/tradeoff.schema.json) and a CSV file. E_render and E_model stand in columns and tables of
+// (docs/json.md) and a CSV file. E_render and E_model stand in columns and tables of
 // their own.
 #pragma once
 

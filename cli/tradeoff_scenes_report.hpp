@@ -1,5 +1,5 @@
 // What `tureen tradeoff --import` makes of several runs, for people and for programs: tables, a
-// JSON document (docs/tradeoff_scenes.schema.json) and a CSV file.
+// JSON document (docs/json.md) and a CSV file.
 #pragma once
 
 #include <string>

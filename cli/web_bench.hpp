@@ -1,5 +1,5 @@
 // What the browser's bench.html downloads, as results of `tureen bench`: the page measures, and the
-// same statistics judge what it measured. docs/web_bench.schema.json is the file's schema.
+// same statistics judge what it measured. docs/json.md explains the keys.
 #pragma once
 
 #include <string>

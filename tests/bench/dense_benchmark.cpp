@@ -1,6 +1,6 @@
-// Frames of an opaque soup with a colour a face, the whole scene in view: our plan, the plan without
-// small-triangle culling and the generic one against a renderer as plain as they come, in turns.
-// Prints a row a renderer, as JSON. Only the ratios hold on another machine.
+// Frames of an opaque soup with a colour a face, the whole scene in view: our plan, the plan
+// without small-triangle culling and the generic one against a renderer as plain as they come, in
+// turns. Prints a row a renderer, as JSON. Only the ratios hold on another machine.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>

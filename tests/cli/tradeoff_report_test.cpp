@@ -1,4 +1,4 @@
-// What becomes of a study: the JSON and its schema, CSV, plots and page. The study is made up.
+// What becomes of a study: the JSON, CSV, plots and page. The study is made up.
 #include "cli/tradeoff_report.hpp"
 
 #include <gmock/gmock.h>
@@ -9,7 +9,6 @@
 #include "cli/tradeoff_model.hpp"
 #include "cli/tradeoff_page.hpp"
 #include "cli/tradeoff_plots.hpp"
-#include "support/schema.hpp"
 
 namespace tureen::cli {
 namespace {
@@ -86,22 +85,6 @@ TradeoffReport report() {
   result.study.choice = 3;
   result.promised_psnr_db = 51;
   return result;
-}
-
-TEST(TradeoffReport, HasTheShapeThatTheSchemaSays) {
-  TradeoffReport made = report();
-  EXPECT_EQ(test::schema_violations(to_json(made), "tradeoff.schema.json"), "");
-  made.study.published.reset();
-  made.study.choice.reset();
-  made.model = {"lego", "test", 4, "valid"};
-  made.drawing_model.resize(6);
-  made.drawing_model[0] = ModelError{27, 0.9, 0.1};
-  made.study.drawing.outcomes[4].method = Method::emulated;
-  EXPECT_EQ(test::schema_violations(to_json(made), "tradeoff.schema.json"), "");
-  // The schema is no rubber stamp.
-  auto broken = to_json(made);
-  broken["drawing"]["configurations"][0]["e_render"].erase("p999");
-  EXPECT_NE(test::schema_violations(broken, "tradeoff.schema.json"), "");
 }
 
 TEST(TradeoffReport, SaysWhatWasMeasured) {
@@ -244,7 +227,6 @@ TEST(TradeoffPage, PhotographsJudgeThePublishedPipelineAndWhatIsEmulated) {
   page.erase(0, page.find("E_model: against photographs"));
   EXPECT_THAT(page, testing::ContainsRegex("level 2, &quot;4 bits&quot; \\(emulated\\).*-0\\.250"));
   EXPECT_THAT(page, testing::ContainsRegex("published pipeline.*-0\\.500"));
-  EXPECT_EQ(test::schema_violations(to_json(made), "tradeoff.schema.json"), "");
 }
 
 TEST(TradeoffPage, SaysOfEveryKnobWhetherItMatters) {

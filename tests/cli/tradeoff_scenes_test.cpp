@@ -17,7 +17,6 @@
 #include "formats/shown_text.hpp"
 #include "soup/error.hpp"
 #include "soup/metrics.hpp"
-#include "support/schema.hpp"
 
 namespace tureen::cli {
 namespace {
@@ -226,7 +225,6 @@ json with_supersampling(json document) {
   for (const char* key : {"ms", "ms_median", "ms_p95"}) fine[key] = fine[key].get<double>() * 3;
   fine["e_render"]["psnr_db"] = 58;
   panel["front"].push_back(2);
-  EXPECT_EQ(test::schema_violations(document, "tradeoff.schema.json"), "");
   return document;
 }
 
@@ -296,21 +294,15 @@ TEST(TradeoffScenes, WhatARunSaysAgainstItsTimesIsSaidAgain) {
                           "chair, its defaults: did not come to rest"));
 }
 
-TEST(TradeoffScenesReport, HasTheShapeThatTheSchemaSays) {
+TEST(TradeoffScenesReport, HoldsMeansAndTheFiguresOfEachScene) {
   TradeoffScenes scenes = join_both(lego(), chair());
   scenes.date = "2026-06-01T12:00:00Z";
-  Json document = to_json(scenes);
-  EXPECT_EQ(test::schema_violations(document, "tradeoff_scenes.schema.json"), "");
+  const Json document = to_json(scenes);
   const Json& level = document["drawing"]["configurations"][2];
   EXPECT_EQ(level["settings"], (Json{{"lattice_level", "2"}}));
   EXPECT_EQ(level["worst_scene"], 1);
   EXPECT_NEAR(level["time_ratio"].get<double>(), 0.8, rounding);
   EXPECT_EQ(level["scenes"][1]["ms"], 32);
-  // The schema is no rubber stamp.
-  document["drawing"]["configurations"][0]["scenes"][0].erase("ms");
-  EXPECT_NE(test::schema_violations(document, "tradeoff_scenes.schema.json"), "");
-  // It is no result of one scene either.
-  EXPECT_NE(test::schema_violations(document, "tradeoff.schema.json"), "");
 }
 
 TEST(TradeoffScenesReport, CsvHasColumnsForEveryScene) {

@@ -12,7 +12,6 @@
 #include "cli/bench_words.hpp"
 #include "soup/error.hpp"
 #include "support/markup.hpp"
-#include "support/schema.hpp"
 
 namespace tureen::cli {
 namespace {
@@ -21,8 +20,6 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using Pointer = nlohmann::json::json_pointer;
-
-constexpr const char* schema = "web_bench.schema.json";
 
 nlohmann::json fixture() {
   std::ifstream stream(std::string(TUREEN_SOURCE_DIR) + "/tests/cli/web_bench.json");
@@ -42,10 +39,6 @@ std::string refusal(const std::string& text) {
   } catch (const InputError& error) {
     return error.what();
   }
-}
-
-TEST(WebBench, TheFixtureFollowsTheSchema) {
-  EXPECT_EQ(test::schema_violations(fixture(), schema), "");
 }
 
 TEST(WebBench, SaysWhatThePageMeasured) {
@@ -113,7 +106,6 @@ TEST(WebBench, BecomesAResultLikeAnyOther) {
   EXPECT_EQ(results[1].scene.name, "fox");
   for (const BenchResult& result : results) {
     const Json json = to_json(result);
-    EXPECT_EQ(test::schema_violations(json, "bench.schema.json"), "");
     EXPECT_EQ(to_json(bench_result_from_json(json.dump(), "bench.json")), json);
   }
 }
@@ -130,10 +122,9 @@ std::vector<Pointer> all_places(const nlohmann::json& document) {
   return {places.begin(), places.end()};
 }
 
-/// Neither the schema nor the reader takes it, and the reader names the file.
+/// The reader refuses it and names the file.
 void expect_refused(const nlohmann::json& document, const std::string& what) {
   SCOPED_TRACE(what);
-  EXPECT_NE(test::schema_violations(document, schema), "");
   EXPECT_THAT(refusal(document.dump()), ::testing::StartsWith("phone.json: "));
 }
 
@@ -156,11 +147,11 @@ TEST(WebBench, EveryValueIsOfItsKind) {
     for (const nlohmann::json& other :
          {nlohmann::json(true), nlohmann::json("text"), nlohmann::json(nullptr),
           nlohmann::json::object(), nlohmann::json::array()}) {
+      // Some texts may be any, and some lists empty.
+      if (other.type() == complete.at(place).type()) continue;
       nlohmann::json document = complete;
       document.at(place) = other;
-      // Some texts may be any, and some lists empty.
-      if (!test::schema_violations(document, schema).empty())
-        expect_refused(document, place.to_string() + " as " + other.dump());
+      expect_refused(document, place.to_string() + " as " + other.dump());
     }
     if (complete.at(place).is_number()) {
       nlohmann::json document = complete;

@@ -1,4 +1,4 @@
-// What the page gives away: the JSON of docs/web_bench.schema.json, which `tureen bench --import`
+// What the page gives away: the JSON that docs/json.md explains, which `tureen bench --import`
 // reads, and a table for spreadsheets.
 
 import { clockSentence } from './clock.js';
