@@ -20,5 +20,5 @@ function(tureen_fuzz_trainer)
   add_library(tureen_trainer STATIC ${sources})
   target_include_directories(tureen_trainer PUBLIC "${root}")
   target_link_libraries(tureen_trainer PUBLIC tureen_soup tureen_formats
-    PRIVATE nlohmann_json::nlohmann_json fmt::fmt-header-only ZLIB::ZLIB tureen_warnings)
+    PRIVATE nlohmann_json::nlohmann_json fmt::fmt ZLIB::ZLIB tureen_warnings)
 endfunction()

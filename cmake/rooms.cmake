@@ -13,15 +13,22 @@ function(tureen_include_root room out)
   set(${out} "${root}" PARENT_SCOPE)
 endfunction()
 
-# tureen_room(NAME SOURCES .. PUBLIC .. PRIVATE ..): the library tureen_NAME. PUBLIC rooms and
-# libraries appear in its headers, PRIVATE ones only in its sources.
+# tureen_room(NAME SOURCES .. PUBLIC .. PRIVATE .. PRECOMPILE ..): the library tureen_NAME. PUBLIC
+# rooms and libraries appear in its headers, PRIVATE ones only in its sources. PRECOMPILE are large
+# headers of libraries, which are parsed once for the room; sources include what they use all the same.
 function(tureen_room name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;PRECOMPILE" ${ARGN})
   tureen_include_root(${name} root)
   add_library(tureen_${name} STATIC ${ARG_SOURCES})
   target_include_directories(tureen_${name} PUBLIC "${root}")
   target_link_libraries(tureen_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} tureen_warnings)
+  if(ARG_PRECOMPILE AND NOT EMSCRIPTEN)
+    target_precompile_headers(tureen_${name} PRIVATE ${ARG_PRECOMPILE})
+  endif()
 endfunction()
+
+# Tests spend their time in what they test, so optimising them costs more than it saves.
+set(tureen_test_options $<$<CONFIG:Release>:-O1>)
 
 # tureen_test(NAME SOURCES .. LINK ..): a GoogleTest program, one ctest entry a test.
 function(tureen_test name)
@@ -31,6 +38,8 @@ function(tureen_test name)
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_compile_definitions(${name} PRIVATE
     TUREEN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" TUREEN_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  target_precompile_headers(${name} REUSE_FROM test_precompiled)
+  target_compile_options(${name} PRIVATE ${tureen_test_options})
   set(timeout 300)
   if(TUREEN_SANITIZE)
     set(timeout 1200)  # damage of glTF takes 295 s under the thread sanitizer

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/type_precision.hpp>
+#include <glm/ext/vector_uint4_sized.hpp>
 #include <vector>
 
 namespace tureen {

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/gtc/type_precision.hpp>
+#include <glm/ext/vector_uint3_sized.hpp>
+#include <glm/ext/vector_uint4_sized.hpp>
 #include <glm/vec4.hpp>
 #include <string>
 #include <vector>
