@@ -1,13 +1,12 @@
 #!/bin/sh
 # run.sh SOURCE SEEDS BUILD TARGET SECONDS [CORPUS]: replays what is known of a target (seeds, crashes, and
 # what ./dev fuzz has collected in BUILD/corpus), then fuzzes it. What it finds on the way is kept in the
-# folder CORPUS, where one is given; a crash is left in BUILD/crashes/TARGET. 77, which ctest takes for
-# skipped, where the fuzzer was not built.
+# folder CORPUS, where one is given; a crash is left in BUILD/crashes/TARGET.
 set -eu
 source=$1 seeds=$2 build=$3 target=$4 seconds=$5
 here=$source/tests/fuzz
 program=$build/bin/fuzz_$target
-[ -x "$program" ] || { echo "no $program: ./dev fuzz $target builds it"; exit 77; }
+[ -x "$program" ] || { echo "no $program: ./dev fuzz $target builds it"; exit 1; }
 
 crashes=$build/crashes/$target
 corpus=${6:-}
