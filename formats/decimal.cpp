@@ -1,10 +1,17 @@
 #include "formats/decimal.hpp"
 
+#ifndef __EMSCRIPTEN__
+#define FASTFLOAT_ALLOWS_LEADING_PLUS 1
+#include <fast_float/fast_float.h>
+#endif
+
 #include <algorithm>
 #include <array>
-#include <cassert>
+#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 
@@ -13,8 +20,6 @@ namespace tureen {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-
-constexpr bool is_digit(char c) { return static_cast<unsigned char>(c - '0') <= 9; }
 
 /// Powers of ten that a double holds exactly.
 constexpr std::array<double, 23> exact_power{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
@@ -30,225 +35,46 @@ double scaled(double value, int exponent) {
                        : value / exact_power[std::size_t(-exponent)];
 }
 
-/// A whole number of up to 1,024 bits, little end first. The largest that we compare are
-/// 10^(max_digits) and midpoints scaled by 10^(max_digits + 45): under 600 bits.
-class Big {
- public:
-  explicit Big(std::uint64_t value) {
-    limbs_[0] = static_cast<std::uint32_t>(value);
-    limbs_[1] = static_cast<std::uint32_t>(value >> 32);
+/// One past the number with which `text` begins, or null.
+const char* parse(std::string_view text, float& value) {
+#ifdef __EMSCRIPTEN__
+  // fast_float's tables and code are 18 KB by brotli; strtof is in the engine anyway, for JSON, and
+  // there is one locale. It also skips blanks and reads hexadecimal numbers.
+  const char* first = text.data();
+  if (std::isspace(static_cast<unsigned char>(*first))) return nullptr;
+  const char* digits = first + (*first == '-' || *first == '+');
+  if (digits[0] == '0' && (digits[1] | 0x20) == 'x') {
+    value = *first == '-' ? -0.0f : 0.0f;
+    return digits + 1;
   }
-
-  void multiply_add(std::uint32_t factor, std::uint32_t addend) {
-    std::uint64_t carry = addend;
-    for (std::uint32_t& limb : limbs_) {
-      carry += std::uint64_t(limb) * factor;
-      limb = static_cast<std::uint32_t>(carry);
-      carry >>= 32;
-    }
-    assert(carry == 0);
-  }
-
-  void multiply_power_of_ten(int exponent) {
-    for (; exponent >= 9; exponent -= 9) multiply_add(1000000000u, 0);
-    for (; exponent > 0; --exponent) multiply_add(10u, 0);
-  }
-
-  void shift_left(int bits) {
-    for (; bits >= 16; bits -= 16) multiply_add(1u << 16, 0);
-    multiply_add(1u << bits, 0);
-  }
-
-  /// -1, 0 or 1 for less, equal, greater.
-  int compare(const Big& other) const {
-    for (std::size_t i = limbs_.size(); i-- > 0;)
-      if (limbs_[i] != other.limbs_[i]) return limbs_[i] < other.limbs_[i] ? -1 : 1;
-    return 0;
-  }
-
- private:
-  std::array<std::uint32_t, 32> limbs_{};
-};
-
-/// The significant digits of a number as they stand in the text: `count` digits (a point among
-/// them is passed over), the last of which has the weight 10^exponent.
-struct Digits {
-  const char* first;
-  std::size_t count;
-  long long exponent;
-};
-
-/// Midpoints of two floats have at most 113 significant digits, so beyond this many it only matters
-/// whether anything but zeros follows.
-constexpr std::size_t max_digits = 120;
-
-/// The decimal value compared with `midpoint` > 0, exactly. The value is near the midpoint, so
-/// neither number is large.
-int compare_exactly(const Digits& digits, double midpoint) {
-  Big left(0);
-  std::size_t seen = 0;
-  bool rest = false;
-  const char* c = digits.first;
-  for (; seen < digits.count; ++c) {
-    if (*c == '.') continue;
-    if (seen < max_digits)
-      left.multiply_add(10, static_cast<std::uint32_t>(*c - '0'));
-    else if (*c != '0')
-      rest = true;
-    ++seen;
-  }
-  long long exponent = digits.exponent;
-  if (seen > max_digits) {
-    // The digits left out weigh less than one unit of the last kept: a 1 after it orders the same.
-    exponent += static_cast<long long>(seen - max_digits) - 1;
-    left.multiply_add(10, rest ? 1 : 0);
-  }
-  int binary = 0;
-  const double mantissa = std::frexp(midpoint, &binary);
-  Big right(static_cast<std::uint64_t>(std::ldexp(mantissa, 53)));
-  binary -= 53;
-  if (exponent >= 0)
-    left.multiply_power_of_ten(static_cast<int>(exponent));
-  else
-    right.multiply_power_of_ten(static_cast<int>(-exponent));
-  if (binary >= 0)
-    right.shift_left(binary);
-  else
-    left.shift_left(-binary);
-  return left.compare(right);
-}
-
-/// The float nearest to a value near `approximate`, which is off by a few units in its last place.
-float nearest_float(double approximate, const Digits& digits) {
-  if (approximate >= 0x1p128) return infinity;
-  // Relative: 2^-53 for the mantissa, 2^-53 for each of up to three steps of scaled(), 2^-59 for
-  // the digits beyond the nineteenth; 2^-50 covers them almost twice.
-  const double doubt = approximate * 0x1p-50;
-  const float nearest = static_cast<float>(approximate);
-  // Where the next float up is infinite, rounding works as if it were 2^128.
-  const auto as_double = [](float f) { return f == infinity ? 0x1p128 : double(f); };
-  const float other = double(nearest) > approximate || nearest == infinity
-                          ? std::nextafter(nearest, 0.0f)
-                          : std::nextafter(nearest, infinity);
-  const double midpoint = 0.5 * (as_double(nearest) + as_double(other));
-  if (std::abs(approximate - midpoint) > doubt) return nearest;
-  const float low = std::min(nearest, other), high = std::max(nearest, other);
-  const int order = compare_exactly(digits, midpoint);
-  if (order != 0) return order < 0 ? low : high;
-  std::uint32_t low_bits = 0;
-  std::memcpy(&low_bits, &low, sizeof low);
-  return low_bits % 2 == 0 ? low : high;
-}
-
-/// mantissa * 10^exponent where mantissa is the first (up to 19) of `digits`, at the exponent that
-/// belongs to it.
-float to_float(std::uint64_t mantissa, long long exponent, const Digits& digits) {
-  if (mantissa == 0) return 0.0f;
-  // Nineteen digits at most: the value lies in [10^exponent, 10^(exponent + 19)).
-  if (exponent > 38) return infinity;
-  if (exponent < -65) return 0.0f;  // below 1e-46 < 2^-150
-  const double approximate = scaled(static_cast<double>(mantissa), static_cast<int>(exponent));
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &approximate, sizeof bits);
-  // Between 2^-126 and 2^127 floats are doubles whose last 29 bits are 0 and midpoints are those
-  // whose last 29 bits are 2^28: outside 16 double units around it the plain cast is right.
-  const std::uint64_t last = bits & 0x1fffffffu;
-  const bool doubtful = last - 0x0ffffff0u <= 0x20u;
-  if (!doubtful && approximate >= 0x1p-126 && approximate < 0x1p127)
-    return static_cast<float>(approximate);
-  return nearest_float(approximate, digits);
-}
-
-/// Whether the lower-case `word` stands at `text` in any case.
-bool stands_at(const char* text, const char* word) {
-  for (; *word; ++text, ++word)
-    if ((*text | 0x20) != *word) return false;
-  return true;
+  char* end = nullptr;
+  value = std::strtof(first, &end);
+  return end == first ? nullptr : end;
+#else
+  const auto [end, error] = fast_float::from_chars(text.data(), text.data() + text.size(), value);
+  // Newer versions report what is too large or too small, and set infinity or zero all the same.
+  return error == std::errc::invalid_argument ? nullptr : end;
+#endif
 }
 
 }  // namespace
 
-Decimal parse_decimal(const char* text) {
+Decimal parse_decimal(std::string_view text) {
   Decimal result;
-  const char* c = text;
-  const bool negative = *c == '-';
-  if (*c == '-' || *c == '+') ++c;
-
-  if (!is_digit(*c) && *c != '.') {
-    if (stands_at(c, "nan")) {
-      result.value = std::numeric_limits<float>::quiet_NaN();
-      result.end = c + 3;
-    } else if (stands_at(c, "inf")) {
-      result.value = negative ? -infinity : infinity;
-      result.end = c + (stands_at(c, "infinity") ? 8 : 3);
-    }
-    return result;
-  }
-
-  // Leading zeros carry no weight and do not count among the nineteen digits of the mantissa.
-  bool any = false, point = false;
-  long long exponent = 0;
-  std::uint64_t mantissa = 0;
-  while (*c == '0') ++c, any = true;
-  if (*c == '.') {
-    point = true;
-    ++c;
-    while (*c == '0') ++c, --exponent, any = true;
-  }
-  Digits digits{c, 0, 0};
-  long long left_out = 0;
-  for (;; ++c) {
-    if (is_digit(*c)) {
-      if (digits.count < 19)
-        mantissa = mantissa * 10 + static_cast<std::uint64_t>(*c - '0');
-      else
-        ++left_out;
-      ++digits.count;
-      exponent -= point;
-    } else if (*c == '.' && !point) {
-      point = true;
-    } else {
-      break;
-    }
-  }
-  if (!any && digits.count == 0) return result;  // a lone point
-  result.is_integer = !point;
-
-  if ((*c | 0x20) == 'e') {
-    const char* e = c + 1;
-    const bool down = *e == '-';
-    if (*e == '-' || *e == '+') ++e;
-    if (is_digit(*e)) {
-      // Saturates far beyond what any number of digits in memory could bring back.
-      constexpr long long huge = std::numeric_limits<long long>::max() / 4;
-      long long written = 0;
-      for (; is_digit(*e); ++e)
-        if (written < huge / 10) written = written * 10 + (*e - '0');
-      exponent += down ? -written : written;
-      result.is_integer = false;
-      c = e;
-    }
-  }
-  digits.exponent = exponent;
-  const float magnitude = to_float(mantissa, exponent + left_out, digits);
-  result.value = negative ? -magnitude : magnitude;
-  result.end = c;
+  result.end = parse(text, result.value);
+  if (!result.end) return {};
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const bool has_sign = text.front() == '-' || text.front() == '+';
+  result.is_integer = std::all_of(text.data() + has_sign, result.end, is_digit);
   return result;
 }
 
-Integer parse_integer(const char* text) {
-  const char* c = text;
-  const bool negative = *c == '-';
-  if (*c == '-' || *c == '+') ++c;
-  if (!is_digit(*c)) return {};
-  constexpr long long most = std::numeric_limits<long long>::max();
-  long long value = 0;
-  for (; is_digit(*c); ++c) {
-    const int digit = *c - '0';
-    if (value > (most - digit) / 10) return {};
-    value = value * 10 + digit;
-  }
-  return {negative ? -value : value, c};
+Integer parse_integer(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  Integer result;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), result.value);
+  if (error == std::errc()) result.end = stop;
+  return result;
 }
 
 namespace {
@@ -302,33 +128,24 @@ char* write_digits(char* out, std::uint64_t digits, int exponent) {
 }  // namespace
 
 char* format_float(char* out, float value) {
-  if (std::isnan(value)) return static_cast<char*>(std::memcpy(out, "nan", 3)) + 3;
+  if (std::isnan(value)) return static_cast<char*>(std::memcpy(out, "nan", 4)) + 3;
   if (std::signbit(value)) {
     *out++ = '-';
     value = -value;
   }
-  if (value == infinity) return static_cast<char*>(std::memcpy(out, "inf", 3)) + 3;
-  if (value == 0.0f) {
-    *out++ = '0';
-    return out;
-  }
+  if (value == infinity) return static_cast<char*>(std::memcpy(out, "inf", 4)) + 3;
+  if (value == 0.0f) return static_cast<char*>(std::memcpy(out, "0", 2)) + 1;
   // Nine digits always suffice, even if the last were not rounded perfectly: they lie at least
   // 10^8 / 2^24 = 5.9 times as close together as floats do. The logarithm cannot reach the next
   // integer by rounding, for the largest float below a power of ten is 3e-8 of its size away.
   const double exact = value;
   int leading = static_cast<int>(std::floor(std::log10(exact)));
-  for (int wanted = 6; wanted <= 9; ++wanted) {
+  for (int wanted = 6;; ++wanted) {
     const Rounded candidate = rounded(exact, leading, wanted);
-    char text[24];
-    char* end = text + sizeof text;
-    char* first = end;
-    for (std::uint64_t rest = candidate.digits; rest > 0; rest /= 10)
-      *--first = static_cast<char>('0' + rest % 10);
-    const Digits digits{first, static_cast<std::size_t>(end - first), candidate.exponent};
-    if (wanted == 9 || to_float(candidate.digits, candidate.exponent, digits) == value)
-      return write_digits(out, candidate.digits, candidate.exponent);
+    char* end = write_digits(out, candidate.digits, candidate.exponent);
+    *end = '\0';
+    if (wanted == 9 || parse_decimal({out, std::size_t(end - out)}).value == value) return end;
   }
-  return out;  // not reached
 }
 
 std::string float_text(float value) {

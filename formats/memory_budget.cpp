@@ -44,15 +44,14 @@ std::uint64_t parse_memory_size(const std::string& text) {
   const auto refuse = [&] {
     throw UsageError("'" + text + "' is no amount of memory", "write it as 512MB or 8GB");
   };
-  const Decimal number = parse_decimal(text.c_str());
+  const Decimal number = parse_decimal(text);
   if (!number.end) refuse();
   std::string_view rest(number.end);
   while (!rest.empty() && rest.front() == ' ') rest.remove_prefix(1);
   const Unit* unit = unit_of(std::string(rest));
   if (!unit) refuse();
   // A float rounds whole numbers of more than 24 bits.
-  const double value =
-      number.is_integer ? double(parse_integer(text.c_str()).value) : double(number.value);
+  const double value = number.is_integer ? double(parse_integer(text).value) : double(number.value);
   const double bytes = std::ldexp(value, unit->bits);
   // 2^62 is beyond any machine, and sums of two such still fit into 64 bits.
   if (!(bytes >= 1 && bytes <= std::ldexp(1.0, 62))) refuse();

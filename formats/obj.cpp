@@ -61,7 +61,7 @@ class ObjReader {
   /// "v/vt" or "v/vt/vn", each counting from 1, or from -1 backwards.
   std::uint32_t read_corner() {
     const std::string word = text_.read_word("a corner v/vt");
-    const Integer v = parse_integer(word.c_str());
+    const Integer v = parse_integer(word);
     if (!v.end || *v.end != '/') fail_corner(word);
     const Integer vt = parse_integer(v.end + 1);
     if (!vt.end || (*vt.end != '\0' && *vt.end != '/')) fail_corner(word);

@@ -92,14 +92,14 @@ void TextScanner::expect_line_end(const char* what) {
 
 Decimal TextScanner::read_decimal(const char* what) {
   skip_blanks();
-  const Decimal number = parse_decimal(next_);
+  const Decimal number = parse_decimal({next_, std::size_t(end_ - next_)});
   pass_number(number.end, what, "a number");
   return number;
 }
 
 std::int64_t TextScanner::read_integer(const char* what) {
   skip_blanks();
-  const Integer number = parse_integer(next_);
+  const Integer number = parse_integer({next_, std::size_t(end_ - next_)});
   pass_number(number.end, what, "a whole number");
   return number.value;
 }

@@ -103,13 +103,21 @@ TEST(ParseDecimal, ReadsWords) {
   EXPECT_TRUE(std::isnan(parse_decimal("-NaN ").value));
   EXPECT_EQ(parse_decimal("inf").value, INFINITY);
   EXPECT_EQ(parse_decimal("-Infinity").value, -INFINITY);
+  EXPECT_TRUE(std::isnan(parse_decimal("nan(ind)").value));
   const char* text = "infinit";
   EXPECT_EQ(parse_decimal(text).end, text + 3);
 }
 
 TEST(ParseDecimal, RefusesWhatIsNoNumber) {
-  for (const char* text : {"", "-", "+", ".", "-.", "e5", ".e5", "x", "--1", "na", "in", " 1"})
+  for (const char* text :
+       {"", "-", "+", ".", "-.", "e5", ".e5", "x", "--1", "+-1", "na", "in", " 1"})
     EXPECT_EQ(parse_decimal(text).end, nullptr) << "'" << text << "'";
+}
+
+TEST(ParseDecimal, HexadecimalNumbersEndBeforeTheirX) {
+  const char* text = "-0x10";
+  EXPECT_EQ(parse_decimal(text).end, text + 2);
+  EXPECT_EQ(bits_of(parse_decimal(text).value), bits_of(-0.0f));
 }
 
 TEST(ParseDecimal, KnowsIntegers) {
@@ -172,10 +180,10 @@ TEST(ParseInteger, ReadsAndRefuses) {
 }
 
 void expect_round_trip(float value) {
-  char text[max_float_text + 1];
+  char text[max_float_text];
   char* end = format_float(text, value);
-  ASSERT_LE(end, text + max_float_text);
-  *end = '\0';
+  ASSERT_LT(end, text + max_float_text);
+  ASSERT_EQ(*end, '\0');
   EXPECT_EQ(bits_of(std::strtof(text, nullptr)), bits_of(value)) << text;
   EXPECT_EQ(bits_of(parse_decimal(text).value), bits_of(value)) << text;
 }
