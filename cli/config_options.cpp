@@ -58,7 +58,7 @@ void add_config_options(CLI::App& command, ConfigOptions& options) {
       ->option_text("NAME");
   command
       .add_option("--config", options.file,
-                  "a JSON file with any of the constants of docs/training-constants.md")
+                  "a JSON file with any of the constants that --list-config lists")
       ->option_text("FILE");
   command.add_flag("--compat", options.published, "DiffSoup's published choices where ours differ");
   add_number(command, "--triangles", options.triangles, "so many in the end; 15,000 by default");

@@ -1,5 +1,5 @@
 // The constants of training on the command line: a preset, a file, and the few that people change
-// from run to run. Whatever else there is, a file sets (docs/training-constants.md).
+// from run to run. Whatever else there is, a file sets (--list-config).
 #pragma once
 
 #include <CLI/App.hpp>

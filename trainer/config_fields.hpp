@@ -1,7 +1,6 @@
 // The one table of the constants of training: name, place in Config, range and meaning of each.
-// The reader and the writer of --config files, the check of ranges and the page
-// docs/training-constants.md are made of it. A test holds it against Config: a member that lacks
-// its line here fails there.
+// The reader and the writer of --config files, the check of ranges and --list-config use it. A test
+// compares it with Config: a member without a line here fails there.
 #pragma once
 
 #include <cstdint>
