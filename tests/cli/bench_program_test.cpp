@@ -5,7 +5,6 @@
 
 #include <csignal>
 #include <cstdlib>
-#include <thread>
 
 #include "cli/photographs_fixture.hpp"
 
@@ -251,8 +250,7 @@ TEST_F(Bench, CtrlCLeavesNoResult) {
   Child child({"bench", example, "--context", "osmesa", "--only", "tureen", "--size", "64x48",
                "--seconds", "0", "--rounds", "10000", "-o", "timed"},
               folder);
-  std::this_thread::sleep_for(std::chrono::milliseconds(1000));
-  ASSERT_TRUE(child.running());
+  ASSERT_TRUE(child.wait_until([&] { return child.has_loaded("libOSMesa"); }));
   child.signal(SIGINT);
   const ChildResult result = child.wait();
   EXPECT_EQ(result.exit_code, 5);

@@ -5,10 +5,12 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <thread>
 
 namespace tureen::test {
 
@@ -70,6 +72,21 @@ void Child::stop() {
 bool Child::running() {
   if (pid_ > 0 && ::waitpid(pid_, &status_, WNOHANG) == pid_) pid_ = -1;
   return pid_ > 0;
+}
+
+bool Child::wait_until(const std::function<bool()>& condition) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+  while (!condition()) {
+    if (!running()) return condition();
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+bool Child::has_loaded(const std::string& library) const {
+  const std::string maps = "/proc/" + std::to_string(pid_) + "/maps";
+  return pid_ > 0 && bytes_of_file(maps).find(library) != std::string::npos;
 }
 
 ChildResult Child::wait() {

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,11 @@ class Child {
   /// Returns once it stands still: SIGCONT lets it go on, SIGKILL ends it where it stands.
   void stop();
   bool running();
+  /// Returns once `condition` holds, the program has ended, or two minutes have passed; whether it
+  /// holds.
+  bool wait_until(const std::function<bool()>& condition);
+  /// Whether it has opened this library, as "libOSMesa": of a context, whether that is being made.
+  bool has_loaded(const std::string& library) const;
   ChildResult wait();
 
  private:

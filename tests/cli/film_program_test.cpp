@@ -5,7 +5,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "cli/program_fixture.hpp"
 #include "formats/camera_file.hpp"
@@ -123,9 +122,7 @@ TEST_F(Film, CtrlCLeavesNoHalfVideo) {
       if (name.starts_with("turn.mp4.tmp")) return true;
     return false;
   };
-  for (int i = 0; i < 1000 && !has_begun() && child.running(); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  ASSERT_TRUE(has_begun());
+  ASSERT_TRUE(child.wait_until(has_begun));
   child.signal(SIGINT);
   const ChildResult result = child.wait();
   EXPECT_NE(result.exit_code, 0);

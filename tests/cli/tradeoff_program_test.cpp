@@ -6,7 +6,6 @@
 #include <fstream>
 #include <map>
 #include <string>
-#include <thread>
 
 #include "cli/photographs_fixture.hpp"
 #include "formats/scene_file.hpp"
@@ -239,7 +238,7 @@ TEST_F(Tradeoff, CtrlCLeavesNothingBehind) {
   Child child(
       {"tradeoff", "soup.glb", "--context", "osmesa", "-o", "report", "--write-preset", "fast.glb"},
       folder);
-  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  ASSERT_TRUE(child.wait_until([&] { return child.has_loaded("libOSMesa"); }));
   child.signal(SIGINT);
   const ChildResult result = child.wait();
   EXPECT_EQ(result.exit_code, 5);

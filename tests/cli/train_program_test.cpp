@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
-#include <thread>
 
 #include "cli/train_fixture.hpp"
 #include "formats/scene_file.hpp"
@@ -113,8 +111,7 @@ TEST_F(Train, GoesOnAfterCtrlCAsIfItHadNotHappened) {
   {
     test::Child child(arguments("ball.glb", {}, steps), folder);
     // The first record tells that it trains.
-    while (child.running() && bytes("ball.jsonl").empty())
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    ASSERT_TRUE(child.wait_until([&] { return !bytes("ball.jsonl").empty(); }));
     child.signal(SIGINT);
     const ChildResult result = child.wait();
     ASSERT_EQ(result.exit_code, 5) << result.err;
@@ -155,8 +152,7 @@ TEST_F(Train, SaysThatCtrlCBeforeTheFirstStepLeavesNoCheckpoint) {
   for (int i = 0; i < 30'000; ++i) document["frames"].push_back(frame);
   write("ball/transforms_train.json", document.dump());
   test::Child child(arguments("a.glb"), folder);
-  while (child.running() && !exists("a.lock"))
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ASSERT_TRUE(child.wait_until([&] { return exists("a.lock"); }));
   child.signal(SIGINT);
   const ChildResult result = child.wait();
   EXPECT_EQ(result.exit_code, 5);
@@ -196,8 +192,7 @@ TEST_F(Train, CheckpointsAsOftenAsItIsTold) {
   fs::remove(folder / "ball.svg");
 
   test::Child child(arguments("ball.glb", {"--checkpoint-every", "10"}, "100000"), folder);
-  while (child.running() && !exists("ball.checkpoint"))
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  ASSERT_TRUE(child.wait_until([&] { return exists("ball.checkpoint"); }));
   child.signal(SIGKILL);  // no last words
   EXPECT_EQ(child.wait().exit_code, -1);
   EXPECT_TRUE(exists("ball.checkpoint"));
@@ -287,8 +282,7 @@ TEST_F(Train, ExitCodesSayWhoIsToBlame) {
 TEST_F(Train, TwoRunsDoNotShareAnOutput) {
   make_dataset();
   test::Child first(arguments("ball.glb", {}, "100000"), folder);
-  while (first.running() && !exists("ball.jsonl"))
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ASSERT_TRUE(first.wait_until([&] { return exists("ball.jsonl"); }));
   const ChildResult second = train("ball.glb");
   EXPECT_EQ(second.exit_code, 2);
   EXPECT_THAT(second.err, HasSubstr("another run is writing the files beside ball.lock"));
@@ -328,8 +322,7 @@ TEST_F(Train, GoesOnWhereNohupLetsItIgnoreTheHangup) {
   const auto before = ::signal(SIGHUP, SIG_IGN);  // what a child inherits
   test::Child child(arguments("ball.glb", {}, "60"), folder);
   ::signal(SIGHUP, before);
-  while (child.running() && !exists("ball.jsonl"))
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ASSERT_TRUE(child.wait_until([&] { return exists("ball.jsonl"); }));
   child.signal(SIGHUP);
   EXPECT_EQ(child.wait().exit_code, 0);
   EXPECT_TRUE(exists("ball.glb"));
