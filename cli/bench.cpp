@@ -7,13 +7,11 @@
 #include <memory>
 
 #include "cli/bench_contestants.hpp"
-#include "cli/bench_import.hpp"
 #include "cli/bench_measure.hpp"
 #include "cli/bench_reports.hpp"
 #include "cli/bench_table.hpp"
 #include "cli/bench_views.hpp"
 #include "cli/commands.hpp"
-#include "cli/import_option.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory_option.hpp"
 #include "cli/number_range.hpp"
@@ -35,7 +33,6 @@ struct Options {
   double seconds = 20;
   bool processor_time = false;
   BenchReportOptions reports;
-  std::vector<std::string> imports;    // of bench.html; none: measure the scene
   std::vector<std::string> arguments;  // all of them, as typed
 };
 
@@ -126,22 +123,10 @@ std::vector<std::string> inputs_of(const Options& options) {
   return inputs;
 }
 
-/// Either there is a scene to measure, or there are imports and what can be made of them.
-void check_arguments(const CLI::App& command, const Options& options) {
-  if (options.imports.empty()) {
-    if (options.scene.path.empty()) throw UsageError("SCENE is required, or --import");
-    if (options.reports.fail_slower && options.rounds < least_rounds)
-      throw UsageError(fmt::format(
-          "--fail-slower wants {} rounds: of fewer nobody knows the spread", least_rounds));
-    return;
-  }
-  require_no_measuring(command, {"--import", "--output", "--csv", "--plots", "--against",
-                                 "--fail-slower", "--json", "--help"});
-}
-
 ExitCode bench(const Options& options) {
-  if (!options.imports.empty())
-    return import_benches({.files = options.imports, .reports = options.reports});
+  if (options.reports.fail_slower && options.rounds < least_rounds)
+    throw UsageError(
+        fmt::format("--fail-slower needs at least {} rounds to estimate the spread", least_rounds));
   // Everything that can be wrong with the arguments is said before the scene is read.
   check(options.views);
   check(options.contestants);
@@ -176,18 +161,16 @@ Examples:
   tureen bench soup.glb --sweep --json > bench.json       five sizes
   tureen bench soup.glb --size 640x360,1920x1080 --cameras orbit:12,adversarial
   tureen bench soup.glb photographs --sizes full,half     the dataset's test cameras
-  tureen bench soup.glb --ceilings -o timed               a page, plots, and the pictures timed
+  tureen bench soup.glb --ceilings -o timed               the result, and the images timed
   tureen bench soup.glb --against timed/bench.json        what has become faster or slower since
   tureen bench soup.glb --only tureen,triangles --seconds 60
   tureen bench soup.glb --only tureen-fragment,tureen-compute
                                                           shading by compute shaders
-  tureen bench --import phone.json --import laptop.json -o devices
-                                                          downloads of bench.html, side by side
 
 Exit codes: 0 done, 1 slower than --fail-slower allows, 2 wrong usage, 3 the scene or the
 cameras cannot be read, 4 no OpenGL context, 5 it does not fit on the device or cannot be
 written.)");
-  add_scene_argument(*command, options->scene)->required(false);
+  add_scene_argument(*command, options->scene);
   add_memory_option(*command);
   add_bench_view_options(*command, options->views);
   add_contestant_options(*command, options->contestants);
@@ -206,13 +189,7 @@ written.)");
                     "processor time of all threads instead of time that passed: for ratios on a "
                     "busy machine; software OpenGL only");
   add_bench_report_options(*command, options->reports);
-  add_import_option(*command, options->imports,
-                    "tell what bench.html measured in a browser, a download of it each, instead of "
-                    "measuring; several are put side by side");
-  command->callback([command, options, &action] {
-    check_arguments(*command, *options);
-    action = [options] { return bench(*options); };
-  });
+  command->callback([options, &action] { action = [options] { return bench(*options); }; });
 }
 
 }  // namespace tureen::cli

@@ -13,24 +13,22 @@ namespace tureen::cli {
 
 /// As typed; empty where not given.
 struct BenchReportOptions {
-  std::string folder;   // bench.json, .csv, .md and .html, and all plots
-  std::string csv;      // a file
-  std::string plots;    // a folder
+  std::string folder;   // for bench.json and the images timed
   std::string against;  // an earlier bench.json
   std::optional<double> fail_slower;
   bool json = false;  // the result on standard output
 };
 
-/// --output, --csv, --plots, --against, --fail-slower and --json.
+/// --output, --against, --fail-slower and --json.
 void add_bench_report_options(CLI::App& command, BenchReportOptions& options);
 
 /// To be called before anything is measured: reads what --against names, so that a bad file is
-/// refused at once, and makes the folders. No file takes the place of that one or of `inputs`,
+/// refused at once, and makes the folder. No file takes the place of that one or of `inputs`,
 /// files and folders that are read. Throws InputError, UsageError and OutputError.
 std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& options,
                                                  std::vector<std::string> inputs);
 
-/// Writes the files, each whole or not at all, says where they are, and what changed since `then`.
+/// Writes the file, whole or not at all, prints where it is, and what changed since `then`.
 /// ExitCode::check_failed only where --fail-slower was given and something is slower than that.
 /// Throws OutputError.
 ExitCode report_bench(const BenchReportOptions& options, const BenchResult& now,

@@ -21,7 +21,6 @@ void add_compare(CLI::App& program, Action& action);
 void add_convert(CLI::App& program, Action& action);
 void add_eval(CLI::App& program, Action& action);
 void add_info(CLI::App& program, Action& action);
-void add_plot(CLI::App& program, Action& action);
 void add_render(CLI::App& program, Action& action);
 void add_tradeoff(CLI::App& program, Action& action, std::vector<std::string> arguments);
 void add_train(CLI::App& program, Action& action);

@@ -10,6 +10,7 @@
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/report.hpp"
+#include "cli/retired.hpp"
 #include "cli/version.hpp"
 #include "formats/suggestion.hpp"
 #include "soup/error.hpp"
@@ -68,6 +69,8 @@ UsageError explain(const CLI::App& program, const CLI::ParseError& error) {
     for (const std::string& extra : extras) {
       if (extra.size() < 2 || extra[0] != '-') continue;
       const std::string word = extra.substr(0, extra.find('='));
+      if (const std::string instead = replacement_of(command.get_name(), word); !instead.empty())
+        return UsageError(command.get_name() + " no longer has " + word, instead);
       std::vector<std::string> known;
       for (const CLI::Option* option : command.get_options())
         for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
@@ -114,7 +117,6 @@ void add_commands(CLI::App& program, Action& action, const std::vector<std::stri
   add_compare(program, action);
   add_eval(program, action);
   add_bench(program, action, arguments);
-  add_plot(program, action);
   add_tradeoff(program, action, arguments);
 }
 
@@ -143,9 +145,13 @@ bad, 4 no OpenGL context, 5 anything else.)");
     for (std::string line; std::getline(help, line);) say(line);
     return int(ExitCode::usage);
   }
-  if (is_unknown_command(program, argc, argv))
+  if (is_unknown_command(program, argc, argv)) {
+    if (const std::string instead = replacement_of(argv[1]); !instead.empty())
+      return refuse(program,
+                    UsageError(std::string("there is no longer a command ") + argv[1], instead));
     return refuse(program, UsageError(std::string("there is no command ") + argv[1],
                                       did_you_mean(argv[1], command_names(program))));
+  }
   try {
     program.parse(argc, argv);
     if (const auto name = empty_argument(named_command(program)))

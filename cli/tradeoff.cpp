@@ -8,7 +8,6 @@
 #include "cli/choice.hpp"
 #include "cli/commands.hpp"
 #include "cli/dataset_argument.hpp"
-#include "cli/import_option.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory_option.hpp"
 #include "cli/number_range.hpp"
@@ -16,10 +15,7 @@
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
-#include "cli/tradeoff_import.hpp"
 #include "cli/tradeoff_model.hpp"
-#include "cli/tradeoff_page.hpp"
-#include "cli/tradeoff_plots.hpp"
 #include "cli/tradeoff_report.hpp"
 #include "cli/tradeoff_study.hpp"
 #include "cli/tradeoff_views.hpp"
@@ -84,7 +80,6 @@ struct Options {
   bool write_preset = false;
   bool force = false;
   bool json = false;
-  std::vector<std::string> imports;    // of earlier runs; none: measure the scene
   std::vector<std::string> arguments;  // of the program, as typed
 };
 
@@ -112,23 +107,12 @@ void require_writable_outputs(const Options& options) {
   require_writable_file(path);
 }
 
-/// Plots as SVG and PNG, where gnuplot is there, and all else that a folder is to hold.
 void write_files(const Options& options, TradeoffReport& report) {
   if (options.folder.empty()) return;
   const fs::path folder = options.folder;
   make_folder(folder);
-  const auto file = [&](const std::string& name) {
-    report.output.push_back((folder / name).string());
-    return folder / name;
-  };
-  const auto drawn = write_figures(tradeoff_plots(report), folder);
-  if (!drawn) report.notes.emplace_back(gnuplot_missing);
-  const std::vector<DrawnFigure> figures = drawn.value_or(std::vector<DrawnFigure>());
-  const std::vector<std::string> plots = files_of(figures);
-  report.output.insert(report.output.end(), plots.begin(), plots.end());
-  write_file(file("tradeoff.html"), tradeoff_page(report, figures));
-  write_file(file("tradeoff.csv"), to_csv(report));
-  const fs::path json = file("tradeoff.json");
+  const fs::path json = folder / "tradeoff.json";
+  report.output.push_back(json.string());
   write_file(json, json_text(to_json(report)));
 }
 
@@ -265,11 +249,6 @@ Study study_of(const Options& options, const Defaults& defaults, const Scene& sc
 }
 
 ExitCode tradeoff(const Options& options) {
-  if (!options.imports.empty())
-    return import_tradeoffs({.files = options.imports,
-                             .folder = options.folder,
-                             .json = options.json,
-                             .arguments = options.arguments});
   // Everything that can be wrong with the arguments is said before anything is read.
   const Defaults defaults = defaults_of(options.effort);
   check(view_options(options, defaults));
@@ -319,30 +298,24 @@ each the time of a frame and the error against the oracle's picture of the same 
 photographs the error against them (E_model) stands beside, never on one axis, and that of the
 published pipeline with it. The choice is the cheapest with an E_render of at least 50 dB and
 hardly a pixel covered wrongly.
-Results of several scenes are joined by --import.
 
 Examples:
-  tureen tradeoff soup.glb -o tradeoff                plots, table, page and JSON in a folder
+  tureen tradeoff soup.glb -o tradeoff                the result in a folder
   tureen tradeoff soup.glb lego --scale 0.5 -o tradeoff
                                                       with E_model against photographs
   tureen tradeoff soup.glb --write-preset fast.glb    the scene with the choice, as another
                                                       file; tureen render fast.glb obeys it
   tureen tradeoff soup.glb --full --json > soup.json  1280x720, all settings: long
-  tureen tradeoff --import lego/tradeoff.json --import chair/tradeoff.json -o both
-                                                      means over the scenes of earlier runs
 
 Exit codes: 0 done, 1 nothing keeps to the limits and a preset was asked for, 2 wrong usage,
-3 the scene, the dataset or a result cannot be read, 4 no OpenGL context, 5 it does not fit
+3 the scene or the dataset cannot be read, 4 no OpenGL context, 5 it does not fit
 on the device or cannot be written.)");
-  add_scene_argument(*command, options->scene)->required(false);
+  add_scene_argument(*command, options->scene);
   add_dataset_argument(*command, options->dataset);
   command->get_option("DATASET")->required(false);
   add_memory_option(*command);
   command
-      ->add_option(
-          "-o,--output", options->folder,
-          "a folder for the report: tradeoff.html, .csv and .json, and the plots; of several "
-          "scenes scenes.html, .csv and .json")
+      ->add_option("-o,--output", options->folder, "a folder for the result, tradeoff.json")
       ->option_text("FOLDER");
   add_choice<tradeoff::Samples>(
       *command, "--reference", options->samples,
@@ -412,16 +385,7 @@ on the device or cannot be written.)");
                           "where OpenGL comes from: auto (EGL, else OSMesa), egl or osmesa")
       ->option_text("NAME");
   command->add_flag("--json", options->json, "everything as JSON on standard output");
-  add_import_option(
-      *command, options->imports,
-      "the tradeoff.json of an earlier run, one for each of two scenes or more: joins "
-      "what all of them have, instead of measuring: geometric means of times relative "
-      "to the defaults, and of squared errors");
-  command->callback([command, options, preset, &action] {
-    if (!options->imports.empty())
-      require_no_measuring(*command, {"--import", "--output", "--json", "--max-memory", "--help"});
-    else if (options->scene.path.empty())
-      throw UsageError("SCENE is required, or --import");
+  command->callback([options, preset, &action] {
     options->write_preset = preset->count() > 0;  // with or without a name
     action = [options] { return tradeoff(*options); };
   });

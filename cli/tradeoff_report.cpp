@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "cli/csv.hpp"
 #include "cli/provenance.hpp"
 
 namespace tureen::cli {
@@ -122,30 +121,6 @@ Json model_protocol_json(const TradeoffReport& report) {
           {"ssim_border", report.model->ssim_border}};
 }
 
-std::string csv_row(const TradeoffReport& report, const char* panel_name, const Panel& panel,
-                    std::size_t i, const std::optional<ModelError>& model) {
-  const Outcome& outcome = panel.outcomes[i];
-  const RenderError& error = outcome.error;
-  std::vector<std::string> fields{panel_name, outcome.name, name_of(outcome.method)};
-  const auto number = [&](double value, bool known = true) {
-    fields.push_back(known ? fmt::format("{}", value) : std::string());
-  };
-  for (const double value : {outcome.ms.min_of_medians, outcome.ms.median, outcome.ms.p95,
-                             outcome.ms.spread * outcome.ms.min_of_medians, outcome.device_mib})
-    number(value, outcome.has_time());
-  for (const double value : {error.psnr_db, error.mae, error.max_abs, error.p999_abs, error.ssim})
-    number(value);
-  number(error.flip, report.with_flip);
-  number(error.coverage_mismatch);
-  number(outcome.exact ? outcome.exact->psnr_db : 0, outcome.exact.has_value());
-  number(outcome.exact ? outcome.exact->coverage_mismatch : 0, outcome.exact.has_value());
-  number(model ? model->psnr_db : 0, model.has_value());
-  number(model ? model->ssim : 0, model.has_value());
-  number(model ? model->flip : 0, model && report.with_flip);
-  fields.push_back(is_on_front(panel, i) ? "1" : "0");
-  return csv_line(fields);
-}
-
 // -- for people ----------------------------------------------------------------------------------
 
 std::string table_line(const TradeoffReport& report, const Panel& panel, std::size_t i,
@@ -242,21 +217,6 @@ Json to_json(const TradeoffReport& report) {
           {"choice", choice_json(report)},
           {"notes", report.notes},
           {"output", report.output}};
-}
-
-std::string to_csv(const TradeoffReport& report) {
-  std::string text =
-      "panel,name,method,ms,ms_median,ms_p95,ms_spread,mib,e_render_psnr_db,e_render_mae,"
-      "e_render_max,e_render_p999,e_render_ssim,e_render_flip,e_render_coverage,"
-      "e_render_exact_psnr_db,e_render_exact_coverage,e_model_psnr_db,e_model_ssim,e_model_flip,on_"
-      "front\n";
-  const Study& study = report.study;
-  for (std::size_t i = 0; i < study.drawing.outcomes.size(); ++i)
-    text += csv_row(report, "drawing", study.drawing, i, model_of(report.drawing_model, i));
-  for (std::size_t i = 0; i < study.antialiasing.outcomes.size(); ++i)
-    text += csv_row(report, "antialiasing", study.antialiasing, i,
-                    model_of(report.antialiasing_model, i));
-  return text;
 }
 
 void say_tables(const TradeoffReport& report) {

@@ -1,5 +1,5 @@
-// What `tureen tradeoff` found, for people and for programs: a table, a JSON document
-// (docs/json.md) and a CSV file. E_render and E_model stand in columns and tables of
+// What `tureen tradeoff` found, for people and for programs: tables and a JSON document
+// (docs/json.md). E_render and E_model stand in columns and tables of
 // their own.
 #pragma once
 
@@ -63,10 +63,6 @@ std::string told_name(const Outcome& outcome);
 const char* where_it_looks(const TradeoffReport& report);
 
 Json to_json(const TradeoffReport& report);
-
-/// A head and a line for each configuration of both panels; numbers in full precision, text quoted
-/// as RFC 4180 has it.
-std::string to_csv(const TradeoffReport& report);
 
 /// The tables for a terminal, with what was skipped, the rules, the front and the choice.
 void say_tables(const TradeoffReport& report);

@@ -7,7 +7,6 @@
 #include <set>
 #include <utility>
 
-#include "cli/csv.hpp"
 #include "cli/provenance.hpp"
 
 namespace tureen::cli {
@@ -92,36 +91,6 @@ Json panel_json(const TradeoffScenes& scenes, const ScenesPanel& panel) {
           {"left_out", left_out}};
 }
 
-std::string csv_rows(const TradeoffScenes& scenes, const char* name, const ScenesPanel& panel) {
-  std::string text;
-  for (std::size_t i = 0; i < panel.means.outcomes.size(); ++i) {
-    const Outcome& mean = panel.means.outcomes[i];
-    std::vector<std::string> cells{name, mean.name, name_of(mean.method)};
-    const auto number = [&](double value) { cells.push_back(fmt::format("{}", value)); };
-    const auto time = [&](double value) {
-      cells.push_back(mean.has_time() ? fmt::format("{}", value) : std::string());
-    };
-    time(time_ratio(panel.means, i));
-    time(mean.ms.min_of_medians);
-    time(mean.ms.p95);
-    number(mean.error.psnr_db);
-    number(mean.error.worst_psnr_db);
-    cells.push_back(worst_scene(scenes, mean));
-    number(mean.error.coverage_mismatch);
-    cells.emplace_back(is_on_front(panel.means, i) ? "1" : "0");
-    for (std::size_t r = 0; r < scenes.runs.size(); ++r) {
-      const Panel& own = own_panel(scenes, panel, r);
-      const std::size_t member = panel.members[i][r];
-      time(time_ratio(own, member));
-      time(own.outcomes[member].ms.min_of_medians);
-      number(own.outcomes[member].error.psnr_db);
-      number(own.outcomes[member].error.coverage_mismatch);
-    }
-    text += csv_line(cells);
-  }
-  return text;
-}
-
 // -- for people ----------------------------------------------------------------------------------
 
 void say_panel(const TradeoffScenes& scenes, const ScenesPanel& panel, const std::string& title) {
@@ -165,17 +134,6 @@ Json to_json(const TradeoffScenes& scenes) {
           {"antialiasing", panel_json(scenes, scenes.antialiasing)},
           {"notes", scenes.notes},
           {"output", scenes.output}};
-}
-
-std::string to_csv(const TradeoffScenes& scenes) {
-  std::vector<std::string> head{"panel",       "name",           "method",  "time_ratio",
-                                "ms",          "ms_p95",         "psnr_db", "worst_psnr_db",
-                                "worst_scene", "worst_coverage", "on_front"};
-  for (const std::string& label : scenes.labels)
-    for (const char* column : {"time_ratio", "ms", "psnr_db", "coverage"})
-      head.push_back(label + " " + column);
-  return csv_line(head) + csv_rows(scenes, "drawing", scenes.drawing) +
-         csv_rows(scenes, "antialiasing", scenes.antialiasing);
 }
 
 void say_tables(const TradeoffScenes& scenes) {

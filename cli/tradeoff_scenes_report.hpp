@@ -16,10 +16,6 @@ inline constexpr int tradeoff_scenes_version = 1;
 
 Json to_json(const TradeoffScenes& scenes);
 
-/// A head and a line for each way to draw of both panels: its means, then time, decibels and
-/// coverage in each scene. Numbers in full precision; times of the oracle are empty.
-std::string to_csv(const TradeoffScenes& scenes);
-
 /// The tables for a terminal, with what was left out.
 void say_tables(const TradeoffScenes& scenes);
 

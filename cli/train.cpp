@@ -19,7 +19,6 @@
 #include "cli/report.hpp"
 #include "cli/run_lock.hpp"
 #include "cli/scene_argument.hpp"
-#include "cli/training_plot.hpp"
 #include "cli/training_session.hpp"
 #include "formats/diffsoup_export.hpp"
 #include "formats/existing_path.hpp"
@@ -154,13 +153,6 @@ void write_results(const TrainingFiles& files, const Scene& scene, Result& resul
   }
   std::error_code ignored;
   fs::remove(files.checkpoint, ignored);
-  const std::vector<TrainingRun> runs{{files.scene.stem().string(), read_training_log(files.log)}};
-  if (!runs.front().records.empty()) {
-    Output plot(files.plot);
-    plot.write(training_plot(runs));
-    plot.commit();
-    result.output.push_back(files.plot.string());
-  }
   result.output.push_back(files.log.string());
 }
 
@@ -361,7 +353,7 @@ void add_file_options(CLI::App& command, Options& options) {
   command.add_option("-o,--output", options.output, "the soup")->option_text("OUT.glb");
   command
       .add_option("--log", options.log,
-                  "the log, JSON lines; OUT.jsonl by default (tureen plot draws it)")
+                  "the log, JSON lines; OUT.jsonl by default (tureen report shows it)")
       ->option_text("FILE");
   command
       .add_option("--checkpoint-every", options.checkpoint_every,
@@ -388,8 +380,8 @@ void add_train(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("train", "Photographs to a soup");
   command->footer(
       R"(Trains triangles with lattice textures and a color MLP until they look like the
-photographs, writes them as OUT.glb, with a log (OUT.jsonl) and its plot (OUT.svg) beside it, and
-measures them against the test views. Ctrl-C leaves a checkpoint that --resume goes on from. Equal
+photographs, writes them as OUT.glb, with a log (OUT.jsonl) beside it, and measures them against the
+test views. Ctrl-C leaves a checkpoint that --resume goes on from. Equal
 seeds give equal soups with any number of threads.
 
 Examples:

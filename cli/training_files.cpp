@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "cli/output_argument.hpp"
-#include "cli/training_plot.hpp"
 #include "formats/extension.hpp"
 #include "formats/input.hpp"
 #include "soup/error.hpp"
@@ -30,7 +29,7 @@ void check_kind(const fs::path& file, std::string_view beginning, const char* ki
 
 void check_log(const TrainingFiles& files) {
   for (const fs::path& other :
-       {files.scene, files.checkpoint, files.plot, files.previews, files.lock})
+       {files.scene, files.checkpoint, files.previews, files.lock})
     if (files.log.lexically_normal() == other.lexically_normal())
       throw UsageError("the log cannot be " + other.string() + ", which is written, too");
   // All lines of a log begin so, also one that was cut short.
@@ -48,21 +47,19 @@ TrainingFiles training_files(const fs::path& scene) {
   return {.scene = scene,
           .checkpoint = beside(".checkpoint"),
           .log = beside(".jsonl"),
-          .plot = beside(".svg"),
           .previews = beside(".previews"),
           .lock = beside(".lock"),
           .diffsoup_export = {}};
 }
 
 void check_writable(const TrainingFiles& files) {
-  for (const fs::path& file : {files.scene, files.checkpoint, files.log, files.plot})
+  for (const fs::path& file : {files.scene, files.checkpoint, files.log})
     require_writable_file(file);
   check_log(files);
-  check_kind(files.plot, training_plot_beginning, "plot of training");
   const fs::path& folder = files.diffsoup_export;
   if (folder.empty()) return;
   for (const fs::path& other :
-       {files.scene, files.checkpoint, files.log, files.plot, files.previews, files.lock})
+       {files.scene, files.checkpoint, files.log, files.previews, files.lock})
     if (folder.lexically_normal() == other.lexically_normal())
       throw UsageError("the export cannot be " + other.string() + ", which is written, too");
   require_writable_export(folder);

@@ -10,7 +10,6 @@ struct TrainingFiles {
   std::filesystem::path scene;            // OUT.glb
   std::filesystem::path checkpoint;       // OUT.checkpoint, until the run is done
   std::filesystem::path log;              // OUT.jsonl
-  std::filesystem::path plot;             // OUT.svg
   std::filesystem::path previews;         // OUT.previews
   std::filesystem::path lock;             // OUT.lock, while the run goes on
   std::filesystem::path diffsoup_export;  // empty: none

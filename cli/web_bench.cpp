@@ -120,15 +120,14 @@ void add_measurements(const JsonView& view, BenchResult& result) {
 }
 
 /// What all scenes of the file share.
-BenchResult result_of_page(const JsonView& root, const std::string& file) {
+BenchResult result_of_page(const JsonView& root) {
   const JsonView page = root["page"], device = root["device"];
   const double pixel_ratio = device["pixel_ratio"].number();
   if (!(pixel_ratio > 0 && pixel_ratio <= 100)) device["pixel_ratio"].fail("expected 0 to 100");
   BenchResult result;
   result.date = date_of(root["date"]);
-  result.program = {.version = page["version"].text(),
-                    .commit = page["commit"].text(),
-                    .arguments = {"bench", "--import", file}};
+  result.program = {
+      .version = page["version"].text(), .commit = page["commit"].text(), .arguments = {}};
   result.machine = {
       .cpu = device["user_agent"].text(), .cores = integer(device["cores"]), .memory_mib = 0};
   result.device = {
@@ -170,7 +169,7 @@ std::vector<BenchResult> read_web_bench(Input& input) {
   const nlohmann::json document = read_json(input);
   const JsonView root(document, input.name());
   require_format(root, format_name, web_bench_version, "no download of bench.html");
-  const BenchResult shared = result_of_page(root, input.name());
+  const BenchResult shared = result_of_page(root);
   const JsonView scenes = root["scenes"];
   if (scenes.size() == 0) scenes.fail("is empty");
   return list(scenes, [&](const JsonView& scene) { return result_of_scene(scene, shared); });

@@ -35,9 +35,7 @@ class Inputs : public test::Program {
             {"train", "photographs", "-o", "out.glb", "--config", file},
             {"render", "scene.off", "--camera", file},
             {"render", "scene.off", "--path", file, "-o", "f_%d.png"},
-            {"bench", "scene.off", "--against", file},
-            {"bench", "--import", file},
-            {"plot", file}};
+            {"bench", "scene.off", "--against", file}};
   }
 };
 
@@ -83,8 +81,6 @@ TEST_F(Inputs, ThatAreFoldersWhereFilesAreExpectedAreToldSo) {
   write_scene();
   fs::create_directory(folder / "folder");
   expect({"compare", "folder", "folder"}, "folder: is a folder, expected a file");
-  expect({"plot", "folder"}, "folder: is a folder, expected a file");
-  expect({"bench", "--import", "folder"}, "folder: is a folder, expected a file");
   expect({"render", "scene.off", "--path", "folder", "-o", "f_%d.png"},
          "folder: is a folder, expected a file");
   expect({"info", "folder"}, "folder: not a folder of a kind that we read");

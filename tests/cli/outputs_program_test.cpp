@@ -91,21 +91,16 @@ TEST_F(Outputs, AreNotTheInputs) {
   for (const char* diff : {"a.png", "./a.png", "link.png"})
     expect({"compare", "a.png", "b.png", "--diff", diff}, 2, "is an input itself");
   EXPECT_EQ(Input::open(folder / "a.png").read_rest(), before);
-  write("scenes.json", "{}");
-  expect({"tradeoff", "--import", "scenes.json", "--import", "other.json", "-o", "."}, 2,
-         "scenes.json is an input itself");
   const auto bench = [&](std::vector<std::string> outputs, const char* what) {
     outputs.insert(outputs.begin(), {"bench", "scene.off"});
     expect(outputs, 2, what);
   };
-  bench({"--csv", "scene.off"}, "scene.off is an input itself");
   write("bench.json", "{}");
-  bench({"--against", "bench.json", "--csv", "bench.json"}, "bench.json is an input itself");
   bench({"--against", "bench.json", "-o", "."}, "bench.json is an input itself");
   bench({"--cameras", "bench.json", "-o", "."}, "bench.json is an input itself");
   fs::create_directory(folder / "photographs");
-  write("photographs/transforms.json", "{}");
-  bench({"photographs", "--csv", "photographs/transforms.json"}, "in the folder of an input");
+  write("photographs/bench.json", "{}");
+  bench({"photographs", "-o", "photographs"}, "in the folder of an input");
 }
 
 TEST_F(Outputs, ReplaceNothingInFoldersOfInputs) {
@@ -205,9 +200,8 @@ TEST_F(Outputs, ThatCannotBeWrittenAreToldBeforeAnythingIsRead) {
          "there is no folder nowhere");
   expect({"compare", "bad.png", "a.png", "--diff", "nowhere/d.png"}, 5,
          "there is no folder nowhere");
-  expect({"plot", "bad.jsonl", "-o", "nowhere/p.svg"}, 5, "there is no folder nowhere");
   expect({"eval", "bad.off", "photographs", "-o", "file/views"}, 5, "file/views: cannot be");
-  expect({"bench", "bad.off", "--csv", "nowhere/b.csv"}, 5, "there is no folder nowhere");
+  expect({"bench", "bad.off", "-o", "file/b"}, 5, "file/b: cannot be");
   expect({"tradeoff", "bad.off", "-o", "file/t"}, 5, "file/t: cannot be");
   expect({"tradeoff", "bad.off", "--write-preset", "nowhere/t.glb"}, 5,
          "there is no folder nowhere");
@@ -235,7 +229,6 @@ TEST_F(Outputs, AndInputsHaveNames) {
   expect({"render", "scene.off", "-o", ""}, 2, "--output is empty");
   expect({"compare", "a.png", "a.png", "--diff", ""}, 2, "--diff is empty");
   expect({"eval", "scene.off", ""}, 2, "DATASET is empty");
-  expect({"plot", ""}, 2, "LOG is empty");
 }
 
 }  // namespace

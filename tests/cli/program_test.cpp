@@ -23,7 +23,7 @@ using testing::Not;
 // --- Usage ----------------------------------------------------------------------------------
 
 TEST_F(Program, HelpTeachesAndGoesToStandardOutput) {
-  for (const char* command : {"render", "info", "convert", "compare", "train", "eval", "plot"}) {
+  for (const char* command : {"render", "info", "convert", "compare", "train", "eval"}) {
     const ChildResult result = run({command, "--help"});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.out, HasSubstr(std::string("Examples:\n  tureen ") + command));
@@ -31,6 +31,19 @@ TEST_F(Program, HelpTeachesAndGoesToStandardOutput) {
   }
   EXPECT_THAT(run({"--help"}).out, HasSubstr("Exit codes: 0 done"));
   EXPECT_THAT(run({"--version"}).out, HasSubstr("tureen "));
+}
+
+TEST_F(Program, WhatIsGoneIsRefusedWithItsReplacement) {
+  const auto expect = [&](const std::vector<std::string>& arguments, const char* replacement) {
+    const ChildResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments[0];
+    EXPECT_THAT(result.err, HasSubstr(replacement)) << arguments[0];
+  };
+  expect({"bench", "scene.off", "--csv", "a.csv"}, "-o FOLDER");
+  expect({"bench", "scene.off", "--plots=plots"}, "-o FOLDER");
+  expect({"bench", "--import", "a.json", "--import", "b.json"}, "tureen report FILE..");
+  expect({"tradeoff", "--import", "a.json", "--import", "b.json"}, "tureen report FILE..");
+  expect({"plot", "a.jsonl", "-o", "a.svg"}, "tureen report LOG..");
 }
 
 TEST_F(Program, HelpThatCannotBeWrittenIsFive) {

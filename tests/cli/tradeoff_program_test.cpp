@@ -58,8 +58,7 @@ TEST_F(Tradeoff, MeasuresWritesAndKeepsTheChoice) {
                                        "--least-psnr", "20", "--most-mismatch", "0.2"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto json = nlohmann::json::parse(result.out);
-  EXPECT_TRUE(exists("report/tradeoff.html"));
-  EXPECT_TRUE(exists("report/tradeoff.csv"));
+  EXPECT_TRUE(exists("report/tradeoff.json"));
   for (const auto& path : json["output"]) EXPECT_TRUE(exists(path)) << path;
 
   const auto& configurations = json["drawing"]["configurations"];

@@ -1,4 +1,4 @@
-// What becomes of a study: the JSON, CSV, plots and page. The study is made up.
+// What becomes of a study: the JSON. The study is made up.
 #include "cli/tradeoff_report.hpp"
 
 #include <gmock/gmock.h>
@@ -7,16 +7,12 @@
 #include <algorithm>
 
 #include "cli/tradeoff_model.hpp"
-#include "cli/tradeoff_page.hpp"
-#include "cli/tradeoff_plots.hpp"
 
 namespace tureen::cli {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Not;
-using testing::SizeIs;
 using testing::StartsWith;
 
 void nothing(RenderPreset&) {}
@@ -115,17 +111,6 @@ TEST(TradeoffReport, AnEmulationHasAnErrorAndNoTime) {
   EXPECT_EQ(json["e_render"]["psnr_db"], 39);
 }
 
-TEST(TradeoffReport, CsvHasALineForEachConfiguration) {
-  const std::string text = to_csv(report());
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1 + 6 + 5);
-  EXPECT_THAT(text, StartsWith("panel,name,method,ms,"));
-  EXPECT_THAT(text, HasSubstr("drawing,\"level 2, \"\"4 bits\"\"\",tureen,7,"));
-  const std::string head = text.substr(0, text.find('\n'));
-  const std::string first =
-      text.substr(head.size() + 1, text.find('\n', head.size() + 1) - head.size() - 1);
-  EXPECT_EQ(std::count(head.begin(), head.end(), ','), std::count(first.begin(), first.end(), ','));
-}
-
 TEST(TradeoffReport, TimesOfABusyMachineAreWarnedOf) {
   EXPECT_FALSE(spread_warning(0.05));
   EXPECT_THAT(spread_warning(0.234).value_or(""), HasSubstr("differs from itself by 23 %"));
@@ -172,69 +157,6 @@ TEST(TradeoffCandidates, TheReferencesOwnSamplesAreOnNoFront) {
   without.outcomes.pop_back();
   find_front(without);
   EXPECT_EQ(made.hypervolume, without.hypervolume);
-}
-
-TEST(DominantKnob, IsTheOneThatCostsMost) {
-  Panel made = panel();
-  EXPECT_THAT(dominant_knobs(made), ElementsAre(std::nullopt, std::nullopt, 0u, 1u, 0u));
-  // A setting that was not measured alone is the last to blame, and of two such the first.
-  made.outcomes.erase(made.outcomes.begin() + 2);
-  EXPECT_THAT(dominant_knobs(made), ElementsAre(std::nullopt, std::nullopt, 1u, 1u));
-  made.outcomes.erase(made.outcomes.begin() + 2);
-  EXPECT_THAT(dominant_knobs(made), ElementsAre(std::nullopt, std::nullopt, 0u));
-}
-
-TEST(TradeoffPlots, KeepTheTwoErrorsApart) {
-  TradeoffReport made = report();
-  EXPECT_THAT(tradeoff_plots(made), SizeIs(2));
-  made.model = {"lego", "test", 4, "valid"};
-  made.drawing_model.resize(6);
-  made.drawing_model[0] = ModelError{27.125, 0.9, 0.1};
-  const std::vector<Figure> plots = tradeoff_plots(made);
-  ASSERT_THAT(plots, SizeIs(3));
-  EXPECT_THAT(plots[2].plot.script, HasSubstr("27.125"));
-  EXPECT_THAT(plots[0].plot.script, Not(HasSubstr("27.125")));
-  EXPECT_THAT(plots[2].plot.script, Not(HasSubstr("R1")));
-  for (const Figure& each : plots) {
-    EXPECT_THAT(each.plot.script, HasSubstr("set logscale x"));
-    EXPECT_THAT(each.plot.script, HasSubstr("\"10\" 10"));
-    // More than decades, however narrow the axis.
-    EXPECT_THAT(each.plot.script, testing::ContainsRegex("\"[0-9.]+\" [0-9.]+, \""));
-    const auto svg = draw_plot(each.plot, PlotFormat::svg);
-    if (!svg) GTEST_SKIP() << gnuplot_missing;
-    EXPECT_THAT(*svg, StartsWith("<svg"));
-  }
-}
-
-TEST(TradeoffPage, HoldsTablesAndEscapesNames) {
-  const std::string page = tradeoff_page(report(), {{"<svg></svg>", "a caption"}});
-  EXPECT_THAT(page, HasSubstr("a&lt;b.glb"));
-  EXPECT_THAT(page, Not(HasSubstr("a<b")));
-  EXPECT_THAT(page, HasSubstr("<svg></svg>"));
-  EXPECT_THAT(page, HasSubstr("this device has none"));
-  EXPECT_THAT(tradeoff_page(report(), {}), HasSubstr("gnuplot is not installed"));
-}
-
-TEST(TradeoffPage, PhotographsJudgeThePublishedPipelineAndWhatIsEmulated) {
-  TradeoffReport made = report();
-  made.model = {"lego", "test", 4, "valid"};
-  made.study.drawing.outcomes[4].method = Method::emulated;
-  made.drawing_model.resize(6);
-  made.drawing_model[0] = ModelError{27, 0.9, 0.1};
-  made.drawing_model[4] = ModelError{26.75, 0.9, 0.1};
-  made.drawing_model[5] = ModelError{26.5, 0.8, 0.1};
-  std::string page = tradeoff_page(made, {});
-  page.erase(0, page.find("E_model: against photographs"));
-  EXPECT_THAT(page, testing::ContainsRegex("level 2, &quot;4 bits&quot; \\(emulated\\).*-0\\.250"));
-  EXPECT_THAT(page, testing::ContainsRegex("published pipeline.*-0\\.500"));
-}
-
-TEST(TradeoffPage, SaysOfEveryKnobWhetherItMatters) {
-  const std::string page = tradeoff_page(report(), {});
-  const std::size_t antialiasing = page.find("Antialiasing knobs");
-  ASSERT_NE(antialiasing, std::string::npos);
-  EXPECT_THAT(page.substr(0, antialiasing), HasSubstr("slowest / fastest"));
-  EXPECT_THAT(page.substr(antialiasing), HasSubstr("slowest / fastest"));
 }
 
 TEST(WhyNotEmulated, CountsThePixelsThatTheOracleWouldDraw) {

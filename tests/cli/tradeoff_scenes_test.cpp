@@ -8,11 +8,8 @@
 #include <cmath>
 #include <span>
 
-#include "cli/gnuplot.hpp"
 #include "cli/tradeoff_fixture.hpp"
-#include "cli/tradeoff_plots.hpp"
 #include "cli/tradeoff_reading.hpp"
-#include "cli/tradeoff_scenes_page.hpp"
 #include "cli/tradeoff_scenes_report.hpp"
 #include "formats/shown_text.hpp"
 #include "soup/error.hpp"
@@ -303,76 +300,6 @@ TEST(TradeoffScenesReport, HoldsMeansAndTheFiguresOfEachScene) {
   EXPECT_EQ(level["worst_scene"], 1);
   EXPECT_NEAR(level["time_ratio"].get<double>(), 0.8, rounding);
   EXPECT_EQ(level["scenes"][1]["ms"], 32);
-}
-
-TEST(TradeoffScenesReport, CsvHasColumnsForEveryScene) {
-  json other = chair();
-  other["scene"]["name"] = "chair, \"red\"";
-  const std::string text = to_csv(join_both(lego(), other));
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1 + 6 + 2);
-  EXPECT_THAT(text, StartsWith("panel,name,method,time_ratio,ms,"));
-  EXPECT_THAT(text, HasSubstr("lego time_ratio,lego ms,lego psnr_db,lego coverage,"
-                              "\"chair, \"\"red\"\" time_ratio\","));
-  EXPECT_THAT(text, HasSubstr("\ndrawing,MLP in half floats,oracle,,,,54,49,"));
-}
-
-TEST(TradeoffScenesPlots, OfTheMeansAndOfEachScene) {
-  const TradeoffScenes scenes = join_both(lego(), chair());
-  const std::vector<Figure> means = means_plots(scenes);
-  ASSERT_THAT(means, SizeIs(2));
-  EXPECT_THAT(means[0].plot.script, HasSubstr("time relative to the defaults"));
-  EXPECT_THAT(means[0].plot.script, HasSubstr("R1: the reference in 8 bits, 56.0 dB"));
-  EXPECT_THAT(means[0].plot.script, HasSubstr("R0: the published pipeline, 50.0 dB"));
-  EXPECT_THAT(means[1].plot.script, Not(HasSubstr("R0")));
-  const std::vector<Figure> own = scene_plots(scenes);
-  ASSERT_THAT(own, SizeIs(4));
-  EXPECT_EQ(own[2].file, "2-drawing");
-  EXPECT_THAT(own[2].caption, StartsWith("chair: "));
-  EXPECT_NE(own[0].plot.title, own[2].plot.title);
-}
-
-TEST(TradeoffScenesPlots, AKnobHasOneColour) {
-  // Without the knob that comes first, the others would move up.
-  json other = chair();
-  json& panel = other["drawing"];
-  ASSERT_EQ(panel["knobs"][0]["key"], "lattice_level");
-  panel["knobs"].erase(0);
-  panel["configurations"].erase(2);
-  for (json& each : panel["configurations"]) each["knobs"].erase("lattice_level");
-  panel["front"] = {0};
-  other["choice"]["configuration"] = 0;
-  const TradeoffScenes scenes = join_both(lego(), other);
-  const auto color = [](const Figure& figure, const std::string& knob) -> std::string {
-    const std::string& script = figure.plot.script;
-    const std::size_t title = script.find(" title " + plot_text(knob));
-    if (title == std::string::npos) return "none";
-    const std::size_t line_type = script.rfind("linetype ", title);
-    return script.substr(line_type, script.find(' ', line_type + 9) - line_type);
-  };
-  const std::vector<Figure> own = scene_plots(scenes);
-  for (const Figure& figure : {means_plots(scenes)[0], own[0], own[2]})
-    EXPECT_EQ(color(figure, "shading site"), "linetype 2") << figure.file;
-  EXPECT_EQ(color(own[0], "lattice level"), "linetype 1");
-  EXPECT_EQ(color(own[2], "lattice level"), "none");
-}
-
-TEST(TradeoffScenesPage, EscapesNamesAndSaysWhatIsLeftOut) {
-  json other = chair();
-  other["scene"]["name"] = "a<b";
-  other["drawing"]["configurations"].erase(4);
-  TradeoffScenes scenes = join_both(lego(), other);
-  const std::string page =
-      tradeoff_scenes_page(scenes, {{"<svg>one</svg>", "first"}}, {{"<svg>two</svg>", "second"}});
-  EXPECT_THAT(page, HasSubstr("a&lt;b"));
-  EXPECT_THAT(page, Not(HasSubstr("a<b")));
-  EXPECT_THAT(page, HasSubstr("<svg>one</svg>"));
-  EXPECT_THAT(page, HasSubstr("<svg>two</svg>"));
-  EXPECT_THAT(page, HasSubstr("not in a&lt;b: defaults (generic)"));
-  scenes.notes.emplace_back(gnuplot_missing);
-  const std::string without = tradeoff_scenes_page(scenes, {}, {});
-  const std::size_t said = without.find("gnuplot is not installed");
-  EXPECT_NE(said, std::string::npos);
-  EXPECT_EQ(without.find("gnuplot is not installed", said + 1), std::string::npos) << "once";
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ class TrainFaults : public test::Train {
   void put_old() const {
     for (const std::string& name : test::names_in(folder))
       if (name.rfind("ball.", 0) == 0) fs::remove_all(folder / name);
-    for (const char* name : {"ball.glb", "ball.svg", "ball.jsonl"})
+    for (const char* name : {"ball.glb", "ball.jsonl"})
       fs::copy_file(folder / "old" / name, folder / name);
   }
 
@@ -97,7 +97,7 @@ TEST_F(TrainFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewAndIsAsIfItHadNotBeen)
     // While each file is written; after the soup took the old one's place; and at any time, early
     // and late ones in any order, as a run that goes on has less to do than a whole one.
     std::vector<Moment> moments;
-    for (const char* name : {"ball.checkpoint", "ball.checkpoint", "ball.glb", "ball.svg"})
+    for (const char* name : {"ball.checkpoint", "ball.checkpoint", "ball.glb"})
       moments.push_back({.after = run_time * (random() % 100) / 400,
                          .until = Moment::Until::written,
                          .path = name});
@@ -116,7 +116,6 @@ TEST_F(TrainFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewAndIsAsIfItHadNotBeen)
       const bool resumes = exists("ball.checkpoint");
       if (resumes) more.emplace_back("--resume");
       resumed += resumes;
-      const std::string plot = bytes("ball.svg");
       const test::Lookout lookout(moment, folder);
       test::Child child(arguments("ball.glb", more, steps), folder);
       const bool came = lookout.wait_for(child);
@@ -128,8 +127,6 @@ TEST_F(TrainFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewAndIsAsIfItHadNotBeen)
       const std::string now = bytes("ball.glb");
       const bool is_new = now == after;
       EXPECT_TRUE(is_new || now == before) << "the soup is neither the old nor the new";
-      EXPECT_TRUE(is_new || bytes("ball.svg") == plot) << "the plot of a soup that is not there";
-      EXPECT_THAT(bytes("ball.svg"), EndsWith("</svg>\n"));
       if (moment.until == Moment::Until::replaced) {
         EXPECT_TRUE(is_new);
       }
@@ -199,7 +196,7 @@ TEST_F(TrainFaults, AFullDiskLeavesTheOldSoupAndTheLastCheckpoint) {
   const auto expect_full = [&](const std::vector<std::string>& more, const std::string& file,
                                rlim_t room) {
     SCOPED_TRACE(file);
-    const std::string plot = bytes("ball.svg"), checkpoint = bytes("ball.checkpoint");
+    const std::string checkpoint = bytes("ball.checkpoint");
     ChildResult result;
     {
       const SmallDisk small(room);
@@ -208,7 +205,6 @@ TEST_F(TrainFaults, AFullDiskLeavesTheOldSoupAndTheLastCheckpoint) {
     EXPECT_EQ(result.exit_code, 5);
     EXPECT_THAT(result.err, HasSubstr(file + ": cannot be written: File too large"));
     EXPECT_TRUE(bytes("ball.glb") == before) << "the old soup is not what it was";
-    EXPECT_TRUE(bytes("ball.svg") == plot);
     EXPECT_TRUE(bytes("ball.checkpoint") == checkpoint) << "none, or the one that was there";
     EXPECT_THAT(test::names_in(folder), Each(Not(AnyOf(HasSubstr(".tmp"), EndsWith(".lock")))));
   };
@@ -255,7 +251,6 @@ TEST_F(TrainFaults, ADiskWithoutSpaceLeavesTheOldSoup) {
   EXPECT_THAT(result.err, HasSubstr("ball.checkpoint: cannot be written: No space left on device"));
   EXPECT_EQ(test::names_in(folder / "after"), test::names_in(folder / "disk"));
   EXPECT_TRUE(bytes("after/ball.glb") == before);
-  EXPECT_TRUE(bytes("after/ball.svg") == bytes("old/ball.svg"));
 }
 
 TEST_F(TrainFaults, WhereNothingMayBeWrittenNothingIs) {

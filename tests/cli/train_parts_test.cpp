@@ -34,7 +34,6 @@ TEST(TrainingFiles, LieBesideTheSoup) {
   EXPECT_EQ(files.scene, "runs/a.b.glb");
   EXPECT_EQ(files.checkpoint, "runs/a.b.checkpoint");
   EXPECT_EQ(files.log, "runs/a.b.jsonl");
-  EXPECT_EQ(files.plot, "runs/a.b.svg");
   EXPECT_EQ(files.previews, "runs/a.b.previews");
   EXPECT_TRUE(files.diffsoup_export.empty());
   EXPECT_THROW(training_files("a"), UsageError);

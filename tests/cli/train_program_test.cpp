@@ -25,7 +25,7 @@ TEST_F(Train, MakesASoupAndAllThatBelongsToIt) {
       train("ball.glb", {"--json", "--preview-every", "20", "--export-diffsoup", "export"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(files(), ElementsAre("ball.glb", "ball.jsonl", "ball.previews/step_20.png",
-                                   "ball.previews/step_40.png", "ball.svg", "export/lut0.png",
+                                   "ball.previews/step_40.png", "export/lut0.png",
                                    "export/lut1.png", "export/mesh.ply", "export/meta.json",
                                    "export/mlp_weights.json"));
   EXPECT_THAT(result.err, HasSubstr("The pictures have alpha: --preset object"));
@@ -119,7 +119,7 @@ TEST_F(Train, GoesOnAfterCtrlCAsIfItHadNotHappened) {
     EXPECT_THAT(result.err, HasSubstr("--resume goes on from it\ntureen: interrupted"));
   }
   EXPECT_THAT(files(), ElementsAre("ball.checkpoint", "ball.jsonl", "whole/ball.glb",
-                                   "whole/ball.jsonl", "whole/ball.svg"));
+                                   "whole/ball.jsonl"));
 
   // Not silently begun again, and not with other constants or photographs.
   const auto refused = [&](const std::vector<std::string>& more, const std::string& words) {
@@ -183,13 +183,13 @@ TEST_F(Train, CheckpointsAsOftenAsItIsTold) {
   }
   EXPECT_THAT(files(), IsEmpty());
 
-  // A folder in the plot's place is found before the training.
-  fs::create_directories(folder / "ball.svg");
+  // A folder in the checkpoint's place is found before the training.
+  fs::create_directories(folder / "ball.checkpoint");
   const ChildResult refused = train("ball.glb");
   EXPECT_EQ(refused.exit_code, 5);
-  EXPECT_THAT(refused.err, HasSubstr("ball.svg: cannot be written: it is a folder"));
+  EXPECT_THAT(refused.err, HasSubstr("ball.checkpoint: cannot be written: it is a folder"));
   EXPECT_THAT(files(), IsEmpty());
-  fs::remove(folder / "ball.svg");
+  fs::remove(folder / "ball.checkpoint");
 
   test::Child child(arguments("ball.glb", {"--checkpoint-every", "10"}, "100000"), folder);
   ASSERT_TRUE(child.wait_until([&] { return exists("ball.checkpoint"); }));
@@ -292,7 +292,7 @@ TEST_F(Train, TwoRunsDoNotShareAnOutput) {
   fs::remove(folder / "ball.checkpoint");
   const ChildResult third = train("ball.glb");
   EXPECT_EQ(third.exit_code, 0) << third.err;
-  EXPECT_THAT(files(), ElementsAre("ball.glb", "ball.jsonl", "ball.svg"));
+  EXPECT_THAT(files(), ElementsAre("ball.glb", "ball.jsonl"));
 }
 
 TEST_F(Train, KeepsWhatItHasLearnedWhereAFileCannotBeWritten) {
@@ -341,20 +341,6 @@ TEST_F(Train, SaysThatNoPictureShowsATriangle) {
   const ChildResult result = train("ball.glb", {"--init", "far.off"}, "2");
   EXPECT_THAT(result.err, HasSubstr("No training picture shows a triangle yet"));
   EXPECT_THAT(train("ball.glb", {}, "2").err, Not(HasSubstr("No training picture")));
-}
-
-TEST_F(Train, NobodysDrawingIsReplacedByThePlot) {
-  make_dataset();
-  const std::string drawing = "<svg>my logo</svg>";
-  write("ball.svg", drawing);
-  const ChildResult refused = train("ball.glb");
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("ball.svg exists and is no plot of training"));
-  EXPECT_EQ(bytes("ball.svg"), drawing);
-  EXPECT_FALSE(exists("ball.glb"));
-  ASSERT_EQ(train("other.glb", {}, "2").exit_code, 0);
-  const ChildResult again = train("other.glb", {}, "2");
-  EXPECT_EQ(again.exit_code, 0) << again.err;  // a plot of its own is no drawing
 }
 
 TEST_F(Train, DoesNotReplaceWhatItBeginsWith) {

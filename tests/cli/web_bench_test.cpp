@@ -1,4 +1,4 @@
-// Downloads of bench.html: what is made of them, the tables of devices, and what is refused.
+// Downloads of bench.html: what is made of them, and what is refused.
 #include "cli/web_bench.hpp"
 
 #include <gmock/gmock.h>
@@ -7,11 +7,9 @@
 #include <fstream>
 #include <set>
 
-#include "cli/bench_devices.hpp"
 #include "cli/bench_table.hpp"
 #include "cli/bench_words.hpp"
 #include "soup/error.hpp"
-#include "support/markup.hpp"
 
 namespace tureen::cli {
 namespace {
@@ -47,7 +45,6 @@ TEST(WebBench, SaysWhatThePageMeasured) {
   const BenchResult& result = results.front();
   EXPECT_EQ(result.date, "2026-11-22T03:04:05Z");
   EXPECT_EQ(result.program.commit, "abc1234");
-  EXPECT_THAT(result.program.arguments, ElementsAre("bench", "--import", "phone.json"));
   EXPECT_EQ(result.scene.name, "ficus");
   EXPECT_EQ(result.scene.path, "scenes/ficus.glb");
   EXPECT_EQ(result.scene.triangles, 33417u);
@@ -200,52 +197,6 @@ TEST(WebBench, SaysWhatIsWrong) {
   EXPECT_THAT(changed((at + "/frames_per_sample").c_str(), 2000000000),
               HasSubstr("more frames than anybody draws"));
   EXPECT_THAT(changed((at + "/width").c_str(), 0), HasSubstr("width: 0 is not enough"));
-}
-
-// ---- Devices side by side -----------------------------------------------------------------------
-
-TEST(DeviceTable, PutsTheSameThingInOneRow) {
-  nlohmann::json other = fixture();
-  other["device"]["renderer"] = "llvmpipe | <fast>";
-  other["device"]["software"] = true;
-  auto& scene = other["scenes"][0];
-  scene["measurements"][0]["entrants"][0]["frame_ms"] = {{20, 30, 40}, {20, 30, 40}, {20, 30, 40}};
-  scene["measurements"].erase(1);
-  scene["measurements"].push_back(scene["measurements"][0]);
-  scene["measurements"][1]["camera_set"] = "path";
-  const DeviceTable table =
-      device_table(std::vector<DeviceBench>{{"phone", read(fixture())}, {"laptop", read(other)}});
-  EXPECT_THAT(table.headings,
-              ElementsAre("scene", "cameras", "size", "configuration", "phone", "laptop"));
-  const std::string ficus = "ficus (33,417 triangles)";
-  EXPECT_THAT(
-      table.rows,
-      ElementsAre(ElementsAre(ficus, "hemisphere:3", "1280x720", "tureen", "3.000", "30.0"),
-                  ElementsAre(ficus, "hemisphere:3", "1280x720", "published", "12.0†", "12.0†"),
-                  ElementsAre(ficus, "hemisphere:3", "640x360", "tureen", "1.500", ""),
-                  ElementsAre(ficus, "path", "1280x720", "tureen", "", "30.0"),
-                  ElementsAre(ficus, "path", "1280x720", "published", "", "12.0†")));
-  EXPECT_THAT(table.devices, ElementsAre(HasSubstr("phone: Adreno (TM) 740, WebGL2, 2.75"),
-                                         HasSubstr("laptop: llvmpipe | <fast> (software)")));
-
-  EXPECT_THAT(device_lines(table),
-              Contains("  ficus (33,417 triangles)  hemisphere:3  640x360   tureen         1.500"));
-  const std::string markdown = device_markdown(table);
-  for (const std::string& text : {markdown, device_page(table)})
-    EXPECT_THAT(text, HasSubstr(restless_sentence)) << "published was not at rest";
-  EXPECT_THAT(markdown, HasSubstr("llvmpipe \\| \\<fast>"));
-  EXPECT_THAT(markdown, HasSubstr("| hemisphere:3 | 1280x720 | tureen | 3.000 | 30.0 |\n"));
-  const std::string page = device_page(table);
-  EXPECT_EQ(test::check_markup(page).defect, "");
-  EXPECT_THAT(page, HasSubstr("llvmpipe | &lt;fast&gt; (software)"));
-}
-
-TEST(DeviceTable, KeepsScenesApartThatOnlyShareAName) {
-  nlohmann::json other = fixture();
-  other["scenes"][0]["triangles"] = 1000;
-  const DeviceTable table =
-      device_table(std::vector<DeviceBench>{{"a", read(fixture())}, {"b", read(other)}});
-  EXPECT_EQ(table.rows.size(), 6u);
 }
 
 }  // namespace

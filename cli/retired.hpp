@@ -1,0 +1,12 @@
+// Commands and options of earlier versions that are gone: refused, with what replaces each.
+#pragma once
+
+#include <string>
+
+namespace tureen::cli {
+
+/// What replaces the option `name` ("--csv") of `command`, or with an empty `name` the command
+/// itself, as a clause: "-o FOLDER writes ..". Empty for what never existed.
+std::string replacement_of(const std::string& command, const std::string& name = "");
+
+}  // namespace tureen::cli
