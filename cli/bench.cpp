@@ -108,10 +108,8 @@ BenchResult run(const Options& options) {
                                     .clock = clock,
                                     .folder = options.reports.folder}));
   if (const double peak = peak_mib(); peak > 0) result.peak_mib = peak;
-  for (const auto& contestant : contestants.list) {
-    contestant->tell_plan();
+  for (const auto& contestant : contestants.list)
     result.configurations.push_back(contestant->configuration);
-  }
   return result;
 }
 

@@ -53,7 +53,7 @@ class RendererContestant final : public Contestant {
         RenderOptions{.plan = preferences, .background = glm::vec4(scene.info.background, 1.0f)});
     renderer_->finish();
     configuration.upload_ms = milliseconds_since(start);
-    tell_plan();
+    configuration.plan = renderer_->plan().sentences;
     configuration.device_mib = double(renderer_->device_bytes()) / bytes_per_mib;
   }
   void draw(const Camera& camera) override { renderer_->draw(camera); }
@@ -64,7 +64,6 @@ class RendererContestant final : public Contestant {
     constexpr int repeats = 20;
     return time_passes(context_, *renderer_, cameras, repeats);
   }
-  void tell_plan() override { configuration.plan = renderer_->plan().sentences; }
 
  private:
   const gl::Context& context_;
@@ -129,8 +128,10 @@ Setting setting_of(const std::string& name, const DrawingOptions& drawing) {
   if (name == in_fragments) plan.shading_stage = ShadingStage::fragment;
   if (name == as_compute) plan.shading_stage = ShadingStage::compute;
   std::vector<std::string> options;
-  if (plan.shading_stage != ShadingStage::measured)
-    options = {"--shading", plan.shading_stage == ShadingStage::compute ? "compute" : "fragment"};
+  if (plan.shading_stage == ShadingStage::compute)
+    options = {"--shading", "compute"};
+  else if (name == in_fragments)
+    options = {"--shading", "fragment"};
   if (name == triangles) {
     plan.site = ShadingSite::nowhere;
     plan.shading_stage = ShadingStage::fragment;  // nothing is shaded

@@ -39,9 +39,6 @@ class Contestant {
   /// Of these views; a reason and no times where nobody can tell.
   virtual PassTimes passes(std::span<const Camera> cameras) = 0;
 
-  /// Brings the plan in `configuration` up to date: a first frame may have measured something.
-  virtual void tell_plan() {}
-
   BenchConfiguration configuration;  // as the result describes it
 
   Entrant entrant();

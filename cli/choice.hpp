@@ -11,12 +11,16 @@
 
 namespace tureen::cli {
 
-/// Sets `value` to what the given word stands for. Any other word is a UsageError that lists the
-/// words.
+/// Sets `value` to what the given word stands for. Any other word is a UsageError: of the words in
+/// `removed`, which earlier versions had, with the hint beside them, else with the list of choices.
 template <class T>
 CLI::Option* add_choice(CLI::App& command, const std::string& name, T& value,
-                        std::vector<std::pair<std::string, T>> choices, const std::string& help) {
-  const auto choose = [name, &value, choices = std::move(choices)](const std::string& word) {
+                        std::vector<std::pair<std::string, T>> choices, const std::string& help,
+                        std::vector<std::pair<std::string, std::string>> removed = {}) {
+  const auto choose = [name, &value, choices = std::move(choices),
+                       removed = std::move(removed)](const std::string& word) {
+    for (const auto& [known, hint] : removed)
+      if (known == word) throw UsageError(name + " no longer takes '" + word + "'", hint);
     std::vector<std::string> words;
     std::string list;
     for (const auto& [known, meaning] : choices) {

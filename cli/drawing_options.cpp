@@ -1,5 +1,8 @@
 #include "cli/drawing_options.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "cli/choice.hpp"
 #include "cli/number_range.hpp"
 #include "cli/progress.hpp"
@@ -10,6 +13,10 @@ namespace {
 
 LeaveOut named(const std::string& name) {
   if (const auto known = leave_out_named(name)) return *known;
+  constexpr std::array removed{"transparent-rims", "base-color", "texel-table"};
+  if (std::find(removed.begin(), removed.end(), name) != removed.end())
+    throw UsageError("--keep no longer takes '" + name + "', a specialisation that was removed",
+                     "delete the name");
   std::vector<std::string> names;
   std::string list;
   for (const LeaveOutName& known : leave_out_names()) {
@@ -63,13 +70,12 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->excludes(no_specialise);
-  add_choice<ShadingStage>(command, "--shading", options.plan.shading_stage,
-                           {{"measured", ShadingStage::measured},
-                            {"fragment", ShadingStage::fragment},
-                            {"compute", ShadingStage::compute}},
-                           "what colours the pixels of scenes that are shaded once a pixel: "
-                           "measured (default, whichever is faster in the first frame; software "
-                           "OpenGL takes fragment), fragment or compute shaders")
+  add_choice<ShadingStage>(
+      command, "--shading", options.plan.shading_stage,
+      {{"fragment", ShadingStage::fragment}, {"compute", ShadingStage::compute}},
+      "shader that colours the pixels of scenes that are shaded once a pixel: fragment (default) "
+      "or compute",
+      {{"measured", "use fragment, the default, or compute"}})
       ->option_text("NAME");
   CLI::Option* supersample = command.add_option_function<int>(
       "--supersample", [&options](int n) { preset_of(options).supersampling = n; },

@@ -141,7 +141,7 @@ Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
     result.output.push_back(sheet.string());
   }
   result.mean = mean_of(result.views);
-  result.plan = plan_sentences(checked);  // with what the first frame has measured
+  result.plan = plan_sentences(checked);
   return result;
 }
 

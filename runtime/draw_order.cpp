@@ -93,8 +93,7 @@ void append_clusters(const TriangleSoup& soup, std::span<const std::uint32_t> fa
   }
 }
 
-void FrontToBack::sort(std::span<const Cluster> clusters, glm::vec3 eye, glm::vec3 forward,
-                       std::uint32_t first_slot) {
+void FrontToBack::sort(std::span<const Cluster> clusters, glm::vec3 eye, glm::vec3 forward) {
   keys_.resize(clusters.size());
   for (std::uint32_t i = 0; i < clusters.size(); ++i) {
     const float depth = glm::dot(clusters[i].centre - eye, forward);
@@ -108,7 +107,7 @@ void FrontToBack::sort(std::span<const Cluster> clusters, glm::vec3 eye, glm::ve
   vertex_counts_.resize(clusters.size());
   for (std::size_t i = 0; i < keys_.size(); ++i) {
     const Cluster& cluster = clusters[keys_[i].cluster];
-    first_vertices_[i] = static_cast<std::int32_t>(3 * (cluster.first_slot - first_slot));
+    first_vertices_[i] = static_cast<std::int32_t>(3 * cluster.first_slot);
     vertex_counts_[i] = static_cast<std::int32_t>(3 * cluster.slot_count);
   }
 }

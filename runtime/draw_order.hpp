@@ -43,10 +43,8 @@ void append_clusters(const TriangleSoup& soup, std::span<const std::uint32_t> fa
 class FrontToBack {
  public:
   /// Orders clusters [first, last) by the depth of their centres along `forward` from `eye`, both
-  /// relative to the soup's origin. Ties keep their order. Vertices are counted from slot
-  /// `first_slot` on.
-  void sort(std::span<const Cluster> clusters, glm::vec3 eye, glm::vec3 forward,
-            std::uint32_t first_slot = 0);
+  /// relative to the soup's origin. Ties keep their order.
+  void sort(std::span<const Cluster> clusters, glm::vec3 eye, glm::vec3 forward);
 
   /// First vertex and number of vertices of each range, as glMultiDrawArrays wants them.
   std::span<const std::int32_t> first_vertices() const { return first_vertices_; }

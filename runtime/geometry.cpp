@@ -9,16 +9,19 @@
 namespace tureen {
 
 Geometry::Geometry(const GeometrySource& source)
-    : positions_(gl::Buffer::create()),
-      first_part_(static_cast<std::uint32_t>(source.face_count - source.part_count())) {
-  device_bytes_ = source.face_count * sizeof(FaceCorners);
+    : positions_(gl::Buffer::create()), device_bytes_(source.face_count * sizeof(FaceCorners)) {
   // GL counts vertices in 31 bits.
   constexpr std::size_t most_faces = 0x7fffffff / 3;
   if (source.face_count > most_faces)
     throw DeviceLimitError(std::to_string(source.face_count) + " triangles are more than the " +
                            std::to_string(most_faces) + " that OpenGL draws from one buffer");
   glBindBuffer(GL_ARRAY_BUFFER, positions_.id());
-  allocate(device_bytes_, nullptr, std::to_string(source.face_count) + " triangles");
+  if (gl::is_refused([&] {
+        glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(device_bytes_), nullptr,
+                     GL_STATIC_DRAW);
+      }))
+    throw DeviceLimitError(std::to_string(source.face_count) + " triangles need a buffer of " +
+                           std::to_string(device_bytes_ >> 20) + " MiB, which the device refuses");
   // In blocks, so that the second copy stays small.
   constexpr std::size_t block_faces = 32768;
   std::vector<FaceCorners> block;
@@ -28,24 +31,7 @@ Geometry::Geometry(const GeometrySource& source)
     glBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(first * sizeof block[0]),
                     static_cast<GLsizeiptr>(block.size() * sizeof block[0]), block.data());
   }
-  if (source.part_count() > 0) upload_barycentrics(source.part_barycentrics);
   gl::check("Geometry");
-}
-
-void Geometry::allocate(std::size_t bytes, const void* contents, const std::string& what) {
-  if (gl::is_refused([&] {
-        glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), contents, GL_STATIC_DRAW);
-      }))
-    throw DeviceLimitError(what + " need a buffer of " + std::to_string(bytes >> 20) +
-                           " MiB, which the device refuses");
-}
-
-void Geometry::upload_barycentrics(std::span<const glm::vec2> barycentrics) {
-  barycentrics_ = gl::Buffer::create();
-  device_bytes_ += barycentrics.size_bytes();
-  glBindBuffer(GL_ARRAY_BUFFER, barycentrics_.id());
-  allocate(barycentrics.size_bytes(), barycentrics.data(),
-           std::to_string(barycentrics.size() / 3) + " parts of triangles");
 }
 
 void Geometry::bind() {
@@ -53,23 +39,6 @@ void Geometry::bind() {
   glBindBuffer(GL_ARRAY_BUFFER, positions_.id());
   glEnableVertexAttribArray(0);
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
-}
-
-void Geometry::bind_parts() {
-  if (!part_array_.bind()) return;
-  glBindBuffer(GL_ARRAY_BUFFER, positions_.id());
-  glEnableVertexAttribArray(0);
-  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3),
-                        // An offset, as GL wants it. NOLINTNEXTLINE(performance-no-int-to-ptr)
-                        reinterpret_cast<const void*>(3 * sizeof(glm::vec3) * first_part_));
-  glBindBuffer(GL_ARRAY_BUFFER, barycentrics_.id());
-  glEnableVertexAttribArray(1);
-  glVertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, sizeof(glm::vec2), nullptr);
-}
-
-void Geometry::leave_context() {
-  vertex_array_.forget();
-  part_array_.forget();
 }
 
 void Geometry::set_camera(const gl::Program& program, const FrameCamera& frame,

@@ -1,9 +1,6 @@
 // The corners of the planned faces on the device, three a slot, and the uniforms of geometry.vert.
 #pragma once
 
-#include <span>
-#include <string>
-
 #include "runtime/geometry_source.hpp"
 #include "runtime/gl/program.hpp"
 #include "runtime/pipeline.hpp"
@@ -15,13 +12,10 @@ class Geometry {
   /// The source is not needed afterwards. Throws DeviceLimitError.
   explicit Geometry(const GeometrySource& source);
 
-  /// For faces that are drawn whole: vertex 3 i is the first of slot i.
+  /// Vertex 3 i is the first of slot i.
   void bind();
-  /// For parts: vertex 3 i is the first of slot first_part() + i, and attribute 1 its barycentrics.
-  void bind_parts();
   /// See Renderer::leave_context().
-  void leave_context();
-  std::uint32_t first_part() const { return first_part_; }
+  void leave_context() { vertex_array_.forget(); }
   std::size_t device_bytes() const { return device_bytes_; }
 
   /// Sets the camera of `program`, in use. `clip_from_view` is one of soup/camera.hpp's.
@@ -29,13 +23,8 @@ class Geometry {
                          const glm::dmat4& clip_from_view);
 
  private:
-  /// In the buffer that is bound; `what` is told where the device refuses. Throws DeviceLimitError.
-  static void allocate(std::size_t bytes, const void* contents, const std::string& what);
-  void upload_barycentrics(std::span<const glm::vec2> barycentrics);
-
-  gl::LocalVertexArray vertex_array_, part_array_;
-  gl::Buffer positions_, barycentrics_;
-  std::uint32_t first_part_ = 0;
+  gl::LocalVertexArray vertex_array_;
+  gl::Buffer positions_;
   std::size_t device_bytes_ = 0;
 };
 

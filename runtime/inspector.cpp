@@ -38,9 +38,8 @@ RenderPreset data_knobs(RenderPreset preset) {
 RenderPlan make_inspection_plan(const TriangleSoup& soup, const DeviceLimits& limits,
                                 const InspectorOptions& options) {
   LeaveOutSet leave_out;
-  for (const LeaveOut what :
-       {LeaveOut::weight_uniforms, LeaveOut::dead_neurons, LeaveOut::texel_table})
-    leave_out.add(what);
+  leave_out.add(LeaveOut::weight_uniforms);
+  leave_out.add(LeaveOut::dead_neurons);
   RenderPlan plan = make_plan(soup, limits,
                               {.leave_out = leave_out,
                                .reversed_depth = options.reversed_depth,
@@ -157,8 +156,7 @@ const gl::Program& Inspector::State::geometry_program(const char* fragment, bool
   source.constants["ALPHA_TEST"] = alpha_test ? "1" : "0";
   source.constants["LINE_PIXELS"] = "1.0";
   source.constants["LINE_COLOR"] = "vec3(0.94)";
-  const ShaderSource vertex{
-      .file = "geometry.vert", .constants = {{"PARTS", "0"}}, .generated = {}};
+  const ShaderSource vertex{.file = "geometry.vert"};
   gl::Program program(assemble(vertex, device.api), assemble(source, device.api));
   return programs.emplace(key, std::move(program)).first->second;
 }

@@ -9,7 +9,6 @@ namespace {
 constexpr LeaveOutName names[] = {
     {LeaveOut::alpha_test, "alpha-test", "the alpha test of opaque faces"},
     {LeaveOut::transparent_faces, "transparent-faces", "faces that are transparent throughout"},
-    {LeaveOut::transparent_rims, "transparent-rims", "rims of cut-out faces where nothing exists"},
     {LeaveOut::coincident_faces, "coincident-faces",
      "faces behind an opaque one of the same corners"},
     {LeaveOut::faces_between_pixels, "faces-between-pixels", "faces that cover no pixel's centre"},
@@ -18,14 +17,12 @@ constexpr LeaveOutName names[] = {
     {LeaveOut::interpolation, "interpolation", "interpolation of equal vertex colours"},
     {LeaveOut::harmonics_bands, "harmonics-bands", "harmonics bands that nobody sees"},
     {LeaveOut::color_mlp, "color-mlp", "a color MLP that never blends in"},
-    {LeaveOut::base_color, "base-color", "the base colour where the network replaces it"},
     {LeaveOut::view_direction, "view-direction", "a view direction that moves no colour"},
     {LeaveOut::weight_uniforms, "weight-uniforms", "uniforms for the network's weights"},
     {LeaveOut::dead_neurons, "dead-neurons", "neurons that never fire and weights of zero"},
     {LeaveOut::latent_features, "latent-features", "latent features that are the same everywhere"},
     {LeaveOut::constant_lattices, "constant-lattices", "lattices of faces that have one colour"},
     {LeaveOut::affine_texels, "affine-texels", "texels of affine faces but for their corners"},
-    {LeaveOut::texel_table, "texel-table", "the table of texels where all levels are one"},
 };
 
 }  // namespace

@@ -13,7 +13,6 @@ namespace tureen {
 enum class LeaveOut : std::uint8_t {
   alpha_test,            // of faces that are opaque throughout
   transparent_faces,     // faces that are transparent throughout
-  transparent_rims,      // of cut-out faces: what lies around all that exists of them
   coincident_faces,      // faces behind an opaque one with the same corners
   faces_between_pixels,  // that cover no pixel's centre
   shading_pass,          // where a colour is cheap enough to write at once
@@ -21,14 +20,12 @@ enum class LeaveOut : std::uint8_t {
   interpolation,         // of vertex colours that are equal
   harmonics_bands,       // that nobody sees
   color_mlp,             // a network that never blends in
-  base_color,            // where the network replaces it
   view_direction,        // that moves no colour
   weight_uniforms,       // weights become constants of the shader
   dead_neurons,          // that never fire, and weights of zero
   latent_features,       // that are the same everywhere, or have no weight
   constant_lattices,     // lattices where every face has one colour
   affine_texels,         // all but the corners of faces that are affine
-  texel_table,           // where texels lie, where a formula says it
 };
 
 /// One of them for people and for the command line.

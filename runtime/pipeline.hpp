@@ -5,10 +5,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <memory>
-#include <optional>
 
 #include "runtime/appearance_source.hpp"
-#include "runtime/choose_shading_stage.hpp"
 #include "runtime/clip_range.hpp"
 #include "runtime/geometry_source.hpp"
 #include "runtime/gl/context.hpp"
@@ -51,9 +49,6 @@ class Pipeline {
   virtual std::size_t device_bytes() const = 0;
   /// The targets that resize() made, by the sizes of their formats.
   virtual std::size_t target_bytes() const = 0;
-
-  /// Which stage shades, where the plan leaves that to measurement and a frame has been drawn.
-  virtual std::optional<StageChoice> shading_choice() const { return std::nullopt; }
 
   /// See Renderer::leave_context(). resize() comes before the next draw().
   virtual void leave_context() = 0;

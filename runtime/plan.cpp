@@ -49,10 +49,7 @@ void choose_stage(PlanDraft& draft, const DeviceLimits& limits) {
     return;
   }
   if (wanted == ShadingStage::compute) draft.say("shading runs as compute, as asked");
-  // Measured once, for all software renderers (docs/benchmarks.md): pictures made by the processor
-  // shall not depend on a race.
-  const bool race = limits.compute_shaders && !limits.software;
-  plan.shading_stage = wanted == ShadingStage::measured && !race ? ShadingStage::fragment : wanted;
+  plan.shading_stage = wanted;
 }
 
 void describe_drawing(PlanDraft& draft) {

@@ -3,9 +3,7 @@
 // plan made with `specialise = false`.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <glm/vec2.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,10 +42,8 @@ enum class ShadingSite {
 
 /// What runs the shading pass of a deferred plan that names faces.
 enum class ShadingStage {
-  measured,  // whichever is faster, as the first frame measures; where the processor draws,
-             // fragment
-  fragment,  // a triangle over the window
-  compute,   // a compute shader
+  fragment,  // a triangle over the window; the depth test rejects the background
+  compute,   // a compute shader, an invocation for every pixel of the picture
 };
 
 struct PlanPreferences {
@@ -59,7 +55,9 @@ struct PlanPreferences {
   LeaveOutSet leave_out = LeaveOutSet::all();
   bool reversed_depth = true;            // where the device can
   std::optional<ShadingSite> site = {};  // the plan's own choice when absent
-  ShadingStage shading_stage = ShadingStage::measured;
+  /// Measured on software OpenGL alone (docs/benchmarks.md, "Shading as compute"): compute is equal
+  /// where faces cover the whole picture, and slower elsewhere.
+  ShadingStage shading_stage = ShadingStage::fragment;
   /// Alpha by cell may take so many bytes of the device; if more, it is stored by the texel: the
   /// same pictures, in more time. Texels of other than 8 or 32 bits have it by cell always.
   std::uint64_t most_alpha_cell_bytes = ~std::uint64_t(0);
@@ -69,8 +67,9 @@ struct PlanPreferences {
 
 /// How the texels of a lattice lie on the device.
 struct LatticePlan {
-  /// Every face has this level and the texels follow each other in slot order; -1: a table says
-  /// where the texels of each slot lie.
+  /// Every face has this level and the texels follow each other in slot order, so that a formula
+  /// finds them; -1: a table says where the texels of each slot lie, which costs 16 bytes a face
+  /// and a read a fragment.
   int uniform_level = -1;
   /// Level of each slot on the device, below the soup's where a face is affine. Empty when the
   /// texels are uploaded as the soup has them.
@@ -81,9 +80,6 @@ struct LatticePlan {
   /// Bits of a channel: 32 and 8 as texels are stored, 16 and 4 where the preset asks for them.
   int texel_bits = 32;
 };
-
-/// A triangle within a face, its corners in barycentrics (weights of the face's vertices 0 and 1).
-using FacePart = std::array<glm::dvec2, 3>;
 
 struct RenderPlan {
   PipelineKind pipeline = PipelineKind::tureen;
@@ -97,12 +93,8 @@ struct RenderPlan {
   /// Runs of slots that are drawn together; none straddles opaque_count.
   std::vector<Cluster> clusters;
 
-  /// Frame by frame faces that cover no pixel's centre are found and not drawn (covered_faces.hpp);
-  /// where whole faces are drawn.
+  /// Frame by frame faces that cover no pixel's centre are found and not drawn (covered_faces.hpp).
   bool drops_faces_between_pixels = false;
-
-  /// What is drawn of each cut-out face, from slot opaque_count on. Empty: whole faces.
-  std::vector<FacePart> parts;
 
   bool flat_colors = false;  // one colour a face says it all, whatever the soup stores
   bool color_mlp = false;    // the network runs
@@ -119,8 +111,7 @@ struct RenderPlan {
   /// What a deferred plan stores of the nearest fragment; features only where color_mlp and
   /// depth_rejects_background.
   RenderPreset::FeatureStorage feature_storage = RenderPreset::FeatureStorage::visibility;
-  /// `fragment` where there is no choice; `measured` leaves it to the first frame
-  /// (shading_pass.hpp).
+  /// `fragment` where there is no choice.
   ShadingStage shading_stage = ShadingStage::fragment;
   /// Alpha to coverage of so many samples a pixel instead of the alpha test; 0: none. Forward.
   int coverage_samples = 0;

@@ -51,9 +51,6 @@ void plan_appearance(PlanDraft& draft, const UvTextures& textures);
 /// How the weights of a network that runs reach the shader, and which of them.
 void plan_network(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges& ranges);
 
-/// What is drawn of the cut-out faces of a lattice, once the faces are known.
-void plan_rims(PlanDraft& draft, const LatticeTexture& texture);
-
 /// The whole plan of the published pipeline. Throws UsageError when it cannot draw this soup.
 void plan_published(PlanDraft& draft);
 

@@ -1,4 +1,4 @@
-// The lattice's part of a plan: what the texels say about network, levels and table.
+// The lattice's part of a plan: what the texels say about network and levels.
 #include <algorithm>
 
 #include "runtime/lattice_traits.hpp"
@@ -49,7 +49,7 @@ void leave_out_affine_texels(PlanDraft& draft, const LatticeTexture& texture,
   const bool worth_it = all_affine || !one_level || kept < texels - texels / 4;
   if (kept == texels || !worth_it || traits.shares_texels) return;
   plan.lattice.levels = std::move(levels);
-  if (all_affine && draft.may(LeaveOut::texel_table)) plan.lattice.uniform_level = 0;
+  if (all_affine) plan.lattice.uniform_level = 0;
   draft.leave_out(
       LeaveOut::affine_texels,
       formatted("%zu of %zu texels, %zu faces are affine (%zu constant) and keep their "
@@ -95,7 +95,6 @@ void plan_lattice(PlanDraft& draft, const LatticeTexture& texture) {
   if (plan.color_mlp && never_blends_in(draft, *texture.mlp, traits.ranges)) plan.color_mlp = false;
   if (plan.color_mlp) plan_network(draft, *texture.mlp, traits.ranges);
   if (plan.faces.empty()) return;
-  plan_rims(draft, texture);
 
   const bool opaque = plan.opaque_count == plan.faces.size();
   // What is said of features below holds for no more than them.
@@ -110,13 +109,8 @@ void plan_lattice(PlanDraft& draft, const LatticeTexture& texture) {
     leave_out_affine_texels(draft, texture, traits,
                             plan.color_mlp ? color_gain(*texture.mlp, traits.ranges) : 1.0);
   const bool one_level = traits.lowest_level == traits.highest_level;
-  if (plan.lattice.levels.empty() && one_level && !traits.shares_texels &&
-      draft.may(LeaveOut::texel_table))
+  if (plan.lattice.levels.empty() && one_level && !traits.shares_texels)
     plan.lattice.uniform_level = traits.highest_level;
-  if (plan.lattice.uniform_level >= 0)
-    draft.leave_out(LeaveOut::texel_table,
-                    formatted("the table of texels, every face has level %d (exact)",
-                              plan.lattice.uniform_level));
 }
 
 }  // namespace

@@ -33,26 +33,6 @@ void keep_reading(FeatureRange& range) {
   if (range.low == range.high) range.low = std::nextafter(range.low, -1.0f);
 }
 
-/// Where the network takes over altogether, the base colour need not be blended in. The blend
-/// channel r then counts as 1 in the network's inputs, too: mlp(r) + (1 - r) (base - mlp(r))
-/// becomes mlp(1), which moves a colour by what |1 - r| moves the network and by |1 - r| of how far
-/// base and network, which is in [0, 1], lie apart.
-void leave_out_base_color(PlanDraft& draft, const ColorMlp& mlp, FeatureRanges& ranges) {
-  if (!mlp.blend_channel) return;
-  const int channel = *mlp.blend_channel;
-  FeatureRange& range = ranges[std::size_t(channel)];
-  const double from_one = std::max(std::abs(1.0 - range.low), std::abs(1.0 - range.high));
-  const double moves =
-      from_one * (base_from_network(ranges) + network_gain(mlp, channel, channel + 1));
-  if (!(moves <= double(half_step)) || !draft.may(LeaveOut::base_color)) return keep_reading(range);
-  draft.leave_out(
-      LeaveOut::base_color,
-      formatted("blending with the base colour, the blend channel lies within %.5f of "
-                "1 and that moves no colour by more than %.5f (1/510 = 0.00196 allowed)",
-                from_one, moves));
-  range = {1.0f, 1.0f};
-}
-
 }  // namespace
 
 void plan_network(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges& measured) {
@@ -67,7 +47,6 @@ void plan_network(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges& me
   draft.leave_out(LeaveOut::weight_uniforms,
                   "uniforms, the network's weights are compiled in as constants");
   if (plan.mlp_weights == MlpWeights::all_constants) return;
-  leave_out_base_color(draft, mlp, plan.feature_ranges);
   if (!draft.may(LeaveOut::latent_features))
     for (std::size_t i = 4; i < plan.feature_ranges.size(); ++i)
       keep_reading(plan.feature_ranges[i]);

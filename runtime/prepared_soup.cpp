@@ -15,7 +15,7 @@ PreparedSoup prepare_soup(const TriangleSoup& soup, glm::dvec3 origin, const Dev
   prepared.bounds = bounds(soup);
   prepared.origin = origin;
   prepared.appearance = prepare_appearance(soup, prepared.plan, TexelLayout::of(limits));
-  prepared.geometry = prepare_geometry(soup, prepared.plan.faces, prepared.plan.parts);
+  prepared.geometry = prepare_geometry(soup, prepared.plan.faces);
   return prepared;
 }
 

@@ -31,13 +31,12 @@ class PublishedPipeline final : public Pipeline {
     upload_lookup_textures(texture, plan, limits);
     network_ = color_mlp_source(*texture.mlp, MlpWeights::uniforms);
     const std::string level = std::to_string(plan.lattice.uniform_level);
-    geometry_program_ = gl::Program(
-        assemble({.file = "geometry.vert", .constants = {{"PARTS", "0"}}, .generated = {}},
-                 capabilities.api),
-        assemble({.file = "published_geometry.frag",
-                  .constants = {{"LATTICE_LEVEL", level}, {"ALPHA_THRESHOLD", "0.5"}},
-                  .generated = {}},
-                 capabilities.api));
+    geometry_program_ =
+        gl::Program(assemble({.file = "geometry.vert"}, capabilities.api),
+                    assemble({.file = "published_geometry.frag",
+                              .constants = {{"LATTICE_LEVEL", level}, {"ALPHA_THRESHOLD", "0.5"}},
+                              .generated = {}},
+                             capabilities.api));
     ShaderSource shading{.file = "published_shading_with_network",
                          .constants = {{"HARMONICS_DEGREE", "2"}},
                          .generated = {{"published_shading_with_network",

@@ -24,16 +24,6 @@ struct Renderer::State {
   FrameCamera last_frame;
   gl::Api api = gl::Api::desktop;
   std::optional<DepthProbe> probe;
-  std::optional<StageChoice> told_choice;  // by the last of the plan's sentences
-
-  /// What the frame has measured becomes a sentence of the plan.
-  void tell_choice() {
-    const std::optional<StageChoice> choice = pipeline->shading_choice();
-    if (choice == told_choice) return;
-    if (told_choice) plan.sentences.pop_back();
-    plan.sentences.push_back(sentence_of(*choice));
-    told_choice = choice;
-  }
 };
 
 DeviceLimits device_limits(const gl::Capabilities& capabilities) {
@@ -124,7 +114,6 @@ void Renderer::draw(const Camera& camera) {
       state_->plan.reversed_depth ? DepthStorage::reversed_float : DepthStorage::fixed_24;
   state_->last_frame = {camera, eye, clip_range(state_->bounds, eye, forward_of(camera), storage)};
   state_->pipeline->draw(state_->last_frame, state_->background);
-  state_->tell_choice();
 }
 
 void Renderer::finish() const {

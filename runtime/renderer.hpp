@@ -52,8 +52,6 @@ class Renderer {
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// Once a frame has been drawn its sentences also tell which stage shades, where that was
-  /// measured.
   const RenderPlan& plan() const;
 
   void set_background(glm::vec4 background);

@@ -68,7 +68,6 @@ class ResampledPipeline : public Pipeline {
   std::size_t target_bytes() const final {
     return pipeline_->target_bytes() + bytes_of(target_formats::rgba8, size_);
   }
-  std::optional<StageChoice> shading_choice() const final { return pipeline_->shading_choice(); }
   void leave_context() final {
     nothing_.forget();
     color_framebuffer_ = {};

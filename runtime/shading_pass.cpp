@@ -7,33 +7,16 @@
 namespace tureen {
 
 ShadingPass::ShadingPass(const RenderPlan& plan, const ShadingSources& sources) : plan_(plan) {
-  if (plan.shading_stage != ShadingStage::compute)
-    fragment_ = gl::Program(sources.vertex, sources.fragment);
-  if (plan.shading_stage != ShadingStage::fragment)
-    compute_ = gl::Program::compute(sources.compute);
-}
-
-bool ShadingPass::must_measure(const Frame& frame) const {
-  if (plan_.shading_stage != ShadingStage::measured) return false;
-  const double pixels = double(frame.width) * frame.height;
-  // Not at every size: while a window is being resized each frame has its own.
-  return !choice_ || pixels >= 4 * measured_pixels_ || 4 * pixels <= measured_pixels_;
+  program_ = plan.shading_stage == ShadingStage::compute
+                 ? gl::Program::compute(sources.compute)
+                 : gl::Program(sources.vertex, sources.fragment);
 }
 
 void ShadingPass::draw(const Frame& frame, gl::PassTimer* timer) {
-  if (must_measure(frame)) {
-    choice_ = choose_shading_stage(
-        {.shade = [&](ShadingStage stage) { draw(frame, stage); }, .finish = [] { glFinish(); }});
-    measured_pixels_ = double(frame.width) * frame.height;
-  }
   const gl::TimedPass pass(timer, "shading");
-  draw(frame, choice_ ? choice_->stage : plan_.shading_stage);
-}
-
-void ShadingPass::draw(const Frame& frame, ShadingStage stage) {
   glBindFramebuffer(GL_FRAMEBUFFER, frame.color_framebuffer);
   if (plan_.depth_rejects_background) glClearBufferfv(GL_COLOR, 0, &frame.background[0]);
-  if (stage == ShadingStage::compute)
+  if (plan_.shading_stage == ShadingStage::compute)
     compute(frame);
   else
     draw_fragments(frame);
@@ -45,8 +28,8 @@ void ShadingPass::draw_fragments(const Frame& frame) {
   glDepthFunc(!plan_.depth_rejects_background ? GL_ALWAYS
               : plan_.reversed_depth          ? GL_LESS
                                               : GL_GREATER);
-  set_uniforms(fragment_, frame);
-  fragment_.set("background_depth", plan_.reversed_depth ? 0.0f : 1.0f);
+  set_uniforms(frame);
+  program_.set("background_depth", plan_.reversed_depth ? 0.0f : 1.0f);
   nothing_.bind();
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glDepthMask(GL_TRUE);
@@ -57,7 +40,7 @@ void ShadingPass::compute(const Frame& frame) const {
   (void)frame;
   assert(false && "WebGL has no compute shaders");
 #else
-  set_uniforms(compute_, frame);
+  set_uniforms(frame);
   glBindImageTexture(0, frame.color_texture, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA8);
   const auto groups = [](int size) {
     return static_cast<GLuint>((size + shading_group_side - 1) / shading_group_side);
@@ -69,13 +52,13 @@ void ShadingPass::compute(const Frame& frame) const {
 #endif
 }
 
-void ShadingPass::set_uniforms(const gl::Program& program, const Frame& frame) const {
-  program.use();
-  frame.appearance.bind(program);
-  set_rays(program, frame.camera.camera);
-  set_eye(program, frame.camera.eye);
-  program.set("background", frame.background);
-  frame.store.bind(program, frame.appearance.unit_count());
+void ShadingPass::set_uniforms(const Frame& frame) const {
+  program_.use();
+  frame.appearance.bind(program_);
+  set_rays(program_, frame.camera.camera);
+  set_eye(program_, frame.camera.eye);
+  program_.set("background", frame.background);
+  frame.store.bind(program_, frame.appearance.unit_count());
 }
 
 }  // namespace tureen

@@ -1,12 +1,9 @@
 // The second pass of a deferred frame: colours for the covered pixels, by a triangle over the whole
-// window or, where the plan names faces and the device can, by a compute shader; whichever is
-// faster, where the plan leaves it to measurement.
+// window or, where the plan asks for it, by a compute shader.
 #pragma once
 
-#include <optional>
 #include <string>
 
-#include "runtime/choose_shading_stage.hpp"
 #include "runtime/device_appearance.hpp"
 #include "runtime/fragment_store.hpp"
 #include "runtime/gl/program.hpp"
@@ -39,28 +36,20 @@ class ShadingPass {
     int width, height;
   };
 
-  /// Colours `frame`. Where the stage is to be measured, does so in the first frame, and again when
-  /// a frame has four times as many pixels, or as few, as the one it was measured in.
+  /// Colours `frame`.
   void draw(const Frame& frame, gl::PassTimer* timer);
 
   /// See Renderer::leave_context().
   void leave_context() { nothing_.forget(); }
 
-  /// Nothing where the plan is told the stage, and before the first frame.
-  const std::optional<StageChoice>& choice() const { return choice_; }
-
  private:
-  void draw(const Frame& frame, ShadingStage stage);
   void draw_fragments(const Frame& frame);
   void compute(const Frame& frame) const;
-  void set_uniforms(const gl::Program& program, const Frame& frame) const;
-  bool must_measure(const Frame& frame) const;
+  void set_uniforms(const Frame& frame) const;
 
   const RenderPlan& plan_;
-  gl::Program fragment_, compute_;
+  gl::Program program_;
   gl::LocalVertexArray nothing_;
-  std::optional<StageChoice> choice_;
-  double measured_pixels_ = 0;
 };
 
 }  // namespace tureen

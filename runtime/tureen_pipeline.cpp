@@ -38,12 +38,8 @@ class TureenPipeline final : public Pipeline {
                                ? FragmentStore::geometry_shader(plan.feature_storage)
                                : "nothing.frag";
     const std::size_t cut_out = plan.faces.size() - plan.opaque_count;
-    if (plan.opaque_count > 0)
-      opaque_ = program(capabilities.api, "geometry.vert", fragment,
-                        {{"ALPHA_TEST", "0"}, {"PARTS", "0"}});
-    if (cut_out > 0)
-      cut_out_ = program(capabilities.api, "geometry.vert", fragment,
-                         {{"ALPHA_TEST", "1"}, {"PARTS", plan.parts.empty() ? "0" : "1"}});
+    if (plan.opaque_count > 0) opaque_ = program(fragment, {{"ALPHA_TEST", "0"}});
+    if (cut_out > 0) cut_out_ = program(fragment, {{"ALPHA_TEST", "1"}});
     if (plan.site == ShadingSite::deferred) shading_.emplace(plan, shading_sources());
     if (plan.site == ShadingSite::forward && plan.coverage_samples > 0)
       coverage_.emplace(capabilities.api);
@@ -103,9 +99,6 @@ class TureenPipeline final : public Pipeline {
   GLuint depth_texture() const override { return depth_.id(); }
   glm::ivec2 sample_size() const override { return {width_, height_}; }
   GLuint visibility_framebuffer() const override { return store_.visibility_framebuffer(); }
-  std::optional<StageChoice> shading_choice() const override {
-    return shading_ ? shading_->choice() : std::nullopt;
-  }
   std::size_t device_bytes() const override {
     return appearance_.device_bytes() + geometry_.device_bytes() +
            (covered_ ? covered_->bytes() : 0);
@@ -128,9 +121,8 @@ class TureenPipeline final : public Pipeline {
     return plan_.reversed_depth ? target_formats::depth32f : target_formats::depth24;
   }
 
-  gl::Program program(gl::Api api, const char* vertex, const char* fragment,
-                      const Constants& constants) const {
-    return gl::Program(assemble({.file = vertex, .constants = constants, .generated = {}}, api),
+  gl::Program program(const char* fragment, const Constants& constants) const {
+    return gl::Program(assemble({.file = "geometry.vert"}, device_.api),
                        with_appearance(fragment, constants));
   }
 
@@ -153,11 +145,11 @@ class TureenPipeline final : public Pipeline {
     ShadingSources sources{.vertex = assemble({.file = "full_screen.vert"}, device_.api),
                            .fragment = {},
                            .compute = {}};
-    if (plan_.shading_stage != ShadingStage::compute)
+    if (plan_.shading_stage == ShadingStage::compute)
+      sources.compute = with_appearance("shading.comp", constants);
+    else
       sources.fragment =
           with_appearance(FragmentStore::shading_shader(plan_.feature_storage), constants);
-    if (plan_.shading_stage != ShadingStage::fragment)
-      sources.compute = with_appearance("shading.comp", constants);
     return sources;
   }
 
@@ -210,23 +202,16 @@ class TureenPipeline final : public Pipeline {
                      const FrameCamera& frame) {
     program.use();
     appearance_.bind(program);
-    const bool parts = &program == &cut_out_ && !plan_.parts.empty();
-    const std::uint32_t first_slot = parts ? geometry_.first_part() : 0;
-    if (parts) {
-      geometry_.bind_parts();
-      program.set("first_part", static_cast<int>(first_slot));
-    } else {
-      geometry_.bind();
-    }
+    geometry_.bind();
     Geometry::set_camera(program, frame,
                          plan_.reversed_depth
                              ? clip_from_view_reversed(frame.camera, frame.range.near)
                              : clip_from_view(frame.camera, frame.range.near, frame.range.far));
     set_rays(program, frame.camera);
     const glm::dvec3 forward = -frame.camera.world_from_view_rotation()[2];
-    order_.sort(clusters, glm::vec3(frame.eye), glm::vec3(forward), first_slot);
+    order_.sort(clusters, glm::vec3(frame.eye), glm::vec3(forward));
     const auto first = order_.first_vertices(), count = order_.vertex_counts();
-    if (covered_ && !parts && search_rests_ == 0 && covered_->begin_frame(frame, subpixel_bits_)) {
+    if (covered_ && search_rests_ == 0 && covered_->begin_frame(frame, subpixel_bits_)) {
       draw_covered(first, count);
       return;
     }

@@ -1,12 +1,6 @@
-// Unshared triangles: gl_VertexID / 3 is the face. With PARTS they are parts of the faces from
-// first_part on, and the corners' barycentrics are an attribute. Works in camera-relative coordinates, so that a
+// Unshared triangles: gl_VertexID / 3 is the face. Works in camera-relative coordinates, so that a
 // scene far from the origin loses nothing (docs/numerics.md, G3).
 layout(location = 0) in vec3 position;  // relative to the soup's origin
-#if PARTS
-layout(location = 1) in vec2 corner_barycentrics;
-
-uniform int first_part;
-#endif
 
 uniform vec3 eye_high, eye_low;  // their sum is the eye; position - eye_high is exact when close
 uniform mat4 clip_from_camera;   // rotation and projection, no translation
@@ -19,12 +13,7 @@ invariant gl_Position;
 void main() {
   uint vertex = uint(gl_VertexID);
   face = vertex / 3u;
-#if PARTS
-  face += uint(first_part);
-  barycentrics = corner_barycentrics;
-#else
   uint corner = vertex - 3u * face;
   barycentrics = vec2(corner == 0u ? 1.0 : 0.0, corner == 1u ? 1.0 : 0.0);
-#endif
   gl_Position = clip_from_camera * vec4((position - eye_high) - eye_low, 1.0);
 }

@@ -74,7 +74,6 @@ void compare(const gl::Context& context, const Settings& settings, const char* w
 bool is_of_the_network(LeaveOut what) {
   switch (what) {
     case LeaveOut::color_mlp:
-    case LeaveOut::base_color:
     case LeaveOut::view_direction:
     case LeaveOut::weight_uniforms:
     case LeaveOut::dead_neurons:

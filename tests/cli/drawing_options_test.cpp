@@ -27,11 +27,25 @@ TEST(DrawingOptions, WhatIsToBeKeptIsNotLeftOut) {
   EXPECT_THROW(parsed("--no-specialise --keep background"), CLI::ExcludesError);
 }
 
-TEST(DrawingOptions, TheShadingStageIsMeasuredUnlessToldOtherwise) {
-  EXPECT_EQ(parsed("").shading_stage, ShadingStage::measured);
+TEST(DrawingOptions, TheShadingStageIsFragmentUnlessComputeIsAskedFor) {
+  EXPECT_EQ(parsed("").shading_stage, ShadingStage::fragment);
   EXPECT_EQ(parsed("--shading fragment").shading_stage, ShadingStage::fragment);
   EXPECT_EQ(parsed("--shading compute").shading_stage, ShadingStage::compute);
   EXPECT_THROW(parsed("--shading vertex"), UsageError);
+}
+
+TEST(DrawingOptions, RemovedValuesAreRefusedWithAHint) {
+  const std::pair<const char*, const char*> removed[] = {
+      {"--shading measured", "use fragment"},
+      {"--keep transparent-rims", "delete the name"},
+      {"--keep base-color", "delete the name"},
+      {"--keep alpha-test,texel-table", "delete the name"}};
+  for (const auto& [arguments, hint] : removed) try {
+      parsed(arguments);
+      ADD_FAILURE() << arguments;
+    } catch (const UsageError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr(hint));
+    }
 }
 
 TEST(DrawingOptions, AnUnknownNameIsRefusedWithTheNearest) {

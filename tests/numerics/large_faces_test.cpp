@@ -21,17 +21,14 @@ namespace {
 /// are no buffers, so that faces may be as many as they like: vertices are all at the origin.
 class NamedByDevice {
  public:
-  explicit NamedByDevice(bool parts)
-      : parts_(parts),
-        program_(
-            assemble({.file = "geometry.vert", .constants = {{"PARTS", parts ? "1" : "0"}}}, api()),
-            assemble({.file = "visibility.frag",
-                      .constants = {{"ALPHA_TEST", "0"}},
-                      .generated = {{"appearance.glsl", ""}}},
-                     api())),
+  NamedByDevice()
+      : program_(assemble({.file = "geometry.vert"}, api()),
+                 assemble({.file = "visibility.frag",
+                           .constants = {{"ALPHA_TEST", "0"}},
+                           .generated = {{"appearance.glsl", ""}}},
+                          api())),
         store_(FragmentStore::FeatureStorage::visibility, 1, 1, 0) {}
 
-  /// With parts of faces, `face` is the first one that has any and the vertex is its part's.
   std::uint32_t name_of(std::uint32_t face) const {
     Camera camera = straight_camera(1, 1, 1);
     camera.view_from_world[3] = glm::dvec4(0, 0, -1, 1);
@@ -41,9 +38,8 @@ class NamedByDevice {
     program_.use();
     Geometry::set_camera(program_, {camera, camera.eye(), {0.01, 100}},
                          clip_from_view_reversed(camera, 0.01));
-    if (parts_) program_.set("first_part", int(face));
     glBindVertexArray(nothing_.id());
-    glDrawArrays(GL_POINTS, parts_ ? 0 : int(3 * face), 1);
+    glDrawArrays(GL_POINTS, int(3 * face), 1);
     glFinish();
     glBindFramebuffer(GL_READ_FRAMEBUFFER, store_.visibility_framebuffer());
     std::uint32_t fragment[4] = {};
@@ -54,7 +50,6 @@ class NamedByDevice {
  private:
   static gl::Api api() { return shared_context().capabilities().api; }
 
-  bool parts_;
   gl::Program program_;
   FragmentStore store_;
   gl::VertexArray nothing_ = gl::VertexArray::create();
@@ -90,18 +85,18 @@ class TexelOnDevice {
 
 TEST(Numerics, T7b_FacesBeyondTwoToThe24KeepTheirNames) {
   Recorder recorder({.stressed = "the name of a face from its vertex to the picture: geometry.vert "
-                                 "with whole faces and with parts, visibility.frag; on to its "
-                                 "texels at level 0; and in a key of the trainer on a GPU",
+                                 "and visibility.frag; on to its texels at level 0; and in a key "
+                                 "of the trainer on a GPU",
                      .parameter = "face",
-                     .unit = "of the four that end at another face",
+                     .unit = "of the three that end at another face",
                      .naive = "names that pass through a float"});
-  const NamedByDevice whole(false), parts(true);
+  const NamedByDevice device;
   const TexelOnDevice texel;
   // The last one that OpenGL counts the vertices of, too.
   for (const std::uint32_t face :
        {0u, (1u << 24) - 1, (1u << 24) + 1, (1u << 25) + 1, 0x7fffffffu / 3 - 1}) {
     const std::uint32_t in_key = trainer::cuda::face_of(trainer::cuda::visible_key(1.0f, face));
-    const double ours = (whole.name_of(face) != face) + (parts.name_of(face) != face) +
+    const double ours = (device.name_of(face) != face) +
                         (texel.first_texel_of(face) != 3 * std::uint64_t(face)) + (in_key != face);
     const double naive = std::uint32_t(float(face)) != face;
     recorder.add({.at = double(face), .naive = naive, .ours = ours, .tolerance = 0});

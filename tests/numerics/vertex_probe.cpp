@@ -10,7 +10,7 @@ namespace tureen::test {
 std::vector<glm::vec4> clip_positions(const FrameCamera& frame, const glm::dmat4& clip_from_view,
                                       const std::vector<glm::vec3>& positions) {
   const gl::Api api = shared_context().capabilities().api;
-  const gl::Program program(assemble({.file = "geometry.vert", .constants = {{"PARTS", "0"}}}, api),
+  const gl::Program program(assemble({.file = "geometry.vert"}, api),
                             assemble({.file = "nothing.frag"}, api));
   program.use();
   GLint id = 0;

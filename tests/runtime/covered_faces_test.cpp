@@ -173,8 +173,7 @@ TEST_P(CoveredFacesPicture, StaysTheSameToTheBit) {
       const glm::vec3 first = soup.positions[soup.triangles[t][0]];
       corner = first + 20.0f * (corner - first);
     }
-  // Rims are left out to a rounding only.
-  const LeaveOutSet all = LeaveOutSet::all().without(LeaveOut::transparent_rims);
+  const LeaveOutSet all = LeaveOutSet::all();
   Renderer without(context, soup, glm::dvec3(0),
                    {.plan = {.leave_out = all.without(LeaveOut::faces_between_pixels)}});
   ASSERT_FALSE(without.plan().drops_faces_between_pixels);

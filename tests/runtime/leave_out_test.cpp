@@ -38,7 +38,6 @@ Tolerance tolerance_of(LeaveOut what) {
       return {1, 1e-3};
     case LeaveOut::harmonics_bands:
     case LeaveOut::color_mlp:
-    case LeaveOut::base_color:
     case LeaveOut::view_direction:
     case LeaveOut::affine_texels:
       return {1, 1.0};
@@ -88,7 +87,7 @@ TEST_P(LeavingOutPicture, LosesNothing) {
   const std::vector<Camera> views = four_views(seed());
   const std::vector<Image8> generic = pictures(soup, views, {.specialise = false});
   const auto [steps, channels] = tolerance_of(what());
-  const LeaveOutSet all = LeaveOutSet::all().without(LeaveOut::transparent_rims);
+  const LeaveOutSet all = LeaveOutSet::all();
   const std::pair<const char*, LeaveOutSet> sets[] = {
       {"all", all}, {"alone", alone(what())}, {"all but this", all.without(what())}};
   for (const auto& [name, leave_out] : sets) {
@@ -129,17 +128,8 @@ std::string case_name(const testing::TestParamInfo<Case>& test) {
   return test_name(test.param.what) + "_seed" + std::to_string(test.param.seed);
 }
 
-/// Rims move depths by their rounding: which face wins differs in a pixel of 10^5, and
-/// face_part_test.cpp counts them by the faces' names.
-std::vector<Case> cases_without_rims() {
-  std::vector<Case> all = cases();
-  std::erase_if(all, [](const Case& c) { return c.what == LeaveOut::transparent_rims; });
-  return all;
-}
-
 INSTANTIATE_TEST_SUITE_P(All, LeavingOut, testing::ValuesIn(cases()), case_name);
-INSTANTIATE_TEST_SUITE_P(All, LeavingOutPicture, testing::ValuesIn(cases_without_rims()),
-                         case_name);
+INSTANTIATE_TEST_SUITE_P(All, LeavingOutPicture, testing::ValuesIn(cases()), case_name);
 
 /// Has no name, as nobody could keep it: such a face covers no pixel centre.
 TEST(FacesWithoutArea, AreSaidAndChangeNothing) {

@@ -1,9 +1,7 @@
-// Shading as compute shows what the fragment stage shows; what plans make of the wish; and the
-// choice by measurement, with a clock of the test's own.
+// Shading as compute shows what the fragment stage shows, and what plans make of the wish.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "runtime/choose_shading_stage.hpp"
 #include "runtime/knob_drawing.hpp"
 #include "soup/error.hpp"
 #include "support/contexts.hpp"
@@ -13,8 +11,6 @@ namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
-using testing::Not;
-using testing::StartsWith;
 
 PlanPreferences deferred(ShadingStage stage) {
   return {.site = ShadingSite::deferred, .shading_stage = stage};
@@ -90,29 +86,6 @@ TEST_P(ShadingStages, ShowTheSameWithEveryKnob) {
     expect_same(soup_of(Kind::lattice_mlp), camera, options_with(preset), describe(preset));
 }
 
-TEST_P(ShadingStages, AreMeasuredInTheFirstFrameAndSayWhichItIs) {
-  const TriangleSoup soup = soup_of(Kind::lattice_mlp);
-  DeviceLimits hardware = device_limits(context_.capabilities());
-  hardware.software = false;  // pretended: a processor's plan would not measure
-  Renderer renderer(context_, soup, {}, {.plan = deferred({}), .limits = hardware});
-  EXPECT_EQ(renderer.plan().shading_stage, ShadingStage::measured);
-  EXPECT_THAT(renderer.plan().sentences, Not(Contains(StartsWith("shading runs"))));
-  const std::size_t before = renderer.plan().sentences.size();
-  for (const glm::ivec2 size : {glm::ivec2(61, 47), {62, 47}, {256, 256}, {9, 9}}) {
-    const Camera camera = camera_of(size.x, size.y);
-    renderer.draw(camera);
-    EXPECT_THAT(renderer.plan().sentences, Contains(StartsWith("shading runs")));
-    EXPECT_EQ(renderer.plan().sentences.size(), before + 1);
-    const RenderOptions fragment{.plan = deferred(ShadingStage::fragment), .limits = hardware};
-    EXPECT_EQ(renderer.read_color().pixels, draw(context_, soup, camera, fragment).pixels);
-  }
-  // As little as one pixel more is not measured again: the sentence, with its figures, stays.
-  renderer.draw(camera_of(256, 256));
-  const std::string measured = renderer.plan().sentences.back();
-  renderer.draw(camera_of(257, 256));
-  EXPECT_EQ(renderer.plan().sentences.back(), measured);
-}
-
 TEST_P(ShadingStages, TakeTurnsWithoutATrace) {
   const TriangleSoup soup = soup_of(Kind::lattice_mlp);
   const Camera cameras[] = {camera_of(64, 48), camera_of(37, 61)};
@@ -137,19 +110,14 @@ INSTANTIATE_TEST_SUITE_P(Contexts, ShadingStages, testing::ValuesIn(contexts),
 
 // -- the plan -------------------------------------------------------------------------------------
 
-TEST(ShadingStagePlan, IsMeasuredOnHardwareWithComputeShadersOnly) {
+TEST(ShadingStagePlan, IsTheFragmentStageUnlessComputeIsAskedFor) {
   const TriangleSoup soup = soup_of(Kind::lattice_mlp);
-  const auto planned = [&](bool compute_shaders, bool software, ShadingStage wanted) {
-    return make_plan(soup, {.compute_shaders = compute_shaders, .software = software},
-                     deferred(wanted))
-        .shading_stage;
+  const auto planned = [&](bool compute_shaders, const PlanPreferences& preferences) {
+    return make_plan(soup, {.compute_shaders = compute_shaders}, preferences).shading_stage;
   };
-  EXPECT_EQ(planned(true, false, ShadingStage::measured), ShadingStage::measured);
-  EXPECT_EQ(planned(true, true, ShadingStage::measured), ShadingStage::fragment);
-  EXPECT_EQ(planned(false, false, ShadingStage::measured), ShadingStage::fragment);
-  EXPECT_EQ(planned(true, true, ShadingStage::compute), ShadingStage::compute);
-  EXPECT_EQ(planned(true, false, ShadingStage::fragment), ShadingStage::fragment);
-  EXPECT_THROW(planned(false, false, ShadingStage::compute), DeviceLimitError);
+  EXPECT_EQ(planned(true, {}), ShadingStage::fragment);
+  EXPECT_EQ(planned(true, deferred(ShadingStage::compute)), ShadingStage::compute);
+  EXPECT_THROW(planned(false, deferred(ShadingStage::compute)), DeviceLimitError);
 }
 
 TEST(ShadingStagePlan, SaysWhyNothingIsShadedAsCompute) {
@@ -176,96 +144,6 @@ TEST(ShadingStagePlan, SaysWhyNothingIsShadedAsCompute) {
   published.shading_stage = ShadingStage::compute;
   const TriangleSoup one_level = random_soup(21, {.kind = Kind::lattice_mlp, .level = 1});
   EXPECT_THROW(make_plan(one_level, limits, published), UsageError);
-}
-
-// -- the choice -----------------------------------------------------------------------------------
-
-/// A device whose passes last what the test says.
-class FakeDevice {
- public:
-  /// Milliseconds of the i-th pass of a stage.
-  std::function<double(ShadingStage, int)> pass_ms;
-
-  StageChoice choose() {
-    return choose_shading_stage({.shade =
-                                     [this](ShadingStage stage) {
-                                       int& count = counts[stage == ShadingStage::compute];
-                                       pending_ += pass_ms(stage, count++) / 1000;
-                                       order += stage == ShadingStage::compute ? 'c' : 'f';
-                                     },
-                                 .finish =
-                                     [this] {
-                                       now_ += pending_;
-                                       pending_ = 0;
-                                     },
-                                 .clock = [this] { return now_; }});
-  }
-
-  int counts[2] = {0, 0};
-  std::string order;
-
- private:
-  double now_ = 0, pending_ = 0;
-};
-
-TEST(ChooseShadingStage, TakesComputeWhereItIsFaster) {
-  FakeDevice device;
-  device.pass_ms = [](ShadingStage stage, int) {
-    return stage == ShadingStage::compute ? 4.2 : 6.1;
-  };
-  const StageChoice choice = device.choose();
-  EXPECT_EQ(choice.stage, ShadingStage::compute);
-  EXPECT_NEAR(choice.fragment_ms, 6.1, 1e-9);
-  EXPECT_NEAR(choice.compute_ms, 4.2, 1e-9);
-  EXPECT_NEAR(choice.spread_ms, 0, 1e-9);
-  EXPECT_THAT(sentence_of(choice),
-              StartsWith("shading runs as compute: 4.2 ms against 6.1 ms in the fragment stage"));
-  EXPECT_EQ(device.order,
-            "cff"
-            "fcfcfcfcfcfcfc");
-}
-
-TEST(ChooseShadingStage, StaysInTheFragmentStageWhereThatIsFaster) {
-  FakeDevice device;
-  device.pass_ms = [](ShadingStage stage, int) {
-    return stage == ShadingStage::compute ? 0.61 : 0.42;
-  };
-  const StageChoice choice = device.choose();
-  EXPECT_EQ(choice.stage, ShadingStage::fragment);
-  EXPECT_THAT(sentence_of(choice),
-              StartsWith("shading runs in the fragment stage: 0.42 ms against 0.61 ms as compute"));
-  // Five passes of 0.42 ms make a turn of two milliseconds.
-  EXPECT_EQ(device.counts[0], 2 + 7 * 5);
-  EXPECT_EQ(device.counts[1], 1 + 7 * 5);
-}
-
-TEST(ChooseShadingStage, IgnoresWhatTheSpreadExplains) {
-  FakeDevice device;
-  // Compute is a tenth faster, but turns differ by a fifth.
-  device.pass_ms = [](ShadingStage stage, int i) {
-    const double jitter = i % 3 == 0 ? 1 : i % 3 == 1 ? -1 : 0;
-    return (stage == ShadingStage::compute ? 9.0 : 10.0) + jitter;
-  };
-  const StageChoice choice = device.choose();
-  EXPECT_EQ(choice.stage, ShadingStage::fragment);
-  EXPECT_NEAR(choice.spread_ms, 2, 1e-9);
-}
-
-TEST(ChooseShadingStage, ForgivesOneTurnThatWasDisturbedEachWay) {
-  FakeDevice device;
-  device.pass_ms = [](ShadingStage stage, int i) {
-    if (i == 4) return 100.0;
-    if (i == 6) return 0.1;
-    return stage == ShadingStage::compute ? 5.0 : 6.0;
-  };
-  EXPECT_EQ(device.choose().stage, ShadingStage::compute);
-}
-
-TEST(ChooseShadingStage, AClockThatStandsStillChoosesTheFragmentStage) {
-  FakeDevice device;
-  device.pass_ms = [](ShadingStage, int) { return 0.0; };
-  EXPECT_EQ(device.choose().stage, ShadingStage::fragment);
-  EXPECT_LE(device.counts[0], 2 + 7 * 32);
 }
 
 }  // namespace

@@ -70,7 +70,6 @@ inline Difference difference(const std::vector<Image8>& a, const std::vector<Ima
 inline LeaveOutSet alone(LeaveOut what) {
   LeaveOutSet set = LeaveOutSet::only(what);
   switch (what) {
-    case LeaveOut::base_color:
     case LeaveOut::latent_features:
       set.add(LeaveOut::dead_neurons);
       set.add(LeaveOut::weight_uniforms);

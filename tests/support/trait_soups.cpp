@@ -106,11 +106,6 @@ void give_trait(LeaveOut what, TriangleSoup& soup) {
       return for_each_texel(soup, [](std::size_t face, int, int, std::uint8_t* texel) {
         if (face % 2 == 1) texel[7] = std::min<std::uint8_t>(texel[7], 127);
       });
-    case LeaveOut::transparent_rims:
-      return for_each_texel(soup, [&](std::size_t face, int x, int y, std::uint8_t* texel) {
-        const int n = lattice::resolution(int(lattice_of(soup).patches[face].level));
-        texel[7] = x > 1 && y > 1 && x + y + 1 < n ? 255 : 0;
-      });
     case LeaveOut::coincident_faces: {
       auto& rgba = std::get<FaceColors>(soup.appearance).rgba;
       const std::size_t faces = soup.triangles.size();
@@ -142,9 +137,6 @@ void give_trait(LeaveOut what, TriangleSoup& soup) {
     }
     case LeaveOut::color_mlp:
       return for_each_texel(soup, [](std::size_t, int, int, std::uint8_t* texel) { texel[3] = 0; });
-    case LeaveOut::base_color:
-      return for_each_texel(soup,
-                            [](std::size_t, int, int, std::uint8_t* texel) { texel[3] = 255; });
     case LeaveOut::view_direction: {
       DenseLayer& first = lattice_of(soup).mlp->layers.front();
       for (std::size_t i = 0; i < first.weights.size(); ++i)
@@ -179,8 +171,6 @@ void give_trait(LeaveOut what, TriangleSoup& soup) {
           texel[c] = std::uint8_t((face_value(face, c) + step * x * (1 + c % 2) + step * y) % 256);
       });
     }
-    case LeaveOut::texel_table:
-      return unshare_texels(soup);
     case LeaveOut::shading_pass:
     case LeaveOut::background:
     case LeaveOut::weight_uniforms:
@@ -201,15 +191,11 @@ TriangleSoup soup_without_trait(LeaveOut what, std::uint64_t seed) {
     case LeaveOut::weight_uniforms:
       options.kind = Kind::lattice;
       break;
-    case LeaveOut::texel_table:
-      options.level = -1;
-      break;
     default:
       break;
   }
   TriangleSoup soup = random_soup(seed, options);
-  if (what == LeaveOut::alpha_test || what == LeaveOut::transparent_faces ||
-      what == LeaveOut::transparent_rims)
+  if (what == LeaveOut::alpha_test || what == LeaveOut::transparent_faces)
     // A hole in one corner of each face, the other two at its very edge.
     for_each_texel(soup, [](std::size_t, int x, int y, std::uint8_t* texel) {
       texel[7] = x == 0 && y == 0 ? 0 : 255;

@@ -135,28 +135,5 @@ TEST(PreparedArchiveOfTurnedKnobs, KeepsWhereFeaturesAreStoredAndWhatIsCovered) 
       travelled({.site = RenderPreset::Site::forward, .alpha_to_coverage = 4}).coverage_samples, 4);
 }
 
-// What leaves out rims of faces has more geometry than corners.
-TEST(PreparedArchiveOfParts, KeepsWhereTheirCornersLie) {
-  const gl::Context context = gl::Context::create(test::osmesa);
-  TriangleSoup soup = test::random_soup(
-      84, {.kind = test::kind_of_trait(LeaveOut::transparent_rims), .faces = 100, .level = 3});
-  test::give_trait(LeaveOut::transparent_rims, soup);
-  const PreparedSoup prepared =
-      prepare_soup(soup, glm::dvec3(0.0), device_limits(context.capabilities()), RenderOptions{});
-  ASSERT_FALSE(prepared.plan.parts.empty());
-  const Blobs blobs = all_blobs(prepared);
-  const BlobReader read = [&](std::size_t blob, std::uint64_t offset, std::span<std::byte> out) {
-    std::copy_n(blobs[blob].begin() + std::ptrdiff_t(offset), out.size(), out.begin());
-  };
-  const PreparedSoup unpacked = unpack(pack_head(prepared), read);
-  EXPECT_EQ(unpacked.geometry.part_barycentrics, prepared.geometry.part_barycentrics);
-  Renderer here(context, soup, glm::dvec3(0.0)), there(context, unpacked);
-  const Camera camera = camera_of(soup);
-  here.draw(camera);
-  const Image8 expected = here.read_color();
-  there.draw(camera);
-  EXPECT_EQ(there.read_color().pixels, expected.pixels);
-}
-
 }  // namespace
 }  // namespace tureen::web

@@ -11,8 +11,8 @@ namespace {
 template <class Archive, class Plan>
 void archive_plan(Archive& archive, Plan& plan) {
   archive(plan.pipeline, plan.site, plan.reversed_depth, plan.faces, plan.opaque_count,
-          plan.clusters, plan.drops_faces_between_pixels, plan.parts, plan.flat_colors,
-          plan.color_mlp, plan.mlp_weights, plan.view_direction, plan.latent_features,
+          plan.clusters, plan.drops_faces_between_pixels, plan.flat_colors, plan.color_mlp,
+          plan.mlp_weights, plan.view_direction, plan.latent_features,
           plan.depth_rejects_background, plan.harmonics_degree, plan.feature_ranges,
           plan.lattice.uniform_level, plan.lattice.levels, plan.lattice.texel_bits,
           plan.lattice.alpha_by_cell, plan.left_out, plan.feature_storage, plan.shading_stage,
@@ -33,8 +33,7 @@ void archive_sampler(Archive& archive, Sampler& sampler) {
 template <class Archive, class Prepared>
 void archive_head(Archive& archive, Prepared& prepared) {
   archive_plan(archive, prepared.plan);
-  archive(prepared.bounds, prepared.origin, prepared.geometry.face_count,
-          prepared.geometry.part_barycentrics, prepared.appearance.glsl,
+  archive(prepared.bounds, prepared.origin, prepared.geometry.face_count, prepared.appearance.glsl,
           prepared.appearance.constants, prepared.appearance.layout);
   archive_network(archive, prepared.appearance.mlp);
 }
