@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
 #include <vector>
 
 namespace tureen {
@@ -46,7 +47,7 @@ void narrow(const glm::u8vec4* row, const std::vector<Cover>& columns,
 glm::u8vec4 to_pixel(glm::vec4 sum) {
   if (!(sum.a > 0.0f)) return glm::u8vec4(0);
   // A mean of bytes is at most 255 but for the last digit of the sums.
-  const auto byte = [](float value) { return glm::u8(std::min(value, 255.0f) + 0.5f); };
+  const auto byte = [](float value) { return std::uint8_t(std::min(value, 255.0f) + 0.5f); };
   return {byte(sum.r / sum.a), byte(sum.g / sum.a), byte(sum.b / sum.a), byte(sum.a)};
 }
 
