@@ -2,8 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/ext/vector_uint3_sized.hpp>
-#include <glm/ext/vector_uint4_sized.hpp>
+#include <glm/gtc/type_precision.hpp>
 #include <glm/vec4.hpp>
 #include <string>
 #include <vector>
