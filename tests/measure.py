@@ -42,8 +42,9 @@ def short(value):
 
 
 def print_table(rows, columns=None):
-    """On standard output; numbers to the right."""
-    columns = columns or list(dict.fromkeys(key for row in rows for key in row))
+    """On standard output: texts first, numbers to the right."""
+    columns = columns or sorted(dict.fromkeys(key for row in rows for key in row),
+                                key=lambda column: not any(isinstance(row.get(column), str) for row in rows))
     lines = [columns] + [[short(row.get(column)) for column in columns] for row in rows]
     widths = [max(len(line[i]) for line in lines) for i in range(len(columns))]
     right = [any(isinstance(row.get(c), (int, float)) for row in rows) for c in columns]
