@@ -145,7 +145,7 @@ void add_convert(CLI::App& program, Action& action) {
 Examples:
   tureen convert trained.pt soup.glb          to the file that we deploy
   tureen convert soup.glb soup.off --force    replaces soup.off
-  tureen convert soup.glb small.glb --slim --photographs lego --scale 0.5
+  tureen convert soup.glb small.glb --compress --photographs lego --scale 0.5
                                               loses 0.1 dB against lego, no more
   tureen convert soup.glb soup.html           a page to send to somebody
   tureen convert foreign.glb soup.glb --vertex-colors srgb --up 0,0,1)");

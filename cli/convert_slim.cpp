@@ -135,39 +135,43 @@ std::vector<std::string> losses_of(const SlimResult& result, const DatasetArgume
 
 void add_slim_arguments(CLI::App& command, SlimArguments& arguments) {
   CLI::Option* slim =
-      command.add_flag("--slim", arguments.slim,
+      command.add_flag("--compress,--slim", arguments.slim,
                        "a small GLB with a loss: the smallest that stays within --max-error");
   command
-      .add_option("--max-error", arguments.max_error_db,
-                  "with --slim: how many decibels of PSNR against photographs may be lost; 0.1 by "
-                  "default")
+      .add_option(
+          "--max-error", arguments.max_error_db,
+          "with --compress: how many decibels of PSNR against photographs may be lost; 0.1 by "
+          "default")
       ->check(between(1e-4, 20.0))
       ->option_text("DB")
       ->needs(slim);
   CLI::Option* photographs =
       command
-          .add_option("--photographs", arguments.photographs.path,
-                      "with --slim: the dataset on whose test photographs the loss is measured, "
-                      "and whose training cameras say what shows where the scene has few; "
-                      "without, the loss is estimated from the scene's own pictures. At a smaller "
-                      "--scale than the scene is looked at, it loses more than that")
+          .add_option(
+              "--photographs", arguments.photographs.path,
+              "with --compress: the dataset on whose test photographs the loss is measured, "
+              "and whose training cameras say what shows where the scene has few; "
+              "without, the loss is estimated from the scene's own pictures. At a smaller "
+              "--scale than the scene is looked at, it loses more than that")
           ->option_text("DATASET")
           ->needs(slim);
   add_scale_option(command, arguments.photographs)->needs(photographs);
   command
-      .add_flag("--keep-unseen", arguments.keep_unseen,
-                "with --slim: keep faces that none of 200 recorded cameras and no view from above "
-                "and around sees")
+      .add_flag(
+          "--keep-unseen", arguments.keep_unseen,
+          "with --compress: keep faces that none of 200 recorded cameras and no view from above "
+          "and around sees")
       ->needs(slim);
   command
       .add_flag("--keep-cameras", arguments.keep_cameras,
-                "with --slim: keep all recorded cameras, not only the first")
+                "with --compress: keep all recorded cameras, not only the first")
       ->needs(slim);
 }
 
 void check_slim(const SlimArguments& arguments, const fs::path& output) {
   if (arguments.slim && extension_of(output) != ".glb" && !is_scene_page(output))
-    throw UsageError("--slim writes .glb files and .html pages of them, not " + output.string());
+    throw UsageError("--compress writes .glb files and .html pages of them, not " +
+                     output.string());
 }
 
 Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& glb) {
@@ -210,7 +214,7 @@ Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& g
     lost.push_back(std::move(sentence));
 
   const std::uint64_t bytes = bytes_on_disk(glb);
-  say_list("Lost by --slim:", lost);
+  say_list("Lost by --compress:", lost);
   const auto faces = std::get<TriangleSoup>(scene.primitives).triangles.size();
   say(fmt::format("the scene takes {}: positions {}, texels {}, {:.1f} bytes a triangle",
                   bytes_text(bytes), bytes_text(result.soup.geometry.size()),

@@ -1,4 +1,4 @@
-// `tureen convert --slim`: its options, what it writes and what it says about that.
+// `tureen convert --compress`: its options, what it writes and what it says about that.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -20,8 +20,8 @@ struct SlimArguments {
   DatasetArgument photographs;  // no path: none
 };
 
-/// --slim, --max-error, --photographs, --scale, --keep-unseen and --keep-cameras. `arguments` must
-/// live until the arguments are parsed.
+/// --compress (also --slim), --max-error, --photographs, --scale, --keep-unseen and --keep-cameras.
+/// `arguments` must live until the arguments are parsed.
 void add_slim_arguments(CLI::App& command, SlimArguments& arguments);
 
 /// Throws UsageError for what can be known to be wrong before the scene is read.

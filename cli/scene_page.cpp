@@ -80,7 +80,7 @@ void ScenePageTemplate::write(const fs::path& glb, const std::string& name,
     throw UsageError("the scene takes " + std::to_string(scene.size()) +
                          " bytes, and a page that a browser opens holds at most " +
                          std::to_string(max_scene_page_bytes),
-                     "--slim makes it smaller, and a .glb beside the viewer may have any size");
+                     "--compress makes it smaller, and a .glb beside the viewer may have any size");
   const std::string_view text = text_, element = scene_element;
   const std::string_view name_at = R"(data-name=")", digits_at = R"(">)";
   const std::size_t name_begin = element_ + element.find(name_at) + name_at.size();

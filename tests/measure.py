@@ -41,8 +41,10 @@ def short(value):
     return '' if value is None else f'{value:.4g}' if isinstance(value, float) else str(value)
 
 
-def print_table(rows, columns=None):
+def print_table(rows, columns=None, title=None):
     """On standard output: texts first, numbers to the right."""
+    if title:
+        print(f'{title}:')
     columns = columns or sorted(dict.fromkeys(key for row in rows for key in row),
                                 key=lambda column: not any(isinstance(row.get(column), str) for row in rows))
     lines = [columns] + [[short(row.get(column)) for column in columns] for row in rows]
@@ -106,8 +108,8 @@ class Bench:
             return
         keep(self.out / f'{name}.json', name, tables, plots)
         self.outcomes.append({'part': name, 'outcome': f'{self.out}/{name}.json'})
-        for rows in tables.values():
-            print_table(rows)
+        for table, rows in tables.items():
+            print_table(rows, title=table)
 
     def timing(self, seconds):
         words = ['--rounds', 1, '--seconds', 1] if self.quick else ['--rounds', 5, '--seconds', seconds]
@@ -252,8 +254,8 @@ class Bench:
         rows = []
         for name, path in self.scenes().items():
             photographs = self.photographs(name)
-            text = self.run(f'compress-{name}', TUREEN, 'convert', path, self.out / 'soups/compressed.glb', '--slim',
-                            '--force', '--json', *(['--photographs', *photographs] if photographs else []))
+            text = self.run(f'compress-{name}', TUREEN, 'convert', path, self.out / 'soups/compressed.glb',
+                            '--compress', '--force', '--json', *(['--photographs', *photographs] if photographs else []))
             if text:
                 rows.append({'scene': name, **{key: value for key, value in json.loads(text).items()
                                                if isinstance(value, (int, float, str))}})
@@ -422,8 +424,8 @@ def faults(arguments):
     for row in tables['readers']:
         row.update(runs[row['reader']])
     keep(out / 'harm.json', 'faults', tables)
-    for rows in tables.values():
-        print_table(rows)
+    for table, rows in tables.items():
+        print_table(rows, title=table)
     say(f'All of it is in {out}/harm.json')
 
 

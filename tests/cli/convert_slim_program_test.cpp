@@ -1,4 +1,4 @@
-// `tureen convert --slim` from outside: what it makes, and what it says of its loss.
+// `tureen convert --compress` from outside: what it makes, and what it says of its loss.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ TEST_F(ConvertSlim, IsSmallAndSaysWhatItLost) {
   EXPECT_FALSE(exists("fine.glb"));
 
   EXPECT_THAT(run({"convert", "part.glb", "slim.ply", "--slim"}).err,
-              HasSubstr("--slim writes .glb files and .html pages of them, not slim.ply"));
+              HasSubstr("--compress writes .glb files and .html pages of them, not slim.ply"));
   EXPECT_EQ(run({"convert", "part.glb", "other.glb", "--max-error", "1"}).exit_code, 2);
 }
 

@@ -107,7 +107,7 @@ TEST_F(ScenePage, MayBeSlim) {
     return result;
   };
   convert("part.glb", "slim.glb", true);
-  EXPECT_THAT(convert("part.glb", "slim.html", true).err, HasSubstr("Lost by --slim:"));
+  EXPECT_THAT(convert("part.glb", "slim.html", true).err, HasSubstr("Lost by --compress:"));
   EXPECT_TRUE(scene_in("slim.html", part_name) == text_of("slim.glb"));
   EXPECT_FALSE(exists("slim.html.glb"));
   EXPECT_FALSE(exists("slim.html.glb.export"));
