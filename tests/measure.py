@@ -389,7 +389,7 @@ def numerics(_):
     cases.sort(key=lambda row: [int(word) if word.isdigit() else word for word in re.split(r'(\d+)', row['case'])])
     keep(out / 'numerics.json', 'numerics', {'cases': cases, 'points': points},
          [{'table': 'points', 'x': 'at', 'y': ['ours', 'naive', 'tolerance'], 'each': 'case'}])
-    print_table(cases, ['case', 'stressed', 'quantity', 'at', 'ours', 'naive', 'tolerance', 'margin'])
+    print_table(cases, ['case', 'at', 'ours', 'naive', 'tolerance', 'margin', 'quantity', 'stressed'])
     say(f'{len(cases)} cases in {out}/numerics.json')
 
 
