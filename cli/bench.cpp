@@ -90,7 +90,7 @@ BenchResult run(const Options& options) {
   const TriangleSoup& soup = opaque_soup(scene);
   result.scene = {scene.info.name, options.scene.path, soup.triangles.size(),
                   appearance_name(soup.appearance)};
-  result.notes = scene.info.notes;
+  result.notes = all_notes(scene.info);
   const BenchViewList views = bench_views(options.views, scene, options.scene.path);
   result.notes.insert(result.notes.end(), views.notes.begin(), views.notes.end());
 

@@ -83,7 +83,7 @@ std::vector<Camera> dataset_cameras(const std::string& path, std::vector<std::st
   DatasetArgument argument;
   argument.path = path;
   const Dataset dataset = read(argument, DatasetPart::test);
-  notes.insert(notes.end(), dataset.notes.begin(), dataset.notes.end());
+  for (std::string& note : described(dataset.remarks)) notes.push_back(std::move(note));
   std::vector<Camera> cameras;
   for (const Photograph& photograph : dataset.test) cameras.push_back(photograph.camera);
   return cameras;

@@ -73,7 +73,9 @@ Json write(Scene scene, const Options& options, const fs::path& file) {
   if (options.slim.slim) return convert_slim(std::move(scene), options.slim, file);
   const std::vector<std::string> lost = write_scene(scene, file);
   say_list("Lost in " + options.output + ":", lost);
-  return {{"notes", scene.info.notes}, {"lost", lost}};
+  return {{"notes", all_notes(scene.info)},
+          {"remarks", remarks_json(scene.info.remarks)},
+          {"lost", lost}};
 }
 
 /// Whether a page may hold the bytes of the scene's own file.
@@ -86,7 +88,9 @@ Json write_page(const ScenePageTemplate& page, Scene scene, const Options& optio
   const std::string name = scene.info.name.empty() ? output.stem().string() : scene.info.name;
   if (is_page_of_file(options)) {
     page.write(options.scene.path, name, output);
-    return {{"notes", scene.info.notes}, {"lost", Json::array()}};
+    return {{"notes", all_notes(scene.info)},
+            {"remarks", remarks_json(scene.info.remarks)},
+            {"lost", Json::array()}};
   }
   const Scratch glb(options.output + ".glb", "the scene that the page will hold");
   Json figures;
@@ -104,7 +108,7 @@ ExitCode convert_scene(const Options& options) {
   std::optional<ScenePageTemplate> page;
   if (is_scene_page(options.output)) page = ScenePageTemplate::find();
   Scene scene = read(options.scene);
-  say_list("Reading " + options.scene.path + ":", scene.info.notes);
+  say_list("Reading " + options.scene.path + ":", all_notes(scene.info));
   const Json figures = page ? write_page(*page, std::move(scene), options)
                             : write(std::move(scene), options, options.output);
   const std::uint64_t bytes = bytes_on_disk(options.output);

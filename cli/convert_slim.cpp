@@ -23,9 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How the note begins that every slim file has.
-constexpr const char* coded_note = "Slim: coded";
-
 /// Bytes of the scene as DiffSoup publishes it: two PNGs, a PLY and JSON, written beside `glb` and
 /// removed again. None where it cannot be written so.
 std::optional<std::uint64_t> published_bytes(const Scene& scene, const fs::path& glb) {
@@ -77,9 +74,7 @@ std::string measured_on(const SlimResult& result, const DatasetArgument& photogr
 /// What makes the promise of the loss worth less than it seems.
 std::vector<std::string> doubts_about(const Scene& scene, bool with_photographs) {
   std::vector<std::string> doubts;
-  const auto& notes = scene.info.notes;
-  if (std::any_of(notes.begin(), notes.end(),
-                  [](const std::string& note) { return note.starts_with(coded_note); }))
+  if (scene.info.compressed)
     doubts.push_back(
         "Slim: the scene was slim already: what it lost then comes on top, and is not counted.");
   if (!with_photographs && scene.cameras.size() < telling_cameras)
@@ -99,15 +94,14 @@ std::vector<std::string> losses_of(const SlimResult& result, const DatasetArgume
   const std::string views = measured_on(result, photographs);
   std::vector<std::string> losses{
       photographs.path.empty()
-          ? fmt::format("{} with a loss of {:.3f} dB of PSNR or less, estimated for a scene that "
-                        "comes within {:.0f} dB of its photographs; against the scene as it was, "
-                        "in {}: {:.2f} dB.",
-                        coded_note, result.loss.db, result.model_db, views,
-                        result.loss.render_psnr_db)
-          : fmt::format("{} with a loss of {:.3f} dB of PSNR against {} (from {:.2f} dB); against "
-                        "the scene as it was: {:.2f} dB.",
-                        coded_note, result.loss.db, views, result.model_db,
-                        result.loss.render_psnr_db),
+          ? fmt::format(
+                "Slim: coded with a loss of {:.3f} dB of PSNR or less, estimated for a scene "
+                "that comes within {:.0f} dB of its photographs; against the scene as it "
+                "was, in {}: {:.2f} dB.",
+                result.loss.db, result.model_db, views, result.loss.render_psnr_db)
+          : fmt::format("Slim: coded with a loss of {:.3f} dB of PSNR against {} (from {:.2f} dB); "
+                        "against the scene as it was: {:.2f} dB.",
+                        result.loss.db, views, result.model_db, result.loss.render_psnr_db),
       // What is negative by chance, as of photographs it may be, is no loss.
       fmt::format("Slim: positions on a grid of {} bits ({:.3f} dB of the loss), colours in "
                   "steps of {:.1f}/255 in the mean; what no alpha shows is not kept.",
@@ -207,6 +201,9 @@ Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& g
     scene.cameras.resize(1);
     lost.push_back(fmt::format("Slim: of {} recorded cameras only the first is kept.", cameras));
   }
+  // What reading the scene lost is stored with what compressing it loses.
+  scene.info.notes = all_notes(scene.info);
+  scene.info.remarks.clear();
   scene.info.notes.insert(scene.info.notes.end(), lost.begin(), lost.end());
   // Of this file, not of the scene that it holds.
   lost.push_back("Slim: only Tureen reads this file; it has no mesh for other glTF viewers.");

@@ -88,8 +88,8 @@ ExitCode evaluate_scene(Options options) {
     evaluation.progress = [&](double fraction) { progress.update(fraction); };
     result = evaluate(soup, scene.origin, photographs, evaluation);
   }
-  say_list("Reading " + options.scene.path + ":", scene.info.notes);
-  say_list("Reading " + options.dataset.path + ":", dataset.notes);
+  say_list("Reading " + options.scene.path + ":", all_notes(scene.info));
+  say_list("Reading " + options.dataset.path + ":", described(dataset.remarks));
   say_list("Plan:", result.plan);
   say(fmt::format("{} triangles against {} photographs ({}), on {} ({}); SSIM with border {}",
                   counted(soup.triangles.size()), photographs.size(), split_name(options.split),

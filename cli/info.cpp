@@ -106,19 +106,21 @@ struct Described {
   }
 };
 
-Json to_json(const LintFinding& finding) {
-  return {{"count", finding.count}, {"first", finding.first}};
-}
-
 Json to_json(const Lint& lint) {
-  return {{"clean", lint.sentences.empty()},
-          {"non_finite_vertices", to_json(lint.non_finite_vertices)},
-          {"degenerate_faces", to_json(lint.degenerate_faces)},
-          {"duplicate_faces", to_json(lint.duplicate_faces)},
-          {"never_visible_faces", to_json(lint.never_visible_faces)},
-          {"unused_vertices", to_json(lint.unused_vertices)},
-          {"extent_over_offset", lint.extent_over_offset},
-          {"sentences", lint.sentences}};
+  Json json = {{"clean", lint.findings.empty()}};
+  for (const LintFinding::Id id : LintFinding::counted) {
+    const LintFinding* found = lint.find(id);
+    json[name_of(id)] = {{"count", found ? found->count : 0},
+                         {"first", found ? found->first : std::vector<std::uint32_t>()}};
+  }
+  json["extent_over_offset"] = lint.extent_over_offset;
+  json["findings"] = Json::array();
+  json["sentences"] = Json::array();
+  for (const LintFinding& finding : lint.findings) {
+    json["findings"].push_back(name_of(finding.id));
+    json["sentences"].push_back(describe(finding));
+  }
+  return json;
 }
 
 struct NamedDevice {
@@ -190,11 +192,13 @@ ExitCode inform(const Options& options) {
                     scene.preset->promised_psnr_db
                         ? fmt::format("; {:.1f} dB promised", *scene.preset->promised_psnr_db)
                         : std::string()));
-  say_list("Notes:", scene.info.notes);
+  say_list("Notes:", all_notes(scene.info));
   say_list("Plan:", plan.sentences);
   say_list("Devices:", device_lines);
-  say_list("Lint:", findings.sentences.empty() ? std::vector<std::string>{"nothing found"}
-                                               : findings.sentences);
+  std::vector<std::string> lint_lines;
+  for (const LintFinding& finding : findings.findings) lint_lines.push_back(describe(finding));
+  if (lint_lines.empty()) lint_lines.emplace_back("nothing found");
+  say_list("Lint:", lint_lines);
 
   if (options.json) {
     Json json = {{"file", options.scene.path},
@@ -213,14 +217,15 @@ ExitCode inform(const Options& options) {
                  {"up", to_json(glm::dvec3(scene.info.up))},
                  {"background", to_json(glm::dvec3(scene.info.background))},
                  {"cameras", Json::parse(cameras_to_json(scene.cameras)).at("cameras")},
-                 {"notes", scene.info.notes},
+                 {"notes", all_notes(scene.info)},
+                 {"remarks", remarks_json(scene.info.remarks)},
                  {"preset", scene.preset ? Json(describe(*scene.preset)) : Json()},
                  {"plan", plan.sentences},
                  {"devices", devices},
                  {"lint", to_json(findings)}});
     print_json(json);
   }
-  const bool clean = findings.sentences.empty() && fits_everywhere;
+  const bool clean = findings.findings.empty() && fits_everywhere;
   return options.strict && !clean ? ExitCode::check_failed : ExitCode::done;
 }
 

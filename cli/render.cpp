@@ -151,7 +151,7 @@ ExitCode render(Options options) {
 
   const Camera& first = views.cameras.front();
   const gl::Capabilities& device = context.capabilities();
-  say_list("Reading " + options.scene.path + ":", scene.info.notes);
+  say_list("Reading " + options.scene.path + ":", all_notes(scene.info));
   say_list("Cameras:", views.notes);
   say_list("Plan:", drawn.plan);
   say_list("Legend:", drawn.legend);

@@ -11,6 +11,7 @@
 
 #include "formats/shown_text.hpp"
 #include "soup/error.hpp"
+#include "soup/remark.hpp"
 
 namespace tureen::cli {
 
@@ -53,6 +54,17 @@ void say_list(const std::string& heading, const std::vector<std::string>& lines)
 }
 
 void print_json(const Json& document) { print(document, 2); }
+
+Json remarks_json(const std::vector<Remark>& remarks) {
+  Json list = Json::array();
+  for (const Remark& remark : remarks) {
+    Json& json = list.emplace_back(Json{{"kind", name_of(remark.kind)}});
+    if (!remark.counts.empty()) json["counts"] = remark.counts;
+    if (!remark.values.empty()) json["values"] = remark.values;
+    if (!remark.names.empty()) json["names"] = remark.names;
+  }
+  return list;
+}
 
 void print_json_line(const Json& document) { print(document, -1); }
 

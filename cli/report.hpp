@@ -6,6 +6,10 @@
 #include <string>
 #include <vector>
 
+namespace tureen {
+struct Remark;
+}
+
 namespace tureen::cli {
 
 /// Keys stay in the order in which they were written.
@@ -30,6 +34,10 @@ void print_json(const Json& document);
 
 /// The same in one line, for programs that read output line by line.
 void print_json_line(const Json& document);
+
+/// Their kinds and values, {"kind", "counts", "values", "names"}; what a kind has none of is left
+/// out.
+Json remarks_json(const std::vector<Remark>& remarks);
 
 /// The time of day, "2026-11-21T15:04:05Z".
 std::string utc_now();

@@ -43,7 +43,10 @@ Scene read(const SceneArgument& argument) {
   options.vertex_colors = argument.vertex_colors;
   options.progress = [&](double fraction) { progress.update(fraction); };
   Scene scene = read_scene(path, options);
-  if (!argument.up.empty()) scene.info.up = glm::vec3(glm::normalize(up));
+  if (!argument.up.empty()) {
+    scene.info.up = glm::vec3(glm::normalize(up));
+    scene.info.up_is_assumed = false;
+  }
   return scene;
 }
 

@@ -150,7 +150,7 @@ std::vector<Photograph> test_photographs(const Options& options, std::size_t mos
   std::vector<Photograph> photographs = spread_out(std::move(dataset.test), most);
   if (photographs.empty())
     throw InputError({options.dataset.path, {}, {}}, "it holds no photographs to test with");
-  report.notes.insert(report.notes.end(), dataset.notes.begin(), dataset.notes.end());
+  for (std::string& note : described(dataset.remarks)) report.notes.push_back(std::move(note));
   return photographs;
 }
 
@@ -257,7 +257,7 @@ ExitCode tradeoff(const Options& options) {
   Scene scene = read(options.scene);
   const TriangleSoup& soup = opaque_soup(scene);
   TradeoffReport report;
-  report.notes = scene.info.notes;
+  report.notes = all_notes(scene.info);
   if (scene.preset && !is_faithful(*scene.preset))
     report.notes.push_back("the scene's own preset is put aside: every knob begins at its default");
   report.date = utc_now();

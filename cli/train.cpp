@@ -298,7 +298,7 @@ ExitCode train(const Options& options) {
     print_text(trainer::config_to_json(config));
     return ExitCode::done;
   }
-  say_list("Reading " + options.dataset.path + ":", dataset.notes);
+  say_list("Reading " + options.dataset.path + ":", described(dataset.remarks));
   if (!checkpoint && !options.config.preset && options.config.file.empty())
     say(dataset.has_alpha ? "The pictures have alpha: --preset object"
                           : "The pictures have no alpha: --preset scene");

@@ -84,12 +84,12 @@ Views recorded_views(const std::string& argument, const std::string& which_witho
   CameraFile found = cameras_in(wanted.file, scene, scene_path);
   if (found.cameras.empty())
     throw InputError({wanted.file.string(), {}, {}}, "it holds no cameras");
-  if (wanted.which == "all") return {std::move(found.cameras), std::move(found.notes)};
+  if (wanted.which == "all") return {std::move(found.cameras), described(found.remarks)};
   const int last = int(found.cameras.size()) - 1;
   // As text first: a number of forty digits is out of range, not malformed.
   if (wanted.which.size() > 9 || std::stol(wanted.which) > last)
     throw UsageError(argument + ": cameras are numbered from 0 to " + std::to_string(last));
-  return {{found.cameras[std::size_t(std::stol(wanted.which))]}, std::move(found.notes)};
+  return {{found.cameras[std::size_t(std::stol(wanted.which))]}, described(found.remarks)};
 }
 
 namespace {

@@ -23,19 +23,20 @@ namespace {
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-const char* const distortion_note =
-    "the lens distortion of the file is left out: pictures are those of a pinhole";
-
 CameraFile from_transforms(const Json& root, const std::string& file) {
+  // NeRF's synthetic scenes, whose files name no size, are of 800 x 800 pixels.
+  constexpr int assumed_side = 800;
   CameraFile result;
   bool size_assumed = false, distorted = false;
   for (const TransformsFrame& frame : read_transforms(root, file)) {
     size_assumed = size_assumed || !frame.width || !frame.height;
     distorted = distorted || !frame.lens.is_pinhole() || !frame.other_lens.empty();
-    result.cameras.push_back(pinhole(frame, frame.width.value_or(800), frame.height.value_or(800)));
+    result.cameras.push_back(
+        pinhole(frame, frame.width.value_or(assumed_side), frame.height.value_or(assumed_side)));
   }
-  if (size_assumed) result.notes.push_back("the file names no image size; 800 x 800 is assumed");
-  if (distorted) result.notes.push_back(distortion_note);
+  if (size_assumed)
+    result.remarks.push_back({Remark::Kind::image_size_missing, {assumed_side, assumed_side}});
+  if (distorted) result.remarks.push_back({Remark::Kind::lens_dropped});
   return result;
 }
 
@@ -149,7 +150,7 @@ CameraFile from_colmap(const fs::path& folder) {
     camera.name = image.name;
     camera.view_from_world = image.view_from_world;
   }
-  if (distorted) result.notes.push_back(distortion_note);
+  if (distorted) result.remarks.push_back({Remark::Kind::lens_dropped});
   return result;
 }
 #else

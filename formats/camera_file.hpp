@@ -26,12 +26,13 @@
 #include "formats/input.hpp"
 #include "soup/camera.hpp"
 #include "soup/camera_path_data.hpp"
+#include "soup/remark.hpp"
 
 namespace tureen {
 
 struct CameraFile {
   std::vector<Camera> cameras;
-  std::vector<std::string> notes;  // what reading assumed or lost, a sentence each
+  std::vector<Remark> remarks;  // what reading assumed or lost
 };
 
 /// Whether read_cameras(path) is the door to knock at: a file that begins as JSON does, or COLMAP's

@@ -158,10 +158,8 @@ Scene read_diffsoup(TorchArchive& archive, const ReadOptions& options) {
   const bool colmap = archive.find("flip_z") != nullptr;
   scene.info.up = colmap ? colmap_up : glm::vec3(0.0f, 0.0f, 1.0f);
   scene.info.background = glm::vec3(colmap ? 0.0f : 1.0f);
-  scene.info.notes.push_back(
-      colmap ? "the checkpoint has a flip_z: taken for a COLMAP scene, up is -y, background black"
-             : "the checkpoint has no flip_z: taken for a synthetic scene, up is +z, background "
-               "white");
+  scene.info.remarks.push_back(
+      {colmap ? Remark::Kind::up_of_colmap_scene : Remark::Kind::up_of_synthetic_scene});
   return scene;
 }
 
@@ -205,11 +203,10 @@ HarmonicsOf read_harmonics(TorchArchive& archive, std::uint64_t elements) {
   return result;
 }
 
-void note_assumed_up(Scene& scene) {
+void assume_up(Scene& scene) {
   scene.info.up = colmap_up;
-  scene.info.notes.push_back(
-      "the checkpoint does not say which way is up: -y is assumed, as in COLMAP's axes; scenes "
-      "trained on Blender images have +z");
+  scene.info.up_is_assumed = true;
+  scene.info.remarks.push_back({Remark::Kind::up_unknown_to_checkpoint});
 }
 
 Scene read_triangle_splatting(TorchArchive& archive, const ReadOptions& options) {
@@ -244,7 +241,7 @@ Scene read_triangle_splatting(TorchArchive& archive, const ReadOptions& options)
   Scene scene;
   scene.primitives = std::move(soft);
   scene.info.source = "Triangle Splatting checkpoint";
-  note_assumed_up(scene);
+  assume_up(scene);
   return scene;
 }
 
@@ -268,12 +265,9 @@ Scene read_connected_triangles(TorchArchive& archive, const ReadOptions& options
   // MeshSplatting saves the same keys and a pixel count besides.
   scene.info.source =
       archive.find("pixel_count") ? "MeshSplatting checkpoint" : "Triangle Splatting+ checkpoint";
-  scene.info.notes.push_back(
-      "vertex weights and sigma are not kept: trained to the end, every triangle is opaque");
-  scene.info.notes.push_back(
-      "colours are interpolated in perspective, its own renderer interpolates them on the screen: "
-      "large triangles near the camera differ");
-  note_assumed_up(scene);
+  scene.info.remarks.push_back({Remark::Kind::window_parameters_dropped});
+  scene.info.remarks.push_back({Remark::Kind::screen_interpolation_dropped});
+  assume_up(scene);
   return scene;
 }
 

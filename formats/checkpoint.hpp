@@ -24,7 +24,7 @@ bool is_checkpoint(std::span<const std::byte> head);
 /// DiffSoup becomes a LatticeTexture of float texels with its color MLP. Triangle Splatting becomes
 /// SoftTriangles, after activation. Triangle Splatting+ and MeshSplatting are opaque when they are
 /// done (they read themselves back with an opacity of at least 0.9999): harmonics on shared
-/// vertices. What was assumed is in info.notes. Throws InputError.
+/// vertices. What was assumed is in info.remarks. Throws InputError.
 Scene read_checkpoint(const std::filesystem::path& path, const ReadOptions& options = {});
 Scene read_checkpoint(Input input, const ReadOptions& options = {});
 

@@ -42,7 +42,7 @@ void split(Frames all, const DatasetOptions& options, Outline& outline) {
 
 void take_transforms_up(Dataset& dataset) {
   dataset.up = glm::vec3(0, 0, 1);
-  dataset.notes.push_back("z is taken to be up, as in the scenes of NeRF and instant-ngp.");
+  dataset.remarks.push_back({Remark::Kind::up_of_transforms});
 }
 
 Outline one_transforms_file(const fs::path& path, const DatasetOptions& options,
@@ -87,10 +87,10 @@ void take_mean_up(const Frames& frames, Dataset& dataset) {
   // Of axes that point everywhere little is left; then it is y down, as in the first camera.
   if (glm::length(sum) > 0.1 * double(frames.size())) {
     dataset.up = glm::vec3(glm::normalize(sum));
-    dataset.notes.push_back("The mean of the cameras' up axes is taken to be up.");
+    dataset.remarks.push_back({Remark::Kind::up_of_cameras});
   } else {
     dataset.up = glm::vec3(0, -1, 0);
-    dataset.notes.push_back("The cameras do not agree on what is up; -y is taken.");
+    dataset.remarks.push_back({Remark::Kind::up_of_no_camera});
   }
 }
 
@@ -194,14 +194,6 @@ void require_budget(const std::string& file, const std::vector<const DatasetFram
                      std::string(max_memory_hint) + ", --scale makes them smaller");
 }
 
-void describe_undistortion(int columns, int rows, Dataset& dataset) {
-  std::string note = "Lens distortion was undone by resampling";
-  if (columns + rows > 0)
-    note += "; up to " + std::to_string(columns) + " columns and " + std::to_string(rows) +
-            " rows without a source were cut off";
-  dataset.notes.push_back(note + ".");
-}
-
 bool transparent_somewhere(const Image8& image) {
   return std::any_of(image.pixels.begin(), image.pixels.end(),
                      [](const glm::u8vec4& pixel) { return pixel.a < 255; });
@@ -250,7 +242,9 @@ Dataset read_dataset(const fs::path& path, const DatasetOptions& options) {
     dataset.has_alpha = dataset.has_alpha || transparent_somewhere(read.photograph.image);
     (i < outline.train.size() ? dataset.train : dataset.test).push_back(std::move(read.photograph));
   }
-  if (distorted) describe_undistortion(lost_columns, lost_rows, dataset);
+  if (distorted)
+    dataset.remarks.push_back(
+        {Remark::Kind::lens_undone, {std::uint64_t(lost_columns), std::uint64_t(lost_rows)}});
   if (options.progress) options.progress(1.0);
   return dataset;
 }

@@ -16,6 +16,7 @@
 
 #include "soup/camera.hpp"
 #include "soup/image.hpp"
+#include "soup/remark.hpp"
 
 namespace tureen {
 
@@ -43,8 +44,8 @@ struct Dataset {
   /// What is most likely up: z for transforms.json, as in the scenes of NeRF and instant-ngp; the
   /// mean of the cameras' up axes for COLMAP.
   glm::vec3 up{0.0f, 1.0f, 0.0f};
-  bool has_alpha = false;          // some photograph is transparent somewhere
-  std::vector<std::string> notes;  // what was assumed or undone, a sentence each
+  bool has_alpha = false;       // some photograph is transparent somewhere
+  std::vector<Remark> remarks;  // what was assumed or undone
 };
 
 /// Which photographs to read; the others cost nothing.

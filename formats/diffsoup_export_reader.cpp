@@ -31,14 +31,14 @@ struct Meta {
   std::string assumed;  // why level is not what meta.json says, where it is not
 };
 
-Meta read_meta(const fs::path& folder, const MemoryBudget& budget,
-               std::vector<std::string>& notes) {
+Meta read_meta(const fs::path& folder, const MemoryBudget& budget, SceneInfo& info) {
   Meta meta;
   // A link that leads nowhere or to itself is there, and Input::open says what is wrong with it.
   std::error_code ignored;
   if (fs::symlink_status(folder / "meta.json", ignored).type() == fs::file_type::not_found) {
     meta.assumed = "meta.json is missing: level 5 is assumed";
-    notes.emplace_back("meta.json is missing: level 5, up -y and a black background are assumed");
+    info.up_is_assumed = true;
+    info.remarks.push_back({Remark::Kind::meta_missing});
     return meta;
   }
   Input input = open_in_folder(folder, "meta.json", budget);
@@ -63,7 +63,7 @@ Meta read_meta(const fs::path& folder, const MemoryBudget& budget,
     meta.level = level.get<int>();
   } else {
     meta.assumed = "meta.json names no level: 5 is assumed";
-    notes.push_back(meta.assumed);
+    info.remarks.push_back({Remark::Kind::level_missing});
   }
   meta.up = vector("up", meta.up);
   // In double: squares of floats overflow otherwise.
@@ -136,19 +136,15 @@ ColorMlp read_mlp(const fs::path& folder, const MemoryBudget& budget) {
 }
 
 /// The rule that diffsoup_export.hpp states.
-void restore_truncated_half(std::vector<std::uint8_t>& texels, std::vector<std::string>& notes) {
+void restore_truncated_half(std::vector<std::uint8_t>& texels, std::vector<Remark>& remarks) {
   constexpr std::size_t channels = LatticeTexture::channels, alpha = LatticeTexture::features;
   std::array<std::size_t, 256> histogram{};
   for (std::size_t i = alpha; i < texels.size(); i += channels) ++histogram[texels[i]];
   if (histogram[127] <= histogram[126] + histogram[128]) return;
   for (std::size_t i = alpha; i < texels.size(); i += channels)
     if (texels[i] == 127) texels[i] = 128;
-  char text[256];
-  std::snprintf(text, sizeof text,
-                "%zu of %zu texels have an alpha byte of 127, and hardly any 126 or 128: taken for "
-                "a truncated 1/2 and made 128, so that they are drawn as in training",
-                histogram[127], texels.size() / channels);
-  notes.emplace_back(text);
+  remarks.push_back(
+      {Remark::Kind::alpha_half_restored, {histogram[127], texels.size() / channels}});
 }
 
 }  // namespace
@@ -173,7 +169,7 @@ std::string foreign_to_diffsoup_export(const fs::path& folder) {
 Scene read_diffsoup_export(const fs::path& folder, const ReadOptions& options) {
   Scene scene;
   const MemoryBudget budget;
-  const Meta meta = read_meta(folder, budget, scene.info.notes);
+  const Meta meta = read_meta(folder, budget, scene.info);
   const fs::path mesh_path = folder / "mesh.ply";
   Input mesh_input = open_in_folder(folder, "mesh.ply", budget);
   DiffSoupMesh mesh = read_diffsoup_mesh(mesh_input);
@@ -201,7 +197,7 @@ Scene read_diffsoup_export(const fs::path& folder, const ReadOptions& options) {
     for (std::size_t i = 0; i < count; ++i)
       std::memcpy(&texels[i * LatticeTexture::channels + 4 * half], &image.pixels[i], 4);
   }
-  if (!meta.ours) restore_truncated_half(texels, scene.info.notes);
+  if (!meta.ours) restore_truncated_half(texels, scene.info.remarks);
   texture.texels = std::move(texels);
   mesh_input.take_memory(faces, sizeof texture.patches[0], "the texels");
   texture.patches.resize(faces);

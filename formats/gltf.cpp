@@ -45,21 +45,21 @@ class Importer {
     Scene scene;
     TriangleSoup soup = builder_.finish();
     if (const auto reason = defect(soup)) document_.fail("", *reason);
-    if (builder_.has_vertex_colors()) builder_.notes.push_back(color_note());
+    if (builder_.has_vertex_colors()) builder_.remarks.push_back({color_remark()});
     if (!document_.model().animations.empty())
-      builder_.notes.push_back("animations are not played");
+      builder_.remarks.push_back({Remark::Kind::animations_dropped});
     scene.primitives = std::move(soup);
     scene.cameras = std::move(cameras_);
     scene.info.source = generator_.empty() ? "glTF" : "glTF by " + generator_;
     if (contains_ignoring_case(generator_, "trimesh")) {
       // trimesh writes coordinates as it holds them, and the soups that come this way are z up.
       scene.info.up = {0, 0, 1};
-      builder_.notes.push_back(
-          "written by trimesh, which keeps no up axis: z is assumed; --up changes it");
+      scene.info.up_is_assumed = true;
+      builder_.remarks.push_back({Remark::Kind::up_unknown_to_trimesh});
     }
-    std::set<std::string> known;
-    for (std::string& note : builder_.notes)
-      if (known.insert(note).second) scene.info.notes.push_back(std::move(note));
+    std::set<Remark> known;
+    for (Remark& remark : builder_.remarks)
+      if (known.insert(remark).second) scene.info.remarks.push_back(std::move(remark));
     if (options_.progress) options_.progress(1.0);
     return scene;
   }
@@ -70,13 +70,12 @@ class Importer {
     return writes_srgb_colors(generator_) ? VertexColorSpace::srgb : VertexColorSpace::linear;
   }
 
-  std::string color_note() const {
+  Remark::Kind color_remark() const {
     const bool srgb = color_space() == VertexColorSpace::srgb;
-    std::string note =
-        srgb ? "vertex colours are taken as sRGB" : "vertex colours are taken as linear";
-    if (options_.vertex_colors != VertexColorSpace::automatic) return note + ", as asked for";
-    if (srgb) return note + ", as its generator stores them; --vertex-colors changes it";
-    return note + ", as glTF says; --vertex-colors changes it";
+    if (options_.vertex_colors != VertexColorSpace::automatic)
+      return srgb ? Remark::Kind::vertex_colors_srgb : Remark::Kind::vertex_colors_linear;
+    return srgb ? Remark::Kind::vertex_colors_srgb_by_generator
+                : Remark::Kind::vertex_colors_linear_by_gltf;
   }
 
   /// The roots of the scene to draw: the default one, else the first, else all nodes that are
@@ -126,8 +125,7 @@ class Importer {
       const tinygltf::Node& node = model.nodes[std::size_t(visit.node)];
       const glm::dmat4 world_from_node = visit.world_from_parent * parent_from_node(node, where);
       if (node.mesh != -1) {
-        if (node.skin != -1)
-          builder_.notes.push_back("skinned meshes are drawn in their bind pose");
+        if (node.skin != -1) builder_.remarks.push_back({Remark::Kind::skins_dropped});
         builder_.add_mesh(node.mesh, world_from_node);
       }
       if (node.camera != -1) add_camera(node.camera, world_from_node, where);
@@ -172,7 +170,7 @@ class Importer {
                      "names camera " + std::to_string(index) + " of " + std::to_string(all.size()));
     const tinygltf::Camera& json = all[std::size_t(index)];
     if (json.type != "perspective") {
-      builder_.notes.push_back("cameras that are not perspective are left out");
+      builder_.remarks.push_back({Remark::Kind::other_projections_dropped});
       return;
     }
     const double fov = json.perspective.yfov;
@@ -183,7 +181,7 @@ class Importer {
     const double volume = std::abs(glm::determinant(axes));
     if (!(fov > 0.0 && fov < 3.14159) || !(aspect > 0.01) || !(height * aspect <= max_image_side) ||
         !(volume > 0.0) || !std::isfinite(volume)) {
-      builder_.notes.push_back("cameras that see nothing are left out");
+      builder_.remarks.push_back({Remark::Kind::blind_cameras_dropped});
       return;
     }
     // A scale does not change what a camera sees; shear is taken out with it.
@@ -246,8 +244,8 @@ Scene read_gltf_or_glb(Input& input, const std::filesystem::path& folder,
   Scene scene = Importer(document, options).scene();
   scene.info.name = std::filesystem::path(input.name()).stem().string();
   if (ours)
-    scene.info.notes.push_back(std::string(tureen_extension) +
-                               " is read from .glb alone: mean colours are shown");
+    scene.info.remarks.push_back(
+        {.kind = Remark::Kind::mean_colors_shown, .names = {tureen_extension}});
   return scene;
 }
 

@@ -97,7 +97,7 @@ void read_texture(const GltfDocument& document, const tinygltf::TextureInfo& inf
 }  // namespace
 
 GltfMaterial read_gltf_material(const GltfDocument& document, int index,
-                                std::vector<std::string>& notes) {
+                                std::vector<Remark>& remarks) {
   GltfMaterial result;
   if (index < 0) return result;
   const auto& materials = document.model().materials;
@@ -123,12 +123,12 @@ GltfMaterial read_gltf_material(const GltfDocument& document, int index,
   } else if (material.alphaMode == "BLEND") {
     result.masked = true;
     result.cutoff = alpha_threshold;
-    notes.push_back("blended materials are drawn as cut-outs at an alpha of 0.5");
+    remarks.push_back({Remark::Kind::blending_cut_out});
   } else if (material.alphaMode != "OPAQUE") {
     document.fail(where + ".alphaMode", "\"" + material.alphaMode + "\" is unknown");
   }
   if (material.extensions.count("KHR_materials_unlit") == 0)
-    notes.push_back("lit materials are drawn unlit, by their base colour");
+    remarks.push_back({Remark::Kind::materials_unlit});
   return result;
 }
 

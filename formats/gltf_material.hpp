@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "formats/gltf_document.hpp"
+#include "soup/remark.hpp"
 #include "soup/triangle_soup.hpp"
 
 namespace tureen {
@@ -25,9 +26,9 @@ struct GltfMaterial {
   float cutoff = 0.0f;  // a fragment exists where alpha is at least this, if masked
 };
 
-/// materials[index], or glTF's default material for -1. Appends to `notes` what is drawn otherwise
-/// than the file says. Throws InputError.
+/// materials[index], or glTF's default material for -1. Appends to `remarks` what is drawn
+/// otherwise than the file says. Throws InputError.
 GltfMaterial read_gltf_material(const GltfDocument& document, int index,
-                                std::vector<std::string>& notes);
+                                std::vector<Remark>& remarks);
 
 }  // namespace tureen

@@ -59,8 +59,8 @@ std::vector<glm::uvec3> GltfSoupBuilder::triangles_of(const tinygltf::Primitive&
     for (std::size_t i = 0; i < vertices; ++i) corners[i] = std::uint32_t(i);
   }
   if (primitive.mode == TINYGLTF_MODE_TRIANGLES && corners.size() % 3 != 0)
-    notes.push_back(where + ": " + std::to_string(corners.size()) +
-                    " corners are no whole number of triangles; the rest is dropped");
+    remarks.push_back(
+        {.kind = Remark::Kind::corners_dropped, .counts = {corners.size()}, .names = {where}});
   // Of a strip or a fan each corner but two makes a triangle.
   const bool list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
   document_.take_memory(list ? corners.size() / 3 : corners.size(), sizeof(glm::uvec3), where);
@@ -70,17 +70,17 @@ std::vector<glm::uvec3> GltfSoupBuilder::triangles_of(const tinygltf::Primitive&
 void GltfSoupBuilder::add_primitive(const tinygltf::Primitive& primitive, const std::string& where,
                                     const glm::dmat4& world_from_mesh) {
   if (primitive.mode >= TINYGLTF_MODE_POINTS && primitive.mode <= TINYGLTF_MODE_LINE_STRIP) {
-    notes.push_back("points and lines are not drawn");
+    remarks.push_back({Remark::Kind::points_and_lines_dropped});
     return;
   }
   if (primitive.mode < TINYGLTF_MODE_TRIANGLES || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
     document_.fail(where, "mode " + std::to_string(primitive.mode) + " is unknown");
   const auto position = primitive.attributes.find("POSITION");
   if (position == primitive.attributes.end()) {
-    notes.push_back("primitives without POSITION are not drawn");
+    remarks.push_back({Remark::Kind::primitives_without_positions_dropped});
     return;
   }
-  if (!primitive.targets.empty()) notes.push_back("morph targets are not applied");
+  if (!primitive.targets.empty()) remarks.push_back({Remark::Kind::morph_targets_dropped});
 
   const std::size_t vertices = accessor_count(document_, position->second);
   if (vertices >= unused) document_.fail(where, "has more vertices than 32 bits can count");
@@ -187,7 +187,7 @@ void GltfSoupBuilder::add_uv(const tinygltf::Primitive& primitive, const GltfMat
 
 std::size_t GltfSoupBuilder::material(int index) {
   const auto [entry, fresh] = material_index_.try_emplace(index, materials_.size());
-  if (fresh) materials_.push_back(read_gltf_material(document_, index, notes));
+  if (fresh) materials_.push_back(read_gltf_material(document_, index, remarks));
   return entry->second;
 }
 
@@ -255,10 +255,7 @@ UvTextures GltfSoupBuilder::as_uv_textures() {
                             float(material.factor.w));
     made.mask_threshold = material.masked ? material.cutoff : 0.0f;
   }
-  if (multiplied)
-    notes.push_back(
-        "texture, factor and vertex colour are multiplied as display-referred values, which comes "
-        "near to the product in linear light that glTF asks for, but is not the same");
+  if (multiplied) remarks.push_back({Remark::Kind::colors_multiplied});
   return textures;
 }
 

@@ -9,6 +9,7 @@
 #include "formats/gltf_document.hpp"
 #include "formats/gltf_material.hpp"
 #include "formats/scene_file.hpp"
+#include "soup/remark.hpp"
 #include "soup/triangle_soup.hpp"
 
 namespace tureen {
@@ -26,8 +27,8 @@ class GltfSoupBuilder {
   TriangleSoup finish();
 
   bool has_vertex_colors() const { return !vertex_colors_.empty(); }
-  /// What is drawn otherwise than the file says; the same sentence may stand there repeatedly.
-  std::vector<std::string> notes;
+  /// What is drawn otherwise than the file says; the same remark may stand there repeatedly.
+  std::vector<Remark> remarks;
 
  private:
   /// The vertices and faces that one primitive gave.

@@ -120,14 +120,6 @@ std::map<int, std::map<int, fs::path>> find_shapes(const fs::path& folder) {
   return shapes;
 }
 
-/// "shape 3" or "shapes 0, 1 and 5"
-std::string shape_list(const std::vector<int>& shapes) {
-  std::string text = shapes.size() == 1 ? "shape " : "shapes ";
-  for (std::size_t i = 0; i < shapes.size(); ++i)
-    text += (i == 0 ? "" : i + 1 < shapes.size() ? ", " : " and ") + std::to_string(shapes[i]);
-  return text;
-}
-
 /// Appends one .obj, whose faces all have the material `material`.
 void append(TriangleSoup& soup, UvTextures& textures, const fs::path& path, std::uint32_t material,
             MemoryBudget budget) {
@@ -238,12 +230,14 @@ Scene read_mobilenerf(const fs::path& path, const ReadOptions& options) {
     append_material(textures, features, budget);
     for (const auto& [piece, file] : pieces->second) append(soup, textures, file, material, budget);
   }
-  const std::string of = " of " + std::to_string(network.shapes) + " ";
-  if (!missing.empty())
-    scene.info.notes.push_back(shape_list(missing) + of + "missing: the rest is drawn");
-  if (!untextured.empty())
-    scene.info.notes.push_back(shape_list(untextured) + of +
-                               "without feature images: the rest is drawn");
+  for (const auto& [kind, shapes_of_kind] :
+       {std::pair(Remark::Kind::shapes_missing, &missing),
+        std::pair(Remark::Kind::shapes_untextured, &untextured)}) {
+    if (shapes_of_kind->empty()) continue;
+    Remark& remark = scene.info.remarks.emplace_back(Remark{kind});
+    remark.counts.assign(shapes_of_kind->begin(), shapes_of_kind->end());
+    remark.counts.push_back(std::uint64_t(network.shapes));
+  }
   if (textures.materials.empty())
     throw InputError({folder.string(), {}, {}},
                      "none of the " + std::to_string(network.shapes) +

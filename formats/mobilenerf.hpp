@@ -20,7 +20,7 @@ bool is_mobilenerf(const std::filesystem::path& path);
 
 /// All shapes of the folder as one soup of UvTextures, a material a shape, nearest texels; white
 /// background, y up, and the camera of the published pages. Shapes that are missing are named in
-/// info.notes, and it is an error when all are. Throws InputError.
+/// info.remarks, and it is an error when all are. Throws InputError.
 ///
 /// The network is rewritten to take bytes / 255 and the plain direction from the eye: the published
 /// one takes 2 a - 1 for the two alpha features and (x, -z, y) for the direction. Both changes are

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include "formats/decimal.hpp"
@@ -104,18 +105,14 @@ class OffReader {
     read_header();
     read_vertices();
     read_faces();
-    std::string trailing;
-    if (scanner_.next_content())
-      trailing = "Text after the last face, from line " + std::to_string(scanner_.line()) +
-                 " on, is ignored.";
+    std::optional<Remark> trailing;
+    if (scanner_.next_content()) trailing = Remark{Remark::Kind::text_ignored, {scanner_.line()}};
     vertex_scale_.settle(mesh_.vertex_rgba);
     face_scale_.settle(mesh_.face_rgba());
     Scene scene = mesh_.finish(std::filesystem::path(input_.name()).stem().string(), "OFF");
     if (indexed_colors_ > 0)
-      scene.info.notes.push_back("The colours of " + std::to_string(indexed_colors_) +
-                                 (indexed_colors_ == 1 ? " face" : " faces") +
-                                 " are numbers of a colour map, which OFF does not hold.");
-    if (!trailing.empty()) scene.info.notes.push_back(trailing);
+      scene.info.remarks.push_back({Remark::Kind::face_colors_mapped, {indexed_colors_}});
+    if (trailing) scene.info.remarks.push_back(*trailing);
     return scene;
   }
 

@@ -10,10 +10,6 @@ namespace tureen {
 
 namespace {
 
-std::string counted(std::uint64_t count, const char* one, const char* many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
 /// Brings every component into [0, 1]; how many lay outside.
 std::uint64_t clamp_colors(std::vector<glm::vec4>& rgba) {
   std::uint64_t clamped = 0;
@@ -90,34 +86,26 @@ Scene MeshBuilder::finish(std::string name, std::string source) {
   Scene scene;
   scene.info.name = std::move(name);
   scene.info.up = assumed_up;
-  std::vector<std::string>& notes = scene.info.notes;
-  notes.push_back(assumed_up_note(source));
-  if (polygons_ > 0)
-    notes.push_back(counted(polygons_, "polygon", "polygons") +
-                    " of more than three corners became fans of triangles.");
-  if (too_small_ > 0)
-    notes.push_back(counted(too_small_, "face", "faces") +
-                    " of fewer than three corners left out.");
+  scene.info.up_is_assumed = true;
+  std::vector<Remark>& remarks = scene.info.remarks;
+  remarks.push_back({.kind = Remark::Kind::up_unknown_to_format, .names = {source}});
+  if (polygons_ > 0) remarks.push_back({Remark::Kind::polygons_split, {polygons_}});
+  if (too_small_ > 0) remarks.push_back({Remark::Kind::small_faces_dropped, {too_small_}});
 
   const std::uint64_t clamped = clamp_colors(vertex_rgba) + clamp_colors(face_rgba_);
-  if (clamped > 0)
-    notes.push_back(counted(clamped, "colour component", "colour components") +
-                    " outside 0..1 clamped.");
+  if (clamped > 0) remarks.push_back({Remark::Kind::color_components_clamped, {clamped}});
 
   TriangleSoup soup;
   soup.positions = std::move(positions);
   soup.triangles = std::move(triangles_);
   if (!vertex_rgba.empty()) {
-    if (!face_rgba_.empty())
-      notes.push_back("The file colours vertices and faces; the face colours are left out.");
+    if (!face_rgba_.empty()) remarks.push_back({Remark::Kind::face_colors_dropped});
     soup.appearance = VertexColors{std::move(vertex_rgba)};
   } else {
     if (face_rgba_.empty())
-      notes.push_back("The file holds no colours; everything is drawn grey (0.8).");
+      remarks.push_back({Remark::Kind::colors_missing});
     else if (uncolored_ > 0)
-      notes.push_back(
-          counted(uncolored_, "triangle has no colour and is", "triangles have no colour and are") +
-          " drawn grey (0.8).");
+      remarks.push_back({Remark::Kind::face_colors_missing, {uncolored_}});
     color_faces(soup.triangles.size(), no_color);
     soup.appearance = FaceColors{std::move(face_rgba_)};
   }
@@ -129,7 +117,7 @@ Scene MeshBuilder::finish(std::string name, std::string source) {
 PlainMesh::PlainMesh(const Scene& scene, const std::string& format) {
   if (const auto* soft = std::get_if<SoftTriangles>(&scene.primitives)) {
     OpaqueResult opaque = to_opaque(*soft);
-    lost = std::move(opaque.notes);
+    lost = described(opaque.remarks);
     own_ = std::move(opaque.soup);
     soup_ = &*own_;
   } else {
@@ -167,10 +155,6 @@ const std::vector<glm::vec4>* PlainMesh::face_rgba() const {
 const std::vector<glm::vec4>* PlainMesh::vertex_rgba() const {
   const auto* colors = std::get_if<VertexColors>(&soup_->appearance);
   return colors ? &colors->rgba : nullptr;
-}
-
-std::string assumed_up_note(const std::string& format) {
-  return format + " knows no up axis: z is assumed; --up changes it";
 }
 
 bool are_bytes(const std::vector<glm::vec4>& rgba) {

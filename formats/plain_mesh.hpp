@@ -107,9 +107,8 @@ class PlainMesh {
   const TriangleSoup* soup_ = nullptr;  // the scene's, or own_
 };
 
-/// The up axis of files that know none, and the sentence that says so.
+/// The up axis of files that know none.
 inline constexpr glm::vec3 assumed_up{0.0f, 0.0f, 1.0f};
-std::string assumed_up_note(const std::string& format);
 
 /// Whether every component of every colour is byte / 255 for some byte.
 bool are_bytes(const std::vector<glm::vec4>& rgba);

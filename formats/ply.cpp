@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "formats/output.hpp"
 #include "formats/plain_mesh.hpp"
@@ -44,12 +45,12 @@ class PlyReader {
       else
         skip(element);
     }
-    std::string trailing;
+    std::optional<Remark> trailing;
     if (values_.anything_left())
-      trailing = std::to_string(values_.remaining()) + " bytes after the last element ignored.";
+      trailing = Remark{Remark::Kind::bytes_ignored, {values_.remaining()}};
     Scene scene = mesh_.finish(std::filesystem::path(input_.name()).stem().string(), "PLY");
-    if (!trailing.empty()) scene.info.notes.push_back(trailing);
-    if (rounded_) scene.info.notes.push_back("Coordinates of type double were rounded to float.");
+    if (trailing) scene.info.remarks.push_back(*trailing);
+    if (rounded_) scene.info.remarks.push_back({Remark::Kind::coordinates_rounded});
     return scene;
   }
 

@@ -173,8 +173,8 @@ Scene read_scene(const std::filesystem::path& path, const ReadOptions& options) 
   };
   if (!candidate.is_folder && !promises(format) &&
       std::any_of(formats().begin(), formats().end(), promises))
-    scene.info.notes.push_back("The name ends in " + extension + ", but the content is " +
-                               format.name + ".");
+    scene.info.remarks.push_back(
+        {.kind = Remark::Kind::content_misnamed, .names = {extension, format.name}});
   if (const auto* soup = std::get_if<TriangleSoup>(&scene.primitives)) {
     if (const auto reason = defect(*soup)) throw InputError({path.string(), {}, {}}, *reason);
     if (soup->triangles.empty())

@@ -32,6 +32,7 @@ class Reader {
   Scene scene() {
     Scene scene;
     read_info(extension_, scene);
+    scene.info.compressed = extension_.find("slim_geometry").has_value();
     const JsonView appearance = extension_["appearance"];
     TriangleSoup soup;
     read_geometry(soup);

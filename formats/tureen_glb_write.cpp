@@ -335,7 +335,7 @@ json info_json(const Scene& scene, std::vector<std::string>& losses) {
                     {"background", array_of(info.background, "the background")},
                     {"origin", array_of(scene.origin, "the origin")},
                     {"cameras", json::array()}};
-  for (const std::string& note : info.notes) extension["notes"].push_back(utf8(note, losses));
+  for (const std::string& note : all_notes(info)) extension["notes"].push_back(utf8(note, losses));
   for (const Camera& camera : scene.cameras) {
     std::vector<double> matrix;
     for (int column = 0; column < 4; ++column)

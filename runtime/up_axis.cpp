@@ -37,15 +37,8 @@ std::optional<UpGuess> from_cameras(std::span<const Camera> cameras) {
   if (cameras.size() < 3 || !(glm::length(sum) > 0.5 * double(cameras.size()))) return {};
   const glm::dvec3 mean = glm::normalize(sum), axis = nearest_axis(mean);
   const double angle = std::acos(std::min(1.0, glm::dot(mean, axis)));
-  const bool close = angle < 25 * degree;
-  const std::string count = std::to_string(cameras.size());
-  if (!close)
-    return UpGuess{mean, "the mean of the up axes of " + count +
-                             " cameras is taken to be up: " + axis_name(mean)};
-  char degrees[16];
-  std::snprintf(degrees, sizeof degrees, "%.0f", angle / degree);
-  return UpGuess{axis, "the mean of the up axes of " + count + " cameras points " + degrees +
-                           " degrees from " + axis_name(axis) + ", which is taken to be up"};
+  if (!(angle < 25 * degree)) return UpGuess{mean, UpGuess::Reason::cameras, cameras.size()};
+  return UpGuess{axis, UpGuess::Reason::cameras_near_axis, cameras.size(), angle / degree};
 }
 
 std::optional<UpGuess> from_box(const glm::dvec3& extent) {
@@ -55,8 +48,7 @@ std::optional<UpGuess> from_box(const glm::dvec3& extent) {
     if (!(other > 0) || !(extent[side] < other / 3)) continue;
     glm::dvec3 axis(0);
     axis[side] = 1;
-    return UpGuess{axis, "the scene is flat along " + axis_name(axis) +
-                             ", which is taken to be up; it may be " + axis_name(-axis)};
+    return UpGuess{axis, UpGuess::Reason::flat};
   }
   return {};
 }
@@ -77,27 +69,45 @@ std::string axis_name(const glm::dvec3& axis) {
 }
 
 UpEvidence evidence_of(const Scene& scene, const Subject& subject) {
-  const auto& notes = scene.info.notes;
-  const bool assumed = std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
-    return note.find("assumed") != std::string::npos &&
-           (note.find(" up ") != std::string::npos || note.find("--up ") != std::string::npos);
-  });
   return {.stored = glm::dvec3(scene.info.up),
-          .stored_is_assumed = assumed,
+          .stored_is_assumed = scene.info.up_is_assumed,
           .cameras = scene.cameras,
           .extent = subject.high - subject.low};
 }
 
 UpGuess guess_up(const UpEvidence& evidence) {
   const auto stored = unit(evidence.stored);
-  if (stored && !evidence.stored_is_assumed)
-    return {*stored, "the file says that " + axis_name(*stored) + " is up"};
+  if (stored && !evidence.stored_is_assumed) return {*stored, UpGuess::Reason::stored};
   if (const auto guess = from_cameras(evidence.cameras)) return *guess;
   // A box that is flat along the assumed axis agrees with it, sign and all.
   const auto flat = from_box(evidence.extent);
   if (flat && !(stored && std::abs(glm::dot(*stored, flat->axis)) > 0.999)) return *flat;
-  if (stored) return {*stored, "nothing says what is up; " + axis_name(*stored) + " is assumed"};
-  return {{0, 1, 0}, "nothing says what is up; y is assumed"};
+  if (stored) return {*stored, UpGuess::Reason::assumed};
+  return {};
+}
+
+std::string describe(const UpGuess& guess) {
+  const std::string axis = axis_name(guess.axis);
+  const std::string mean =
+      "the mean of the up axes of " + std::to_string(guess.cameras) + " cameras ";
+  switch (guess.reason) {
+    case UpGuess::Reason::stored:
+      return "the file says that " + axis + " is up";
+    case UpGuess::Reason::cameras_near_axis: {
+      char degrees[16];
+      std::snprintf(degrees, sizeof degrees, "%.0f", guess.degrees);
+      return mean + "points " + degrees + " degrees from " + axis + ", which is taken to be up";
+    }
+    case UpGuess::Reason::cameras:
+      return mean + "is taken to be up: " + axis;
+    case UpGuess::Reason::flat:
+      return "the scene is flat along " + axis + ", which is taken to be up; it may be " +
+             axis_name(-guess.axis);
+    case UpGuess::Reason::assumed:
+    case UpGuess::Reason::nothing:
+      return "nothing says what is up; " + axis + " is assumed";
+  }
+  return "";
 }
 
 }  // namespace tureen

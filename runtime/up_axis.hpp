@@ -1,4 +1,4 @@
-// Which way is up in a scene whose file need not say: a guess, and a sentence for the person who
+// Which way is up in a scene whose file need not say: a guess, and its reason for the person who
 // may know better.
 #pragma once
 
@@ -16,20 +16,31 @@ namespace tureen {
 /// What is known. Anything may be missing.
 struct UpEvidence {
   glm::dvec3 stored{0.0};          // SceneInfo::up; (0, 0, 0): nothing
-  bool stored_is_assumed = false;  // a reader's assumption, not the file's word
+  bool stored_is_assumed = false;  // SceneInfo::up_is_assumed
   std::span<const Camera> cameras = {};
   glm::dvec3 extent{0.0};  // the sides of the scene's box
 };
 
-/// What a scene tells. Readers that assume an axis say so in a note with the words "up" and
-/// "assumed"; no field of the scene does. `subject` is subject_of(scene); the scene must outlive
-/// the evidence.
+/// What a scene tells. `subject` is subject_of(scene); the scene must outlive the evidence.
 UpEvidence evidence_of(const Scene& scene, const Subject& subject);
 
 struct UpGuess {
+  enum class Reason {
+    stored,             // the file says so
+    cameras_near_axis,  // the mean of the cameras' up axes lies near it
+    cameras,            // it is that mean
+    flat,               // along the short side of the box, whose sign is a guess
+    assumed,            // by the reader
+    nothing             // y
+  };
   glm::dvec3 axis{0, 1, 0};  // of unit length
-  std::string why;           // a sentence for people
+  Reason reason = Reason::nothing;
+  std::size_t cameras = 0;  // how many, where they are the reason
+  double degrees = 0;       // between their mean and the axis
 };
+
+/// The reason in a sentence, without a full stop.
+std::string describe(const UpGuess& guess);
 
 /// In this order:
 /// - What the file itself says.

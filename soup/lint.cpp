@@ -148,49 +148,79 @@ struct NeverVisible {
   }
 };
 
-// --- Sentences ------------------------------------------------------------------------------
+}  // namespace
 
-std::string sentence(const LintFinding& finding, std::size_t all, const char* one, const char* many,
-                     const char* predicate_one, const char* predicate_many) {
+const char* name_of(LintFinding::Id id) {
+  switch (id) {
+    case LintFinding::Id::non_finite_vertices:
+      return "non_finite_vertices";
+    case LintFinding::Id::degenerate_faces:
+      return "degenerate_faces";
+    case LintFinding::Id::duplicate_faces:
+      return "duplicate_faces";
+    case LintFinding::Id::never_visible_faces:
+      return "never_visible_faces";
+    case LintFinding::Id::unused_vertices:
+      return "unused_vertices";
+    case LintFinding::Id::far_from_origin:
+      return "far_from_origin";
+  }
+  return "";
+}
+
+std::string describe(const LintFinding& finding) {
   const bool single = finding.count == 1;
-  std::string text = std::to_string(finding.count) + " of " + std::to_string(all) + " " + many +
-                     " " + (single ? predicate_one : predicate_many) + ": " + (single ? one : many);
+  bool vertices = false;
+  const char* predicate = "";
+  switch (finding.id) {
+    case LintFinding::Id::non_finite_vertices:
+      vertices = true;
+      predicate = single ? "is not finite (NaN or infinity)" : "are not finite (NaN or infinity)";
+      break;
+    case LintFinding::Id::degenerate_faces:
+      predicate = single ? "is degenerate (zero area)" : "are degenerate (zero area)";
+      break;
+    case LintFinding::Id::duplicate_faces:
+      predicate = single ? "repeats the corners of an earlier face"
+                         : "repeat the corners of an earlier face";
+      break;
+    case LintFinding::Id::never_visible_faces:
+      predicate = single ? "is transparent everywhere" : "are transparent everywhere";
+      break;
+    case LintFinding::Id::unused_vertices:
+      vertices = true;
+      predicate = single ? "is used by no face" : "are used by no face";
+      break;
+    case LintFinding::Id::far_from_origin:
+      return "the vertices lie far from the origin for 32 bit floats: the extent is only " +
+             std::to_string(finding.extent_over_offset) +
+             " of the largest coordinate (below 0.0002); store them relative to an origin";
+  }
+  const char* many = vertices ? "vertices" : "faces";
+  std::string text = std::to_string(finding.count) + " of " + std::to_string(finding.of) + " " +
+                     many + " " + predicate + ": " +
+                     (single ? (vertices ? "vertex" : "face") : many);
   for (std::size_t i = 0; i < finding.first.size(); ++i)
     text += (i ? ", " : " ") + std::to_string(finding.first[i]);
   return text + (finding.count > finding.first.size() ? " ..." : "");
 }
 
-void describe(Lint& lint, const TriangleSoup& soup) {
-  const auto add = [&](const LintFinding& finding, bool vertices, const char* predicate_one,
-                       const char* predicate_many) {
-    if (finding.count == 0) return;
-    lint.sentences.push_back(sentence(finding,
-                                      vertices ? soup.positions.size() : soup.triangles.size(),
-                                      vertices ? "vertex" : "face", vertices ? "vertices" : "faces",
-                                      predicate_one, predicate_many));
-  };
-  add(lint.non_finite_vertices, true, "is not finite (NaN or infinity)",
-      "are not finite (NaN or infinity)");
-  add(lint.degenerate_faces, false, "is degenerate (zero area)", "are degenerate (zero area)");
-  add(lint.duplicate_faces, false, "repeats the corners of an earlier face",
-      "repeat the corners of an earlier face");
-  add(lint.never_visible_faces, false, "is transparent everywhere", "are transparent everywhere");
-  add(lint.unused_vertices, true, "is used by no face", "are used by no face");
-  if (lint.far_from_origin)
-    lint.sentences.push_back(
-        "the vertices lie far from the origin for 32 bit floats: the extent is only " +
-        std::to_string(lint.extent_over_offset) +
-        " of the largest coordinate (below 0.0002); store them relative to an origin");
+const LintFinding* Lint::find(LintFinding::Id id) const {
+  const auto found = std::find_if(findings.begin(), findings.end(),
+                                  [&](const LintFinding& finding) { return finding.id == id; });
+  return found == findings.end() ? nullptr : &*found;
 }
 
-}  // namespace
-
 Lint lint(const TriangleSoup& soup) {
-  Lint result;
+  LintFinding non_finite{.id = LintFinding::Id::non_finite_vertices, .of = soup.positions.size()};
+  LintFinding degenerate{.id = LintFinding::Id::degenerate_faces, .of = soup.triangles.size()};
+  LintFinding duplicate{.id = LintFinding::Id::duplicate_faces, .of = soup.triangles.size()};
+  LintFinding hidden{.id = LintFinding::Id::never_visible_faces, .of = soup.triangles.size()};
+  LintFinding unused{.id = LintFinding::Id::unused_vertices, .of = soup.positions.size()};
   std::vector<bool> finite(soup.positions.size());
   for (std::size_t v = 0; v < soup.positions.size(); ++v) {
     finite[v] = is_finite(soup.positions[v]);
-    if (!finite[v]) count(result.non_finite_vertices, v);
+    if (!finite[v]) count(non_finite, v);
   }
 
   std::vector<bool> used(soup.positions.size());
@@ -201,14 +231,17 @@ Lint lint(const TriangleSoup& soup) {
     for (int k = 0; k < 3; ++k) used[t[k]] = true;
     if (!finite[t.x] || !finite[t.y] || !finite[t.z]) continue;
     if (is_degenerate(soup.positions[t.x], soup.positions[t.y], soup.positions[t.z]))
-      count(result.degenerate_faces, f);
+      count(degenerate, f);
     else
       ordinary[f] = true;
-    if (never_visible(f)) count(result.never_visible_faces, f);
+    if (never_visible(f)) count(hidden, f);
   }
   for (std::size_t v = 0; v < used.size(); ++v)
-    if (!used[v]) count(result.unused_vertices, v);
-  find_duplicates(soup, ordinary, result.duplicate_faces);
+    if (!used[v]) count(unused, v);
+  find_duplicates(soup, ordinary, duplicate);
+  Lint result;
+  for (LintFinding* finding : {&non_finite, &degenerate, &duplicate, &hidden, &unused})
+    if (finding->count > 0) result.findings.push_back(std::move(*finding));
 
   const Bounds box = bounds(soup);
   double offset = 0;
@@ -218,8 +251,9 @@ Lint lint(const TriangleSoup& soup) {
   // fills a screen (docs/numerics.md, G3b).
   constexpr double smallest_ratio = 2e-4;
   result.extent_over_offset = offset > 0 ? 2 * box.radius() / offset : 0;
-  result.far_from_origin = offset > 0 && result.extent_over_offset < smallest_ratio;
-  describe(result, soup);
+  if (offset > 0 && result.extent_over_offset < smallest_ratio)
+    result.findings.push_back(
+        {.id = LintFinding::Id::far_from_origin, .extent_over_offset = result.extent_over_offset});
   return result;
 }
 

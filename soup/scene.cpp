@@ -2,15 +2,20 @@
 
 namespace tureen {
 
+std::vector<std::string> all_notes(const SceneInfo& info) {
+  std::vector<std::string> notes = info.notes;
+  for (std::string& sentence : described(info.remarks)) notes.push_back(std::move(sentence));
+  return notes;
+}
+
 TriangleSoup& opaque_soup(Scene& scene) {
   if (auto* soft = std::get_if<SoftTriangles>(&scene.primitives)) {
     OpaqueResult result = to_opaque(std::move(*soft));
-    for (std::string& note : result.notes) scene.info.notes.push_back(std::move(note));
+    for (Remark& remark : result.remarks) scene.info.remarks.push_back(std::move(remark));
     scene.primitives = std::move(result.soup);
     if (scene.preset && defect(*scene.preset, std::get<TriangleSoup>(scene.primitives))) {
       scene.preset.reset();
-      scene.info.notes.push_back(
-          "the preset chooses among soft triangles, some of which are not drawn: it is left out");
+      scene.info.remarks.push_back({Remark::Kind::preset_dropped});
     }
   }
   return std::get<TriangleSoup>(scene.primitives);

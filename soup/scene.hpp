@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "soup/camera.hpp"
+#include "soup/remark.hpp"
 #include "soup/render_preset.hpp"
 #include "soup/soft_triangles.hpp"
 #include "soup/triangle_soup.hpp"
@@ -17,10 +18,16 @@ namespace tureen {
 struct SceneInfo {
   std::string name;
   glm::vec3 up{0.0f, 1.0f, 0.0f};  // unit length
+  bool up_is_assumed = false;      // by the reader: the file does not say it
   glm::vec3 background{0.0f};      // display-referred
   std::string source;              // the method or format it came from, for people
-  std::vector<std::string> notes;  // what reading it assumed or lost, a sentence each
+  bool compressed = false;         // read from a slim file
+  std::vector<Remark> remarks;     // what reading it assumed or lost
+  std::vector<std::string> notes;  // stored in the file: text for people, which nothing interprets
 };
+
+/// The notes, and after them the remarks described.
+std::vector<std::string> all_notes(const SceneInfo& info);
 
 struct Scene {
   std::variant<TriangleSoup, SoftTriangles> primitives;
@@ -30,8 +37,8 @@ struct Scene {
   std::optional<RenderPreset> preset = {};  // without a defect(); nothing: draw faithfully
 };
 
-/// The soup to draw: the scene's own, or what becomes of its soft triangles (to_opaque), with a
-/// sentence on what that loses added to info.notes. The scene holds a TriangleSoup afterwards.
+/// The soup to draw: the scene's own, or what becomes of its soft triangles (to_opaque), with
+/// what that loses added to info.remarks. The scene holds a TriangleSoup afterwards.
 TriangleSoup& opaque_soup(Scene& scene);
 
 }  // namespace tureen

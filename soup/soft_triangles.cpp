@@ -41,19 +41,14 @@ OpaqueResult to_opaque(SoftTriangles soft, float minimum_opacity) {
                                      .coefficients = std::move(soft.coefficients)};
   if (count == 0) return result;
 
-  char text[256];
-  if (kept > 0) {
-    std::snprintf(text, sizeof text,
-                  "soft triangles are drawn opaque: a soft triangle covers %.0f%% of its area in "
-                  "the mean (opacity %.2f), the opaque face covers all of it",
-                  100 * mean_solidity / double(kept), mean_opacity / double(kept));
-    result.notes.emplace_back(text);
-  }
-  if (kept < count) {
-    std::snprintf(text, sizeof text, "%zu of %zu soft triangles have an opacity below %g: dropped",
-                  count - kept, count, double(minimum_opacity));
-    result.notes.emplace_back(text);
-  }
+  if (kept > 0)
+    result.remarks.push_back(
+        {.kind = Remark::Kind::soft_triangles_opaque,
+         .values = {mean_solidity / double(kept), mean_opacity / double(kept)}});
+  if (kept < count)
+    result.remarks.push_back({.kind = Remark::Kind::soft_triangles_dropped,
+                              .counts = {count - kept, count},
+                              .values = {double(minimum_opacity)}});
   return result;
 }
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <string>
 #include <vector>
 
+#include "soup/remark.hpp"
 #include "soup/triangle_soup.hpp"
 
 namespace tureen {
@@ -26,7 +26,7 @@ double solidity(double opacity, double sigma);
 
 struct OpaqueResult {
   TriangleSoup soup;
-  std::vector<std::string> notes;  // what was lost, a sentence each
+  std::vector<Remark> remarks;  // what was lost
 };
 
 /// Opaque faces with the same harmonics. Keeps every triangle whose opacity reaches

@@ -105,7 +105,7 @@ void Application::show(std::unique_ptr<Stage> stage, bool keep_view) {
   watch_ = state_.stage->watch;
   remember(state_.settings, state_.stage->path);
   window_.set_title(short_name(state_.stage->path) + " - Tureen");
-  for (const std::string& note : state_.stage->scene->info.notes)
+  for (const std::string& note : all_notes(state_.stage->scene->info))
     state_.messages.note(note, state_.now);
 }
 
@@ -121,7 +121,7 @@ void Application::carry_out(const OpenPhotographs& request) {
                Photographs photographs{.path = path,
                                        .list = std::move(dataset->train),
                                        .train_count = 0,
-                                       .notes = std::move(dataset->notes)};
+                                       .notes = described(dataset->remarks)};
                photographs.train_count = photographs.list.size();
                std::move(dataset->test.begin(), dataset->test.end(),
                          std::back_inserter(photographs.list));

@@ -178,9 +178,9 @@ TEST_F(Program, InfoTellsWhatASceneIs) {
   const ChildResult result = run({"info", "scene.off", "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto json = nlohmann::ordered_json::parse(result.out);
-  for (const char* key :
-       {"file", "triangles", "vertices", "appearance", "bytes_on_disk", "bytes_in_memory",
-        "bytes_on_device", "bounds", "up", "cameras", "notes", "plan", "devices", "lint"})
+  for (const char* key : {"file", "triangles", "vertices", "appearance", "bytes_on_disk",
+                          "bytes_in_memory", "bytes_on_device", "bounds", "up", "cameras", "notes",
+                          "remarks", "plan", "devices", "lint"})
     EXPECT_TRUE(json.contains(key)) << key;
   EXPECT_EQ(json["triangles"], 3);
   EXPECT_EQ(json["appearance"], "face colours");
@@ -209,7 +209,7 @@ TEST_F(Program, ConvertNeverOverwritesSilently) {
   const ChildResult first = run({"convert", "scene.off", "scene.ply", "--json"});
   ASSERT_EQ(first.exit_code, 0) << first.err;
   EXPECT_THAT(keys(nlohmann::ordered_json::parse(first.out)),
-              ElementsAre("output", "bytes_on_disk", "notes", "lost"));
+              ElementsAre("output", "bytes_on_disk", "notes", "remarks", "lost"));
   write("scene.ply", "precious");
   const ChildResult second = run({"convert", "scene.off", "scene.ply"});
   EXPECT_EQ(second.exit_code, 2);

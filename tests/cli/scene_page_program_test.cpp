@@ -77,7 +77,8 @@ TEST_F(ScenePage, HoldsAFileOfOursAsItIs) {
   EXPECT_TRUE(scene_in("part.html", part_name) == text_of("part.glb"));
   EXPECT_THAT(result.err, HasSubstr("wrote part.html"));
   const auto json = nlohmann::ordered_json::parse(result.out);
-  EXPECT_THAT(keys(json), testing::ElementsAre("output", "bytes_on_disk", "notes", "lost"));
+  EXPECT_THAT(keys(json),
+              testing::ElementsAre("output", "bytes_on_disk", "notes", "remarks", "lost"));
   EXPECT_EQ(json["output"], "part.html");
   EXPECT_EQ(json["bytes_on_disk"], fs::file_size(folder / "part.html"));
 }

@@ -28,8 +28,8 @@ TEST(ShippedSoup, LoadsWithoutNotesOrLint) {
   ASSERT_TRUE(std::holds_alternative<TriangleSoup>(scene().primitives));
   const auto& soup = std::get<TriangleSoup>(scene().primitives);
   EXPECT_FALSE(defect(soup));
-  EXPECT_THAT(lint(soup).sentences, testing::IsEmpty());
-  EXPECT_THAT(scene().info.notes, testing::IsEmpty());
+  EXPECT_THAT(lint(soup).findings, testing::IsEmpty());
+  EXPECT_THAT(all_notes(scene().info), testing::IsEmpty());
   EXPECT_EQ(scene().info.up, glm::vec3(0, 0, 1));
   EXPECT_GE(scene().cameras.size(), 1u);
   EXPECT_LT(std::filesystem::file_size(file), 3'000'000u);

@@ -91,7 +91,7 @@ TEST(CameraFile, ReadsTransformsWithFullIntrinsics) {
   // A frame's own numbers stand above the common ones.
   EXPECT_EQ(file.cameras[1].width, 320);
   EXPECT_EQ(file.cameras[1].cx, 160);
-  EXPECT_THAT(file.notes, IsEmpty());
+  EXPECT_THAT(file.remarks, IsEmpty());
 }
 
 TEST(CameraFile, AnAngleAloneMeansSquarePixelsAndTheUsualSize) {
@@ -104,14 +104,14 @@ TEST(CameraFile, AnAngleAloneMeansSquarePixelsAndTheUsualSize) {
   EXPECT_NEAR(file.cameras[0].fx, 1111.1110, 1e-3);
   EXPECT_EQ(file.cameras[0].fx, file.cameras[0].fy);
   EXPECT_EQ(file.cameras[0].cx, 400);
-  EXPECT_THAT(file.notes, ElementsAre(HasSubstr("800 x 800 is assumed")));
+  EXPECT_THAT(file.remarks, ElementsAre(Remark{Remark::Kind::image_size_missing, {800, 800}}));
 }
 
 TEST(CameraFile, SaysThatDistortionIsLeftOut) {
   const CameraFile file =
       read(std::string("{\"fl_x\": 9, \"w\": 8, \"h\": 8, \"k1\": 0.05, \"frames\": [{") +
            identity + "}]}");
-  EXPECT_THAT(file.notes, ElementsAre(HasSubstr("lens distortion")));
+  EXPECT_THAT(file.remarks, ElementsAre(Remark{Remark::Kind::lens_dropped}));
 }
 
 TEST(CameraFile, RefusesWithTheFileTheCameraAndTheReason) {
@@ -173,7 +173,7 @@ TEST(CameraFile, ReadsCamerasOfGaussianSplatting) {
   EXPECT_LT(glm::length(axes[0] - glm::dvec3(1, 0, 0)), 1e-12);
   EXPECT_LT(glm::length(axes[1] - glm::dvec3(0, 0, 1)), 1e-12);
   EXPECT_LT(glm::length(-axes[2] - glm::dvec3(0, 1, 0)), 1e-12);
-  EXPECT_THAT(file.notes, IsEmpty());
+  EXPECT_THAT(file.remarks, IsEmpty());
   // What some descendants add.
   EXPECT_EQ(read(gaussian_with("\"id\": 0", "\"cx\": 301.5")).cameras[0].cx, 301.5);
   EXPECT_THAT(read("[]").cameras, IsEmpty());
@@ -236,7 +236,7 @@ TEST(CameraFile, ReadsAModelByColmapInBothForms) {
       EXPECT_EQ(camera.view_from_world * glm::dvec4(0, 0, 0, 1),
                 glm::dvec4(0.25 * double(i), -0.5, -3, 1));
     }
-    EXPECT_THAT(file.notes, ElementsAre(HasSubstr("lens distortion")));
+    EXPECT_THAT(file.remarks, ElementsAre(Remark{Remark::Kind::lens_dropped}));
   }
 }
 

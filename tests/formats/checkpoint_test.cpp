@@ -262,7 +262,9 @@ TEST(Checkpoint, TriangleSplattingIsActivated) {
   EXPECT_EQ(soft.coefficients[10].x, 7 + 0.001f * 45);
   EXPECT_EQ(soft.coefficients[17].z, 7 + 0.001f * (45 + 23));
   EXPECT_EQ(scene.info.up, glm::vec3(0, -1, 0));
-  EXPECT_THAT(scene.info.notes, ::testing::Contains(HasSubstr("-y is assumed")));
+  EXPECT_TRUE(scene.info.up_is_assumed);
+  EXPECT_THAT(scene.info.remarks,
+              ::testing::Contains(Remark{Remark::Kind::up_unknown_to_checkpoint}));
 
   EXPECT_EQ(std::get<SoftTriangles>(read(triangle_splatting(0, 15)).primitives).coefficients.size(),
             2u);

@@ -171,7 +171,7 @@ TEST(Dataset, ReadsColmap) {
   EXPECT_EQ(dataset.points[0].position, glm::dvec3(1, 2, 3));
   // All cameras stand upright, with COLMAP's y down.
   EXPECT_EQ(dataset.up, glm::vec3(0, -1, 0));
-  EXPECT_THAT(dataset.notes, ElementsAre(HasSubstr("mean of the cameras' up axes")));
+  EXPECT_THAT(dataset.remarks, ElementsAre(Remark{Remark::Kind::up_of_cameras}));
 }
 
 TEST(Dataset, ReadsNoPictureOfTheOtherPart) {
@@ -257,7 +257,8 @@ TEST(Dataset, WithoutDistortedBordersEveryPixelIsEvidence) {
   const Dataset whole = read_dataset(folder / "");
   const Photograph& photograph = whole.train[0];
   EXPECT_FALSE(whole.has_alpha);
-  EXPECT_THAT(whole.notes, ::testing::Contains(HasSubstr("Lens distortion was undone")));
+  EXPECT_THAT(whole.remarks,
+              ::testing::Contains(::testing::Field(&Remark::kind, Remark::Kind::lens_undone)));
   for (const glm::u8vec4& pixel : photograph.image.pixels)
     ASSERT_EQ(pixel, glm::u8vec4(200, 100, 50, 255));
   // At the left edge, 38 pixels from the axis, r^2 = 0.295: 3 % or 1.1 pixels are missing; at the
@@ -479,7 +480,8 @@ TEST(DatasetData, BottleHasPointsInFrontOfItsCameras) {
   EXPECT_EQ(dataset.train.size(), 88u);
   EXPECT_EQ(dataset.test.size(), 13u);
   ASSERT_EQ(dataset.points.size(), 6885u);
-  EXPECT_THAT(dataset.notes, Not(::testing::Contains(HasSubstr("istortion"))));
+  EXPECT_THAT(dataset.remarks,
+              Not(::testing::Contains(::testing::Field(&Remark::kind, Remark::Kind::lens_undone))));
   // Structure from motion took the colours of the points from these pictures. Some are hidden in
   // some views, so what they project to is only nearer to their colour than to that of others.
   double own = 0, others = 0;

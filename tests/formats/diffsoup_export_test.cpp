@@ -117,7 +117,7 @@ TEST_P(DiffSoupLevel, RoundTripKeepsValuesToHalfAByteAndTheSideOfEveryAlpha) {
   EXPECT_EQ(copy.info.name, "scene");
   EXPECT_EQ(copy.info.background, scene.info.background);
   EXPECT_NEAR(glm::distance(copy.info.up, scene.info.up), 0, 1e-6);
-  EXPECT_THAT(copy.info.notes, IsEmpty());
+  EXPECT_THAT(copy.info.remarks, IsEmpty());
   EXPECT_EQ(testing::soup_of(copy).positions, testing::soup_of(scene).positions);
   EXPECT_EQ(testing::soup_of(copy).triangles, testing::soup_of(scene).triangles);
   const LatticeTexture &before = texture_of(scene), &after = texture_of(copy);
@@ -229,7 +229,7 @@ TEST(DiffSoupExport, TheHalfThatTruncationLostIsRestoredAndCounted) {
   // As the published exporter writes it, without our key.
   replace_in(folder / "a/meta.json", "\"tureen\"", "\"another\"");
   Scene copy = read_diffsoup_export(folder / "a");
-  EXPECT_THAT(copy.info.notes, Contains(HasSubstr("20 of 90 texels have an alpha byte of 127")));
+  EXPECT_THAT(copy.info.remarks, Contains(Remark{Remark::Kind::alpha_half_restored, {20, 90}}));
   for (std::size_t i = 0; i < 20; ++i) bytes[8 * i + 7] = 128;
   EXPECT_EQ(std::get<std::vector<std::uint8_t>>(texture_of(copy).texels), bytes);
   // No pile at 127: a smooth distribution, which is left as it is.
@@ -238,7 +238,7 @@ TEST(DiffSoupExport, TheHalfThatTruncationLostIsRestoredAndCounted) {
   write_diffsoup_export(scene, folder / "a");
   replace_in(folder / "a/meta.json", "\"tureen\"", "\"another\"");
   copy = read_diffsoup_export(folder / "a");
-  EXPECT_THAT(copy.info.notes, IsEmpty());
+  EXPECT_THAT(copy.info.remarks, IsEmpty());
   EXPECT_EQ(texture_of(copy).texels, texture.texels);
 }
 
@@ -422,7 +422,8 @@ TEST(DiffSoupExport, WithoutMetaTheViewersDefaultsHold) {
   EXPECT_EQ(texture_of(scene).patches[1].level, 5u);
   EXPECT_EQ(scene.info.up, glm::vec3(0, -1, 0));
   EXPECT_EQ(scene.info.background, glm::vec3(0));
-  EXPECT_THAT(scene.info.notes, Contains(HasSubstr("meta.json is missing")));
+  EXPECT_TRUE(scene.info.up_is_assumed);
+  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::meta_missing}));
 }
 
 TEST(DiffSoupExport, AnImageOfAnotherLevelThanWasAssumedIsRefusedByThat) {

@@ -116,7 +116,7 @@ TEST(MobileNerf, AFolderBecomesOneSoup) {
   const Scene scene = read_mobilenerf(folder / "");
   const TriangleSoup& soup = soup_of(scene);
   ASSERT_EQ(defect(soup), std::nullopt);
-  EXPECT_THAT(scene.info.notes, IsEmpty());
+  EXPECT_THAT(scene.info.remarks, IsEmpty());
   EXPECT_EQ(soup.triangles.size(), 6u);
   EXPECT_EQ(soup.positions.size(), 12u);
   EXPECT_EQ(soup.triangles[2], glm::uvec3(4, 5, 6));
@@ -180,8 +180,8 @@ TEST(MobileNerf, MissingShapesAreNamedAndTheRestIsDrawn) {
   write_text(folder / "mlp.json", random_network(1, 5).dump());
   fs::remove(folder / "shape0.pngfeat1.png");
   const Scene scene = read_mobilenerf(folder / "mlp.json");
-  EXPECT_THAT(scene.info.notes, Contains("shapes 2, 3 and 4 of 5 missing: the rest is drawn"));
-  EXPECT_THAT(scene.info.notes, Contains("shape 0 of 5 without feature images: the rest is drawn"));
+  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::shapes_missing, {2, 3, 4, 5}}));
+  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::shapes_untextured, {0, 5}}));
   EXPECT_EQ(soup_of(scene).triangles.size(), 4u);
   fs::remove(folder / "shape1.pngfeat0.png");
   EXPECT_THAT(input_error([&] { read_mobilenerf(folder / ""); }),
@@ -263,7 +263,7 @@ TEST(MobileNerf, TheDrums) {
   EXPECT_EQ(defect(soup), std::nullopt);
   EXPECT_EQ(soup.triangles.size(), 11026u);
   EXPECT_EQ(scene.info.name, "mobilenerf_drums");
-  EXPECT_THAT(scene.info.notes, Contains("shapes 0 and 1 of 3 missing: the rest is drawn"));
+  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::shapes_missing, {0, 1, 3}}));
   const Image8& image = std::get<UvTextures>(soup.appearance).images[0];
   EXPECT_EQ(image.width, 4096);
   std::size_t holes = 0;

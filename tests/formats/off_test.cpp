@@ -44,7 +44,8 @@ TEST(Off, ReadsTriangleSplattingsCoff) {
               ElementsAre(glm::vec4(127 / 255.0f, 139 / 255.0f, 60 / 255.0f, 1.0f)));
   EXPECT_EQ(scene.info.name, "plant");
   EXPECT_EQ(scene.info.up, glm::vec3(0, 0, 1));
-  EXPECT_THAT(scene.info.notes, ElementsAre("OFF knows no up axis: z is assumed; --up changes it"));
+  EXPECT_THAT(scene.info.remarks,
+              ElementsAre(Remark{.kind = Remark::Kind::up_unknown_to_format, .names = {"OFF"}}));
 }
 
 TEST(Off, ReadsHeadersOfAllKinds) {
@@ -63,23 +64,19 @@ TEST(Off, FansPolygonsAndCopiesTheirColour) {
                           glm::uvec3(4, 2, 1), glm::uvec3(4, 1, 0)));
   const glm::vec4 a(0.25f, 0.5f, 0.75f, 1.0f), b(1, 0, 0, 0.5f);
   EXPECT_THAT(face_rgba(scene), ElementsAre(a, a, b, b, b));
-  EXPECT_THAT(scene.info.notes,
-              Contains("2 polygons of more than three corners became fans of triangles."));
-  EXPECT_THAT(scene.info.notes, Contains("1 face of fewer than three corners left out."));
+  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::polygons_split, {2}}));
+  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::small_faces_dropped, {1}}));
 }
 
 TEST(Off, DrawsUncolouredFacesGrey) {
   const Scene some = read_text("OFF 3 3 0\n" + triangle + "3 0 1 2\n3 0 1 2 255 0 0\n3 2 1 0 7\n");
   const glm::vec4 grey(0.8f, 0.8f, 0.8f, 1.0f);
   EXPECT_THAT(face_rgba(some), ElementsAre(grey, glm::vec4(1, 0, 0, 1), grey));
-  EXPECT_THAT(some.info.notes, Contains("2 triangles have no colour and are drawn grey (0.8)."));
-  EXPECT_THAT(
-      some.info.notes,
-      Contains("The colours of 1 face are numbers of a colour map, which OFF does not hold."));
+  EXPECT_THAT(some.info.remarks, Contains(Remark{Remark::Kind::face_colors_missing, {2}}));
+  EXPECT_THAT(some.info.remarks, Contains(Remark{Remark::Kind::face_colors_mapped, {1}}));
   const Scene none = read_text("OFF 3 1 0\n" + triangle + "3 0 1 2\n");
   EXPECT_THAT(face_rgba(none), ElementsAre(grey));
-  EXPECT_THAT(none.info.notes,
-              Contains("The file holds no colours; everything is drawn grey (0.8)."));
+  EXPECT_THAT(none.info.remarks, Contains(Remark{Remark::Kind::colors_missing}));
 }
 
 TEST(Off, ReadsVertexColours) {
@@ -87,8 +84,7 @@ TEST(Off, ReadsVertexColours) {
       read_text("COFF 3 1 0\n0 0 0 255 0 51 255\n1 0 0 0 0 0 0\n0 1 0 1 1 1 1\n3 0 1 2 1 2 3\n");
   EXPECT_THAT(vertex_rgba(bytes),
               ElementsAre(glm::vec4(1, 0, 51 / 255.0f, 1), glm::vec4(0), glm::vec4(1 / 255.0f)));
-  EXPECT_THAT(bytes.info.notes,
-              Contains("The file colours vertices and faces; the face colours are left out."));
+  EXPECT_THAT(bytes.info.remarks, Contains(Remark{Remark::Kind::face_colors_dropped}));
   const Scene floats = read_text("OFF 3 1 0\n0 0 0 1 0 0\n1 0 0 0.5 0 0\n0 1 0 1 1 1\n3 0 1 2\n");
   EXPECT_THAT(vertex_rgba(floats),
               ElementsAre(glm::vec4(1, 0, 0, 1), glm::vec4(0.5f, 0, 0, 1), glm::vec4(1)));
@@ -106,10 +102,10 @@ TEST(Off, TellsBytesFromFloatsOverTheWholeFile) {
   EXPECT_THAT(colors("1 0 0 1", "0 0 0 0"), ElementsAre(red, red, glm::vec4(0)));
 }
 
-TEST(Off, ClampsFloatColoursWithANote) {
+TEST(Off, ClampsFloatColoursWithARemark) {
   const Scene scene = read_text("OFF 3 1 0\n" + triangle + "3 0 1 2 1.5 -0.5 nan");
   EXPECT_THAT(face_rgba(scene), ElementsAre(glm::vec4(1, 0, 0, 1)));
-  EXPECT_THAT(scene.info.notes, Contains("3 colour components outside 0..1 clamped."));
+  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::color_components_clamped, {3}}));
 }
 
 TEST(Off, KeepsPositionsThatAreNotFinite) {
@@ -149,9 +145,9 @@ TEST(Off, X5_CommentsMissingAlphaAndColoursFromZeroToOneAreRead) {
   EXPECT_EQ(of_vertex("1.0 0.5 0.25 0.125"), glm::vec4(1, 0.5f, 0.25f, 0.125f));
 }
 
-TEST(Off, NotesTrailingText) {
+TEST(Off, RemarksOnTrailingText) {
   const Scene scene = read_text("OFF 3 1 0\n" + triangle + "3 0 1 2\n# fine\n\nmore\n");
-  EXPECT_THAT(scene.info.notes, Contains("Text after the last face, from line 8 on, is ignored."));
+  EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::text_ignored, {8}}));
 }
 
 TEST(Off, RefusesByNameAndPlace) {
@@ -316,7 +312,8 @@ TEST(Off, ReadsTheRealFicus) {
   EXPECT_EQ(soup_of(scene).triangles.size(), 33417u);
   EXPECT_EQ(soup_of(scene).positions.size(), 100251u);
   EXPECT_EQ(face_rgba(scene).front(), glm::vec4(162 / 255.0f, 155 / 255.0f, 127 / 255.0f, 1));
-  EXPECT_THAT(scene.info.notes, ElementsAre("OFF knows no up axis: z is assumed; --up changes it"));
+  EXPECT_THAT(scene.info.remarks,
+              ElementsAre(Remark{.kind = Remark::Kind::up_unknown_to_format, .names = {"OFF"}}));
 }
 
 TEST(Off, HostileFilesEndWell) {

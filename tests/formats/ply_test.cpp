@@ -114,8 +114,7 @@ TEST(Ply, ReadsAnyOrderTypeAndEncoding) {
       EXPECT_THAT(face_rgba(scene), ElementsAre(a, a, c));
       EXPECT_EQ(scene.info.name, "plant");
       EXPECT_EQ(scene.info.up, glm::vec3(0, 0, 1));
-      EXPECT_THAT(scene.info.notes,
-                  Contains("1 polygon of more than three corners became fans of triangles."));
+      EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::polygons_split, {1}}));
     }
 }
 
@@ -137,14 +136,13 @@ TEST(Ply, ReadsVertexColours) {
               ElementsAre(glm::vec4(1, 0, 51 / 255.0f, 0),
                           glm::vec4(1 / 255.0f, 2 / 255.0f, 3 / 255.0f, 4 / 255.0f),
                           glm::vec4(0, 0, 0, 1)));
-  EXPECT_THAT(bytes.info.notes,
-              Contains("The file colours vertices and faces; the face colours are left out."));
+  EXPECT_THAT(bytes.info.remarks, Contains(Remark{Remark::Kind::face_colors_dropped}));
   const Scene floats = read_bytes(
       ascii + vertices3 + "property float red\nproperty double green\nproperty float blue\n" +
       faces1 + "end_header\n0 0 0 1 0.5 0\n1 0 0 2 nan 3\n0 1 0 0 0 0\n3 0 1 2\n");
   EXPECT_THAT(vertex_rgba(floats),
               ElementsAre(glm::vec4(1, 0.5f, 0, 1), glm::vec4(1, 0, 1, 1), glm::vec4(0, 0, 0, 1)));
-  EXPECT_THAT(floats.info.notes, Contains("3 colour components outside 0..1 clamped."));
+  EXPECT_THAT(floats.info.remarks, Contains(Remark{Remark::Kind::color_components_clamped, {3}}));
 }
 
 TEST(Ply, ReadsTriangleStrips) {
@@ -164,14 +162,15 @@ TEST(Ply, KeepsPositionsThatAreNotFinite) {
   EXPECT_EQ(soup_of(scene).positions[1].x, -INFINITY);
 }
 
-TEST(Ply, NotesTrailingBytes) {
+TEST(Ply, RemarksOnTrailingBytes) {
   const std::string text = ascii + vertices3 + faces1 + "end_header\n" + body3 + "3 0 1 2\n";
-  EXPECT_THAT(read_bytes(text + "\n \nxyz").info.notes,
-              Contains("3 bytes after the last element ignored."));
-  EXPECT_THAT(read_bytes(text + "\n \n").info.notes,
-              ElementsAre(HasSubstr("no up axis"), HasSubstr("no colours")));
-  EXPECT_THAT(read_bytes(rich_file("binary_big_endian", "\n") + "xyz\n").info.notes,
-              Contains("4 bytes after the last element ignored."));
+  EXPECT_THAT(read_bytes(text + "\n \nxyz").info.remarks,
+              Contains(Remark{Remark::Kind::bytes_ignored, {3}}));
+  EXPECT_THAT(read_bytes(text + "\n \n").info.remarks,
+              ElementsAre(Remark{.kind = Remark::Kind::up_unknown_to_format, .names = {"PLY"}},
+                          Remark{Remark::Kind::colors_missing}));
+  EXPECT_THAT(read_bytes(rich_file("binary_big_endian", "\n") + "xyz\n").info.remarks,
+              Contains(Remark{Remark::Kind::bytes_ignored, {4}}));
 }
 
 TEST(Ply, RefusesWhatIsNotTriangles) {

@@ -28,10 +28,11 @@ TEST(SceneFile, TellsFormatsByContentBeforeName) {
   write_text(folder / "a.off", off_text);
   write_text(folder / "b.ply", off_text);
   write_text(folder / "c", off_text);
-  EXPECT_THAT(read_scene(folder / "a.off").info.notes, Not(Contains(HasSubstr("content"))));
+  const Remark misnaming{.kind = Remark::Kind::content_misnamed, .names = {".ply", "OFF"}};
+  EXPECT_THAT(read_scene(folder / "a.off").info.remarks, Not(Contains(misnaming)));
   const Scene misnamed = read_scene(folder / "b.ply");
   EXPECT_EQ(soup_of(misnamed).triangles.size(), 1u);
-  EXPECT_THAT(misnamed.info.notes, Contains("The name ends in .ply, but the content is OFF."));
+  EXPECT_THAT(misnamed.info.remarks, Contains(misnaming));
   EXPECT_EQ(soup_of(read_scene(folder / "c")).triangles.size(), 1u);
 }
 

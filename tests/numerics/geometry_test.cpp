@@ -260,7 +260,7 @@ TEST(Numerics, G3b_CoarseVerticesAreToldOf) {
       corners.emplace_back(p);
       rounding = std::max(rounding, std::abs(double(corners.back().x) - p.x));
     }
-    const bool told = lint(soup_of(corners)).far_from_origin;
+    const bool told = lint(soup_of(corners)).find(LintFinding::Id::far_from_origin);
     // The bounds of the unit cube measure sqrt(3); at a ratio of 2e-4 half a step of floats, which
     // is at most 2^-24 of the offset, is 1 / 3355 of that.
     recorder.add({.at = offset,

@@ -30,9 +30,23 @@ TriangleSoup soup_of(const std::vector<std::array<glm::vec3, 3>>& faces) {
 const std::array<glm::vec3, 3> plain{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
 const std::array<glm::vec3, 3> other{{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
 
+using Id = LintFinding::Id;
+
+std::vector<Id> ids(const Lint& lint) {
+  std::vector<Id> ids;
+  for (const LintFinding& finding : lint.findings) ids.push_back(finding.id);
+  return ids;
+}
+
+/// The finding, or one of nothing.
+LintFinding found(const Lint& lint, Id id) {
+  const LintFinding* finding = lint.find(id);
+  return finding ? *finding : LintFinding{};
+}
+
 TEST(Lint, ACleanSoupHasNothingToSay) {
-  EXPECT_THAT(lint(soup_of({plain, other})).sentences, IsEmpty());
-  EXPECT_THAT(lint(TriangleSoup{}).sentences, IsEmpty());
+  EXPECT_THAT(lint(soup_of({plain, other})).findings, IsEmpty());
+  EXPECT_THAT(lint(TriangleSoup{}).findings, IsEmpty());
 }
 
 TEST(Lint, FindsVerticesThatAreNotFinite) {
@@ -40,10 +54,9 @@ TEST(Lint, FindsVerticesThatAreNotFinite) {
   face[1].y = std::numeric_limits<float>::quiet_NaN();
   face[2].z = -std::numeric_limits<float>::infinity();
   const Lint result = lint(soup_of({plain, face}));
-  EXPECT_THAT(result.non_finite_vertices.first, ElementsAre(4, 5));
-  EXPECT_EQ(result.degenerate_faces.count, 0u);
-  EXPECT_THAT(result.sentences,
-              ElementsAre("2 of 6 vertices are not finite (NaN or infinity): vertices 4, 5"));
+  EXPECT_THAT(ids(result), ElementsAre(Id::non_finite_vertices));
+  EXPECT_THAT(result.findings[0].first, ElementsAre(4, 5));
+  EXPECT_EQ(result.findings[0].of, 6u);
 }
 
 TEST(Lint, FindsFacesWithoutArea) {
@@ -51,16 +64,14 @@ TEST(Lint, FindsFacesWithoutArea) {
                                     {{{0, 0, 0}, {0, 0, 0}, {1, 0, 0}}},  // two corners in one
                                     {{{5, 5, 5}, {5, 5, 5}, {5, 5, 5}}},  // a point
                                     plain}));
-  EXPECT_THAT(result.degenerate_faces.first, ElementsAre(0, 1, 2));
-  EXPECT_THAT(result.sentences,
-              ElementsAre("3 of 4 faces are degenerate (zero area): faces 0, 1, 2"));
+  EXPECT_THAT(found(result, Id::degenerate_faces).first, ElementsAre(0, 1, 2));
 }
 
 TEST(Lint, AThinOrTinyFaceIsNotDegenerate) {
   const float s = 1e-15f;
   const Lint result = lint(
       soup_of({{{{0, 0, 0}, {1, 0, 0}, {0.5f, 1e-7f, 0}}}, {{{0, 0, 0}, {s, 0, 0}, {0, s, 0}}}}));
-  EXPECT_EQ(result.degenerate_faces.count, 0u);
+  EXPECT_EQ(found(result, Id::degenerate_faces).count, 0u);
 }
 
 TEST(Lint, FindsRepeatedFacesInAnyOrderOfTheirCorners) {
@@ -71,9 +82,7 @@ TEST(Lint, FindsRepeatedFacesInAnyOrderOfTheirCorners) {
   auto nearly = plain;
   nearly[1].x = std::nextafter(1.0f, 2.0f);
   const Lint result = lint(soup_of({plain, other, turned, mirrored, signed_zero, nearly}));
-  EXPECT_THAT(result.duplicate_faces.first, ElementsAre(2, 3, 4));
-  EXPECT_THAT(result.sentences,
-              ElementsAre("3 of 6 faces repeat the corners of an earlier face: faces 2, 3, 4"));
+  EXPECT_THAT(found(result, Id::duplicate_faces).first, ElementsAre(2, 3, 4));
 }
 
 TEST(Lint, DuplicatesAgreeWithComparingAllPairs) {
@@ -101,8 +110,8 @@ TEST(Lint, DuplicatesAgreeWithComparingAllPairs) {
   }
   ASSERT_GT(expected, 50u);
   const Lint result = lint(soup_of(faces));
-  EXPECT_EQ(result.duplicate_faces.count, expected);
-  EXPECT_EQ(result.duplicate_faces.first.size(), LintFinding::shown);
+  EXPECT_EQ(found(result, Id::duplicate_faces).count, expected);
+  EXPECT_EQ(found(result, Id::duplicate_faces).first.size(), LintFinding::shown);
 }
 
 TEST(Lint, FindsTransparentFacesByColour) {
@@ -110,8 +119,7 @@ TEST(Lint, FindsTransparentFacesByColour) {
   auto& rgba = std::get<FaceColors>(soup.appearance).rgba;
   rgba[0].a = 0.5f;  // the threshold itself is drawn
   rgba[1].a = std::nextafter(0.5f, 0.0f);
-  EXPECT_THAT(lint(soup).never_visible_faces.first, ElementsAre(1));
-  EXPECT_THAT(lint(soup).sentences, ElementsAre("1 of 2 faces is transparent everywhere: face 1"));
+  EXPECT_THAT(found(lint(soup), Id::never_visible_faces).first, ElementsAre(1));
 }
 
 TEST(Lint, OneOpaqueVertexMakesAFaceVisible) {
@@ -119,7 +127,7 @@ TEST(Lint, OneOpaqueVertexMakesAFaceVisible) {
   VertexColors colors{std::vector<glm::vec4>(6, glm::vec4(1, 1, 1, 0))};
   colors.rgba[5].a = 0.5f;
   soup.appearance = colors;
-  EXPECT_THAT(lint(soup).never_visible_faces.first, ElementsAre(0));
+  EXPECT_THAT(found(lint(soup), Id::never_visible_faces).first, ElementsAre(0));
 }
 
 TEST(Lint, OneOpaqueTexelMakesAFaceVisible) {
@@ -133,7 +141,7 @@ TEST(Lint, OneOpaqueTexelMakesAFaceVisible) {
   texture.patches = {{0, 2}, {texels, 2}};
   texture.texels = bytes;
   soup.appearance = texture;
-  EXPECT_THAT(lint(soup).never_visible_faces.first, ElementsAre(0));
+  EXPECT_THAT(found(lint(soup), Id::never_visible_faces).first, ElementsAre(0));
 }
 
 TEST(Lint, AMaskThatNoTexelReachesHidesItsMaterial) {
@@ -149,28 +157,34 @@ TEST(Lint, AMaskThatNoTexelReachesHidesItsMaterial) {
   }
   textures.material_of_face = {0, 1};
   soup.appearance = textures;
-  EXPECT_THAT(lint(soup).never_visible_faces.first, ElementsAre(0));
+  EXPECT_THAT(found(lint(soup), Id::never_visible_faces).first, ElementsAre(0));
   // A threshold of zero draws everything.
   std::get<UvTextures>(soup.appearance).materials[0].mask_threshold = 0;
-  EXPECT_EQ(lint(soup).never_visible_faces.count, 0u);
+  EXPECT_EQ(found(lint(soup), Id::never_visible_faces).count, 0u);
 }
 
 TEST(Lint, CountsVerticesThatNoFaceNames) {
   TriangleSoup soup = soup_of({plain});
   soup.positions.resize(5);
-  EXPECT_THAT(lint(soup).unused_vertices.first, ElementsAre(3, 4));
+  EXPECT_THAT(found(lint(soup), Id::unused_vertices).first, ElementsAre(3, 4));
 }
 
 TEST(Lint, WarnsOfASmallSoupFarFromItsOrigin) {
   auto far = plain;
   for (glm::vec3& corner : far) corner += glm::vec3(1e5f, 0, 0);
   const Lint result = lint(soup_of({far}));
-  EXPECT_TRUE(result.far_from_origin);
+  EXPECT_THAT(ids(result), ElementsAre(Id::far_from_origin));
   EXPECT_NEAR(result.extent_over_offset, std::sqrt(2.0) / 100001, 1e-9);
-  ASSERT_EQ(result.sentences.size(), 1u);
-  EXPECT_THAT(result.sentences[0], testing::HasSubstr("store them relative to an origin"));
   for (glm::vec3& corner : far) corner -= glm::vec3(0.99e5f, 0, 0);
-  EXPECT_FALSE(lint(soup_of({far})).far_from_origin);
+  EXPECT_THAT(lint(soup_of({far})).findings, IsEmpty());
+}
+
+TEST(Lint, FindingsInEnglish) {
+  EXPECT_EQ(describe({.id = Id::never_visible_faces, .count = 1, .of = 2, .first = {1}}),
+            "1 of 2 faces is transparent everywhere: face 1");
+  EXPECT_EQ(describe({.id = Id::unused_vertices, .count = 6, .of = 9, .first = {0, 1, 2, 3, 4}}),
+            "6 of 9 vertices are used by no face: vertices 0, 1, 2, 3, 4 ...");
+  EXPECT_STREQ(name_of(Id::duplicate_faces), "duplicate_faces");
 }
 
 }  // namespace

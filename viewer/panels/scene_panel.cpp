@@ -31,7 +31,7 @@ void scene_panel(State& state) {
   tip(fmt::format("read in {:.2f} s, prepared in {:.2f} s", stage.read_seconds,
                   stage.prepare_seconds));
   if (!scene.info.source.empty()) aside("from " + scene.info.source);
-  for (const std::string& note : scene.info.notes) aside(note);
+  for (const std::string& note : all_notes(scene.info)) aside(note);
   if (ImGui::Button("Open")) state.show_files = true;
   tip("Ctrl+O, or drop a file or a folder on the window");
   ImGui::SameLine();

@@ -31,7 +31,7 @@ void up_menu(State& state) {
         controls.set_up(axis);
     ImGui::EndCombo();
   }
-  tip(state.stage->up.why + " U changes");
+  tip(describe(state.stage->up) + ". U changes");
 }
 
 void view_menu(CameraControls& controls) {

@@ -54,12 +54,10 @@ Json promise_of(const Scene& scene) {
           {"views", views}};
 }
 
-/// A note without the option of the program that would change it: a page has none.
-std::string without_options(const std::string& note) { return note.substr(0, note.find("; --")); }
-
+/// Without the options of the program that would read otherwise: a page has none.
 Json notes_of(const Scene& scene) {
-  Json notes = Json::array();
-  for (const std::string& note : scene.info.notes) notes.push_back(without_options(note));
+  Json notes = scene.info.notes;
+  for (const Remark& remark : scene.info.remarks) notes.push_back(describe(remark));
   return notes;
 }
 
@@ -78,7 +76,7 @@ Json describe(const Scene& scene) {
           {"cameras", cameras},
           {"background", to_json(glm::dvec3(scene.info.background))},
           {"subject", to_json(subject)},
-          {"up_reason", up.why},
+          {"up_reason", describe(up)},
           {"looks", looks_of(soup)},
           {"feature_count", feature_count(soup)},
           {"promise", promise_of(scene)}};
