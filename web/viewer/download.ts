@@ -26,9 +26,10 @@ async function request(url: string): Promise<Response> {
     throw new ViewerError(`${url} cannot be reached: there is no network, or the server does not let pages ` +
                           'of other addresses read it (CORS).', 'network');
   }
-  if (!response.ok)
-    throw new ViewerError(`${url} cannot be had: the server answers ${response.status} ${response.statusText}.`.replace(' .', '.'),
-                          'network');
+  if (!response.ok) {
+    const answer = [response.status, response.statusText].filter(Boolean).join(' ');  // HTTP/2 has no text
+    throw new ViewerError(`${url} cannot be had: the server answers ${answer}.`, 'network');
+  }
   return response;
 }
 
