@@ -85,11 +85,11 @@ std::string incomparable(const BenchResult& now, const BenchResult& then) {
 
 BenchComparison compare_benches(const BenchResult& now, const BenchResult& then) {
   BenchComparison result;
-  result.circumstances = circumstances_of(now, then);
-  if (std::string reason = incomparable(now, then); !reason.empty()) {
-    result.circumstances.insert(result.circumstances.begin(), std::move(reason));
-    return result;
-  }
+  const std::string reason = incomparable(now, then);
+  if (!reason.empty()) result.circumstances.push_back(reason);
+  for (std::string& other : circumstances_of(now, then))
+    result.circumstances.push_back(std::move(other));
+  if (!reason.empty()) return result;
   for (const BenchMeasurement& measurement : now.measurements)
     if (const BenchMeasurement* other = find(then, measurement))
       result.ratios.push_back(ratio_of(measurement, *other));
