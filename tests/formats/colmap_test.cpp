@@ -13,7 +13,6 @@ namespace tureen {
 namespace {
 
 using namespace tureen::testing;
-using ::testing::HasSubstr;
 
 Input input_of_bytes(std::span<const std::byte> bytes, const std::string& name) {
   return Input::memory(name, bytes);
@@ -123,13 +122,7 @@ TEST(Colmap, ReadsTextAsPeopleEditIt) {
 TEST(Colmap, MissesTheLineOfFeatures) {
   const std::string text = "1 1 0 0 0 0 0 1 1 a.jpg\n2 1 0 0 0 0 0 1 1 b.jpg\n";
   Input input = input_of(text, "images.txt");
-  try {
-    read_colmap_images_text(input);
-    ADD_FAILURE() << "no error";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(),
-                HasSubstr("images.txt:2: the line after image a.jpg holds its features"));
-  }
+  EXPECT_THAT(error_of([&] { read_colmap_images_text(input); }), ErrorAt("images.txt:2", "a.jpg"));
 }
 
 TEST(Colmap, FindsItsFolder) {
@@ -145,16 +138,16 @@ TEST(Colmap, FindsItsFolder) {
 
 // ---- What is refused ------------------------------------------------------------------------
 
-/// The message of reading this camera in both forms, which differ only in the place.
-std::vector<std::string> camera_errors(const ColmapFixture::CameraRecord& camera) {
+/// What refuses reading this camera in both forms, which differ only in the place.
+std::array<std::optional<Refusal>, 2> camera_errors(const ColmapFixture::CameraRecord& camera) {
   ColmapFixture model;
   model.cameras = {camera};
   const auto bytes = binary_cameras(model);
   const std::string text = text_cameras(model);
   Input binary_input = input_of_bytes(bytes, "cameras.bin");
   Input text_input = input_of(text, "cameras.txt");
-  return {input_error([&] { read_colmap_cameras_binary(binary_input); }),
-          input_error([&] { read_colmap_cameras_text(text_input); })};
+  return {error_of([&] { read_colmap_cameras_binary(binary_input); }),
+          error_of([&] { read_colmap_cameras_text(text_input); })};
 }
 
 TEST(Colmap, RefusesOtherModelsByName) {
@@ -163,51 +156,45 @@ TEST(Colmap, RefusesOtherModelsByName) {
       {8, "SIMPLE_RADIAL_FISHEYE"}, {9, "RADIAL_FISHEYE"}, {10, "THIN_PRISM_FISHEYE"}};
   for (const auto& [number, name] : others) {
     const auto errors = camera_errors({1, number, name, 8, 8, {1, 1, 1, 1, 0, 0, 0, 0}});
-    EXPECT_THAT(errors[0], HasSubstr("cameras.bin: byte 8: "));
-    EXPECT_THAT(errors[1], HasSubstr("cameras.txt:3: "));
-    for (const std::string& error : errors) {
-      EXPECT_THAT(error, HasSubstr(std::string("the camera model ") + name + " is not among"));
-      EXPECT_THAT(error, HasSubstr("SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV"));
-      EXPECT_THAT(error, HasSubstr("image_undistorter"));
-    }
+    EXPECT_THAT(errors[0], ErrorAt("cameras.bin@8"));
+    EXPECT_THAT(errors[1], ErrorAt("cameras.txt:3"));
+    for (const auto& error : errors)
+      EXPECT_THAT(error, Names(name, "SIMPLE_PINHOLE", "PINHOLE", "SIMPLE_RADIAL", "RADIAL",
+                               "OPENCV", "image_undistorter"));
   }
-  EXPECT_THAT(camera_errors({1, 99, "MYSTERY", 8, 8, {1}})[0],
-              HasSubstr("camera model number 99 is none that we know"));
-  EXPECT_THAT(camera_errors({1, -1, "MYSTERY", 8, 8, {1}})[0], HasSubstr("model number -1"));
-  EXPECT_THAT(camera_errors({1, 99, "MYSTERY", 8, 8, {1}})[1],
-              HasSubstr("camera model 'MYSTERY' is none that we know"));
+  EXPECT_THAT(camera_errors({1, 99, "MYSTERY", 8, 8, {1}})[0], ErrorAt("cameras.bin@8", 99));
+  EXPECT_THAT(camera_errors({1, -1, "MYSTERY", 8, 8, {1}})[0], ErrorAt("cameras.bin@8", -1));
+  EXPECT_THAT(camera_errors({1, 99, "MYSTERY", 8, 8, {1}})[1], ErrorAt("cameras.txt:3", "MYSTERY"));
 }
 
 TEST(Colmap, RefusesBadCameras) {
-  for (const std::string& error : camera_errors({1, 0, "SIMPLE_PINHOLE", 0, 8, {1, 1, 1}}))
-    EXPECT_THAT(error, HasSubstr("an image side of 0 pixels is outside 1..65536"));
-  for (const std::string& error : camera_errors({1, 0, "SIMPLE_PINHOLE", 8, 70000, {1, 1, 1}}))
-    EXPECT_THAT(error, HasSubstr("an image side of 70000 pixels"));
-  for (const std::string& error : camera_errors({1, 1, "PINHOLE", 8, 8, {1, -1, 1, 1}}))
-    EXPECT_THAT(error, HasSubstr("a focal length is not positive"));
-  for (const std::string& error : camera_errors({1, 1, "PINHOLE", 8, 8, {1, 1, INFINITY, 1}}))
-    EXPECT_THAT(error, HasSubstr("a camera's number is not finite"));
+  for (const auto& error : camera_errors({1, 0, "SIMPLE_PINHOLE", 0, 8, {1, 1, 1}}))
+    EXPECT_THAT(error, Names(0, 65536));
+  for (const auto& error : camera_errors({1, 0, "SIMPLE_PINHOLE", 8, 70000, {1, 1, 1}}))
+    EXPECT_THAT(error, Names(70000));
+  for (const auto& error : camera_errors({1, 1, "PINHOLE", 8, 8, {1, -1, 1, 1}}))
+    EXPECT_NE(error, std::nullopt);
+  for (const auto& error : camera_errors({1, 1, "PINHOLE", 8, 8, {1, 1, INFINITY, 1}}))
+    EXPECT_NE(error, std::nullopt);
 
   ColmapFixture twice = upright_colmap(1);
   twice.cameras.push_back(twice.cameras[0]);
   const auto bytes = binary_cameras(twice);
   const std::string text = text_cameras(twice);
   Input binary_input = input_of_bytes(bytes, "c"), text_input = input_of(text);
-  EXPECT_THAT(input_error([&] { read_colmap_cameras_binary(binary_input); }),
-              HasSubstr("camera 1 stands here twice"));
-  EXPECT_THAT(input_error([&] { read_colmap_cameras_text(text_input); }),
-              HasSubstr("test.file:4: camera 1 stands here twice"));
+  EXPECT_THAT(error_of([&] { read_colmap_cameras_binary(binary_input); }), Names(1));
+  EXPECT_THAT(error_of([&] { read_colmap_cameras_text(text_input); }), ErrorAt("test.file:4", 1));
 }
 
-std::vector<std::string> image_errors(const ColmapFixture::ImageRecord& image) {
+std::array<std::optional<Refusal>, 2> image_errors(const ColmapFixture::ImageRecord& image) {
   ColmapFixture model;
   model.images = {image};
   const auto bytes = binary_images(model);
   const std::string text = text_images(model);
   Input binary_input = input_of_bytes(bytes, "images.bin");
   Input text_input = input_of(text, "images.txt");
-  return {input_error([&] { read_colmap_images_binary(binary_input); }),
-          input_error([&] { read_colmap_images_text(text_input); })};
+  return {error_of([&] { read_colmap_images_binary(binary_input); }),
+          error_of([&] { read_colmap_images_text(text_input); })};
 }
 
 TEST(Colmap, RefusesPosesThatAreNoRotations) {
@@ -215,14 +202,14 @@ TEST(Colmap, RefusesPosesThatAreNoRotations) {
                             ColmapFixture::ImageRecord{1, {0, 0, 0, 0}, {}, 1, "a", 0},
                             ColmapFixture::ImageRecord{1, {NAN, 0, 0, 0}, {}, 1, "a", 0}}) {
     const auto errors = image_errors(image);
-    EXPECT_THAT(errors[0], HasSubstr("images.bin: byte 8: the pose is no rotation"));
-    EXPECT_THAT(errors[1], HasSubstr("images.txt:3: the pose is no rotation"));
+    EXPECT_THAT(errors[0], ErrorAt("images.bin@8"));
+    EXPECT_THAT(errors[1], ErrorAt("images.txt:3"));
   }
-  for (const std::string& error : image_errors({1, {1, 0, 0, 0}, {0, INFINITY, 0}, 1, "a", 0}))
-    EXPECT_THAT(error, HasSubstr("the pose is not finite"));
+  for (const auto& error : image_errors({1, {1, 0, 0, 0}, {0, INFINITY, 0}, 1, "a", 0}))
+    EXPECT_NE(error, std::nullopt);
   // Six digits are within it.
-  for (const std::string& error : image_errors({1, {0.707107, 0.707107, 0, 0}, {}, 1, "a", 0}))
-    EXPECT_EQ(error, "");
+  for (const auto& error : image_errors({1, {0.707107, 0.707107, 0, 0}, {}, 1, "a", 0}))
+    EXPECT_EQ(error, std::nullopt);
 }
 
 TEST(Colmap, RefusesBadPoints) {
@@ -231,18 +218,17 @@ TEST(Colmap, RefusesBadPoints) {
   const auto bytes = binary_points(model);
   const std::string text = text_points(model);
   Input binary_input = input_of_bytes(bytes, "points3D.bin"), text_input = input_of(text);
-  EXPECT_THAT(input_error([&] { read_colmap_points_binary(binary_input); }),
-              HasSubstr("points3D.bin: byte 8: a point's position is not finite"));
-  EXPECT_THAT(input_error([&] { read_colmap_points_text(text_input); }),
-              HasSubstr("test.file:3: a point's position is not finite"));
+  EXPECT_THAT(error_of([&] { read_colmap_points_binary(binary_input); }),
+              ErrorAt("points3D.bin@8"));
+  EXPECT_THAT(error_of([&] { read_colmap_points_text(text_input); }), ErrorAt("test.file:3"));
   const auto text_error = [](const std::string& line) {
     Input input = input_of(line);
-    return input_error([&] { read_colmap_points_text(input); });
+    return error_of([&] { read_colmap_points_text(input); });
   };
-  EXPECT_THAT(text_error("1 0 0 0 300 0 0 1"), HasSubstr("a colour of 300 is outside 0..255"));
-  EXPECT_THAT(text_error("1 0 zero 0"), HasSubstr("'zero' where a point's position is expected"));
-  EXPECT_THAT(text_error("1 0 0x1 0"), HasSubstr("'0x1' where a point's position is expected"));
-  EXPECT_THAT(text_error("1 0"), HasSubstr("ends where a point's position is expected"));
+  EXPECT_THAT(text_error("1 0 0 0 300 0 0 1"), ErrorIn("test.file", 300, 255));
+  EXPECT_THAT(text_error("1 0 zero 0"), ErrorIn("test.file", "zero"));
+  EXPECT_THAT(text_error("1 0 0x1 0"), ErrorIn("test.file", "0x1"));
+  EXPECT_THAT(text_error("1 0"), ErrorAt("test.file:1"));
 }
 
 TEST(Colmap, ChecksCountsAgainstTheBytes) {
@@ -255,14 +241,12 @@ TEST(Colmap, ChecksCountsAgainstTheBytes) {
       [](Input& input) { read_colmap_points_binary(input); }};
   for (const auto& read : readers) {
     Input input = input_of_bytes(bytes, "x.bin");
-    EXPECT_THAT(input_error([&] { read(input); }),
-                HasSubstr("x.bin: byte 0: a count of 1152921504606846976"));
+    EXPECT_THAT(error_of([&] { read(input); }), ErrorAt("x.bin@0", "1152921504606846976"));
   }
   auto trailing = binary_cameras(varied());
   trailing.resize(trailing.size() + 3);
   Input input = input_of_bytes(trailing, "x.bin");
-  EXPECT_THAT(input_error([&] { read_colmap_cameras_binary(input); }),
-              HasSubstr("3 bytes after the last of the cameras"));
+  EXPECT_THAT(error_of([&] { read_colmap_cameras_binary(input); }), ErrorIn("x.bin", 3, "cameras"));
 }
 
 TEST(Colmap, RefusesAnImageOfNoCamera) {
@@ -270,11 +254,9 @@ TEST(Colmap, RefusesAnImageOfNoCamera) {
   ColmapFixture model = upright_colmap(1);
   model.images[0].camera = 5;
   write_binary(folder / "", model);
-  EXPECT_THAT(input_error([&] { read_colmap(folder / ""); }),
-              HasSubstr("images.bin: the image a.png was taken by camera 5, which "));
+  EXPECT_THAT(error_of([&] { read_colmap(folder / ""); }), ErrorIn("images.bin", "a.png", 5));
   std::filesystem::remove(folder / "images.bin");
-  EXPECT_THAT(input_error([&] { read_colmap(folder / ""); }),
-              HasSubstr("images.txt: no such file"));
+  EXPECT_THAT(error_of([&] { read_colmap(folder / ""); }), ErrorIn("images.txt"));
 }
 
 // ---- Damage ---------------------------------------------------------------------------------

@@ -15,8 +15,6 @@ namespace {
 using namespace tureen::testing;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
-using ::testing::EndsWith;
-using ::testing::HasSubstr;
 using ::testing::Not;
 
 std::vector<std::string> names(const std::vector<Photograph>& photographs) {
@@ -59,8 +57,9 @@ void write_colmap(const TemporaryFolder& folder, int count) {
     write_picture(folder / ("images/" + model.images[std::size_t(i)].name), a_picture(8, 6, i));
 }
 
-std::string refusal(const std::filesystem::path& path, const DatasetOptions& options = {}) {
-  return input_error([&] { read_dataset(path, options); });
+std::optional<Refusal> refusal(const std::filesystem::path& path,
+                               const DatasetOptions& options = {}) {
+  return error_of([&] { read_dataset(path, options); });
 }
 
 // ---- What is read ---------------------------------------------------------------------------
@@ -133,12 +132,7 @@ TEST(Dataset, RefusesUnequalPicturesWhereNoSizeIsGiven) {
   for (const char* name : {"train/a.png", "test/a.png", "test/b.png"})
     write_picture(folder / name, a_picture(8, 6));
   write_picture(folder / "train/b.png", a_picture(6, 6));
-  try {
-    read_dataset(folder / "");
-    FAIL() << "it was read";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("b.png: the picture is 6 x 6, the first one 8 x 6"));
-  }
+  EXPECT_THAT(refusal(folder / ""), ErrorIn("b.png", 6, 8));
 }
 
 TEST(Dataset, AFrameHasItsOwnIntrinsicsAndSize) {
@@ -243,8 +237,7 @@ TEST(Dataset, ReadsSmallerImagesFromTheirFolder) {
   EXPECT_EQ(photograph.camera.fx, 5);
   EXPECT_EQ(photograph.camera.cx, 2.25);
   write_picture(folder / "images_2/1.png", a_picture(5, 3));
-  EXPECT_THAT(refusal(folder / "", {.images_folder = 2}),
-              HasSubstr("the picture is 5 x 3, but its camera's is 8 x 6 / 2"));
+  EXPECT_THAT(refusal(folder / "", {.images_folder = 2}), Names(5, 3, 8, 6, 2));
 }
 
 TEST(Dataset, WithoutDistortedBordersEveryPixelIsEvidence) {
@@ -288,31 +281,26 @@ TEST(Dataset, NamesTheImagesThatAreMissing) {
   for (const int i : {3, 8})
     std::filesystem::remove(folder / ("images/" + std::to_string(i) + ".png"));
   EXPECT_THAT(refusal(folder / ""),
-              AllOf(HasSubstr("transforms.json: 2 of 26 photographs are missing in "),
-                    EndsWith(": images/3.png, images/8.png")));
-  EXPECT_THAT(refusal(folder / "", {.part = DatasetPart::test}),
-              HasSubstr("1 of 4 photographs are missing"));
+              ErrorAt("transforms.json", 2, 26, "images/3.png", "images/8.png"));
+  EXPECT_THAT(refusal(folder / "", {.part = DatasetPart::test}), Names(1, 4));
   std::filesystem::remove_all(folder / "images");
-  const std::string error = refusal(folder / "");
-  EXPECT_THAT(error,
-              AllOf(HasSubstr("26 of 26 photographs are missing"), EndsWith(" and 14 more")));
-  EXPECT_EQ(std::count(error.begin(), error.end(), ','), 11);  // between a dozen names
+  // A dozen of them by name, the others by their number.
+  EXPECT_THAT(refusal(folder / ""), AllOf(ErrorAt("transforms.json", 26, "images/20.png", 14),
+                                          Not(Names("images/21.png"))));
 
   const TemporaryFolder colmap;
   write_colmap(colmap, 3);
   EXPECT_THAT(refusal(colmap / "", {.images_folder = 8}),
-              AllOf(HasSubstr("3 of 3 photographs are missing in "), HasSubstr("images_8"),
-                    HasSubstr("b.png, c.png, a.png")));
+              Names(3, "images_8", "b.png", "c.png", "a.png"));
 }
 
 TEST(Dataset, RefusesPicturesOfAnotherSize) {
   const TemporaryFolder folder;
   write_colmap(folder, 2);
   write_picture(folder / "images/b.png", a_picture(6, 8));
-  EXPECT_THAT(refusal(folder / ""),
-              HasSubstr("images/b.png: the picture is 6 x 8, but its camera's is 8 x 6"));
+  EXPECT_THAT(refusal(folder / ""), ErrorIn("images/b.png", 6, 8));
   write_text(folder / "images/b.png", "no picture");
-  EXPECT_THAT(refusal(folder / ""), HasSubstr("images/b.png: not a PNG or JPEG image"));
+  EXPECT_THAT(refusal(folder / ""), ErrorIn("images/b.png"));
 }
 
 TEST(Dataset, RefusesLensesThatItCannotUndo) {
@@ -321,19 +309,19 @@ TEST(Dataset, RefusesLensesThatItCannotUndo) {
     write_transforms(folder, 2, head);
     return refusal(folder / "");
   };
-  EXPECT_THAT(with("\"is_fisheye\": true, "), HasSubstr("frame 0: the lens (is_fisheye)"));
-  EXPECT_THAT(with("\"camera_model\": \"OPENCV_FISHEYE\", "), HasSubstr("lens (OPENCV_FISHEYE)"));
-  EXPECT_THAT(with("\"ftheta_p0\": 0.5, "), HasSubstr("the lens (ftheta_p0)"));
-  EXPECT_THAT(with("\"k4\": 0.5, "), HasSubstr("the lens (k4)"));
-  EXPECT_THAT(with("\"k1\": \"much\", "), HasSubstr("frame 0: k1 is no number"));
-  EXPECT_THAT(with("\"k1\": 90, "), HasSubstr("less than half of the picture would be left"));
-  EXPECT_EQ(with("\"is_fisheye\": false, \"k4\": 0, \"camera_model\": \"OPENCV\", "), "");
+  EXPECT_THAT(with("\"is_fisheye\": true, "), Names(0, "is_fisheye"));
+  EXPECT_THAT(with("\"camera_model\": \"OPENCV_FISHEYE\", "), Names("OPENCV_FISHEYE"));
+  EXPECT_THAT(with("\"ftheta_p0\": 0.5, "), Names("ftheta_p0"));
+  EXPECT_THAT(with("\"k4\": 0.5, "), Names("k4"));
+  EXPECT_THAT(with("\"k1\": \"much\", "), Names(0, "k1"));
+  EXPECT_NE(with("\"k1\": 90, "), std::nullopt);
+  EXPECT_EQ(with("\"is_fisheye\": false, \"k4\": 0, \"camera_model\": \"OPENCV\", "), std::nullopt);
 
   ColmapFixture model = upright_colmap(2);
   model.cameras[0] = {1, 5, "OPENCV_FISHEYE", 8, 6, {10, 9, 4, 3, 0, 0, 0, 0}};
   std::filesystem::remove(folder / "transforms.json");
   write_text(folder / "sparse/0", model);
-  EXPECT_THAT(refusal(folder / ""), HasSubstr("cameras.txt:3: the camera model OPENCV_FISHEYE"));
+  EXPECT_THAT(refusal(folder / ""), ErrorIn("cameras.txt", "OPENCV_FISHEYE"));
 }
 
 TEST(Dataset, RefusesPosesThatAreNoRotations) {
@@ -346,52 +334,48 @@ TEST(Dataset, RefusesPosesThatAreNoRotations) {
     return refusal(folder / "");
   };
   EXPECT_THAT(with("[[2,0,0,0],[0,2,0,0],[0,0,2,0]]"),
-              HasSubstr("transforms.json: frame 0: transform_matrix is no rotation"));
-  EXPECT_THAT(with("[[-1,0,0,0],[0,1,0,0],[0,0,1,0]]"), HasSubstr("transform_matrix mirrors"));
+              ErrorIn("transforms.json", 0, "transform_matrix"));
+  EXPECT_THAT(with("[[-1,0,0,0],[0,1,0,0],[0,0,1,0]]"), Names("transform_matrix"));
 }
 
 TEST(Dataset, RefusesAnEmptySplit) {
   const TemporaryFolder folder;
   write_transforms(folder, 1);
-  EXPECT_THAT(refusal(folder / ""),
-              HasSubstr("no photographs to train on: it has 0 to train on and 1 to test"));
-  EXPECT_EQ(refusal(folder / "", {.part = DatasetPart::test}), "");
+  EXPECT_THAT(refusal(folder / ""), Names(0, 1));
+  EXPECT_EQ(refusal(folder / "", {.part = DatasetPart::test}), std::nullopt);
   write_transforms(folder, 3);
-  EXPECT_THAT(refusal(folder / "", {.test_every = 1}), HasSubstr("no photographs to train on"));
+  EXPECT_NE(refusal(folder / "", {.test_every = 1}), std::nullopt);
   write_text(folder / "transforms.json", transforms(intrinsics, {}));
-  EXPECT_THAT(refusal(folder / "", {.part = DatasetPart::test}),
-              HasSubstr("transforms.json: there are no photographs to test"));
+  EXPECT_THAT(refusal(folder / "", {.part = DatasetPart::test}), ErrorIn("transforms.json"));
 
   write_text(folder / "transforms_train.json", transforms(intrinsics, {frame("images/0.png")}));
-  EXPECT_THAT(refusal(folder / ""),
-              HasSubstr("transforms_test.json: there is no such file, which the other half"));
-  EXPECT_EQ(refusal(folder / "", {.part = DatasetPart::train}), "");
+  EXPECT_THAT(refusal(folder / ""), ErrorIn("transforms_test.json"));
+  EXPECT_EQ(refusal(folder / "", {.part = DatasetPart::train}), std::nullopt);
   write_text(folder / "transforms_test.json", transforms(intrinsics, {}));
-  EXPECT_THAT(refusal(folder / ""), HasSubstr("no photographs to test: it has 1 to train on"));
+  EXPECT_THAT(refusal(folder / ""), Names(1));
 }
 
 TEST(Dataset, RefusesWhatIsNoDataset) {
   const TemporaryFolder folder;
-  EXPECT_THAT(refusal(folder / "nowhere"), HasSubstr("nowhere: there is no such file or folder"));
-  EXPECT_THAT(refusal(folder / ""), HasSubstr("no dataset that we know"));
+  EXPECT_NE(refusal(folder / "nowhere"), std::nullopt);
+  EXPECT_NE(refusal(folder / ""), std::nullopt);
   write_text(folder / "transforms.json", "{\"cameras\": []}");
-  EXPECT_THAT(refusal(folder / ""), HasSubstr("there is no \"frames\""));
+  EXPECT_THAT(refusal(folder / ""), Names("frames"));
   write_text(folder / "transforms.json", "{\"frames\": [");
-  EXPECT_THAT(refusal(folder / ""), HasSubstr("not valid JSON"));
+  EXPECT_NE(refusal(folder / ""), std::nullopt);
   // Whatever its bytes look like.
   write_text(folder / "transforms.json", "glTF" + std::string(100, '['));
-  EXPECT_THAT(refusal(folder / ""), HasSubstr("byte 0: not valid JSON"));
+  EXPECT_NE(refusal(folder / ""), std::nullopt);
   for (const std::string word : {"NaN", "Infinity", "-Infinity"}) {
     write_text(folder / "transforms.json", "{\"fl_x\": " + word + ", \"frames\": []}");
-    EXPECT_THAT(refusal(folder / ""), HasSubstr("not valid JSON: " + word + " is no number there"));
+    EXPECT_THAT(refusal(folder / ""), Names(word));
   }
   write_text(folder / "transforms.json",
              transforms(intrinsics, {"{\"transform_matrix\": [[1,0,0,0],[0,1,0,0],[0,0,1,0]]}"}));
-  EXPECT_THAT(refusal(folder / ""), HasSubstr("frame 0: file_path is missing"));
+  EXPECT_THAT(refusal(folder / ""), Names(0, "file_path"));
   write_text(folder / "transforms.json", transforms(intrinsics, {frame("train/0.png")}));
-  EXPECT_THAT(
-      refusal(folder / "", {.images_folder = 2}),
-      HasSubstr("frame 0: \"train/0.png\" is not in images/, so there is none in images_2/"));
+  EXPECT_THAT(refusal(folder / "", {.images_folder = 2}),
+              Names(0, "train/0.png", "images/", "images_2/"));
 }
 
 TEST(Dataset, OpensNothingOutsideOfItsFolder) {
@@ -404,20 +388,20 @@ TEST(Dataset, OpensNothingOutsideOfItsFolder) {
                transforms(intrinsics, {frame(name), frame("images/a.png")}));
     return refusal(folder / "set");
   };
-  EXPECT_EQ(with("./images/a.png"), "");
-  EXPECT_THAT(with("../secret.png"), HasSubstr("leads out of"));
-  EXPECT_THAT(with("images/../../secret.png"), HasSubstr("leads out of"));
-  EXPECT_THAT(with((folder / "secret.png").string()), HasSubstr("absolute path"));
-  EXPECT_THAT(with("images/link.png"), HasSubstr("a link that leads out of"));
+  EXPECT_EQ(with("./images/a.png"), std::nullopt);
+  EXPECT_THAT(with("../secret.png"), Names("../secret.png"));
+  EXPECT_THAT(with("images/../../secret.png"), Names("images/../../secret.png"));
+  EXPECT_THAT(with((folder / "secret.png").string()), Names((folder / "secret.png").string()));
+  EXPECT_THAT(with("images/link.png"), Names("images/link.png"));
   // A name is no URI: what looks like an escape is a part of it.
   write_picture(folder / "set/images/a%20b.png", a_picture(8, 6));
-  EXPECT_EQ(with("images/a%20b.png"), "");
+  EXPECT_EQ(with("images/a%20b.png"), std::nullopt);
 
   ColmapFixture model = upright_colmap(2);
   model.images[1].name = "../transforms.json";
   std::filesystem::remove(folder / "set/transforms.json");
   write_binary(folder / "set/sparse/0", model);
-  EXPECT_THAT(refusal(folder / "set"), HasSubstr("leads out of"));
+  EXPECT_THAT(refusal(folder / "set"), Names("../transforms.json"));
 }
 
 TEST(Dataset, RefusesMorePhotographsThanMemoryBeforeItDecodesThem) {
@@ -427,11 +411,8 @@ TEST(Dataset, RefusesMorePhotographsThanMemoryBeforeItDecodesThem) {
   write_binary(folder / "sparse/0", model);
   for (const char* name : {"images/a.png", "images/b.png", "images/c.png"})
     write_text(folder / name, "never looked at");
-  EXPECT_THAT(
-      refusal(folder / ""),
-      HasSubstr("the photographs would take more than the 4 GB of memory that reading may take; "
-                "--max-memory changes that, --scale makes them smaller"));
-  EXPECT_THAT(refusal(folder / "", {.scale = 0.1}), HasSubstr("not a PNG or JPEG"));
+  EXPECT_THAT(refusal(folder / ""), Names(4, "--max-memory", "--scale"));
+  EXPECT_NE(refusal(folder / "", {.scale = 0.1}), std::nullopt);
 }
 
 TEST(Dataset, TruncatedTransformsEndInAnErrorWithItsPlace) {

@@ -1,4 +1,4 @@
-// Small helpers of the format tests: texts as inputs, folders that vanish, messages to assert.
+// Small helpers of the format tests: texts as inputs, folders that vanish, errors to assert.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -10,10 +10,16 @@
 #include <vector>
 
 #include "formats/input.hpp"
-#include "soup/error.hpp"
 #include "soup/scene.hpp"
+#include "support/errors.hpp"
 
 namespace tureen::testing {
+
+using test::error_of;
+using test::ErrorAt;
+using test::ErrorIn;
+using test::Names;
+using test::Refusal;
 
 /// `text` must outlive the Input.
 inline Input input_of(const std::string& text, const std::string& name = "test.file") {
@@ -39,17 +45,6 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
-
-/// What `call` throws as an InputError, place and reason in one line; "" where it throws nothing.
-template <class Call>
-std::string input_error(Call&& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 inline const TriangleSoup& soup_of(const Scene& scene) {
   return std::get<TriangleSoup>(scene.primitives);

@@ -57,20 +57,20 @@ inline Bytes bytes_of(const std::string& text) {
   return {bytes.begin(), bytes.end()};
 }
 
-/// Reading ends in an InputError that says this, having allocated next to nothing.
+/// Reading ends in an InputError like this, having allocated next to nothing.
 template <class Read>
 void expect_refused(Read&& read, const std::string& what,
-                    const ::testing::Matcher<std::string>& says) {
-  std::string error;
+                    const ::testing::Matcher<std::optional<Refusal>>& expected) {
+  std::optional<Refusal> error;
   within_bounds(
       default_max_memory,
       [&] {
         const MemoryMeter meter;
-        error = input_error(read);
+        error = error_of(read);
         EXPECT_LT(meter.peak(), uncounted) << what;
       },
       what);
-  EXPECT_THAT(error, says) << what;
+  EXPECT_THAT(error, expected) << what;
 }
 
 }  // namespace tureen::testing

@@ -18,8 +18,9 @@
 namespace tureen {
 namespace {
 
+using test::error_of;
+using test::ErrorIn;
 namespace fs = std::filesystem;
-using ::testing::HasSubstr;
 using testing::TemporaryFolder;
 using testing::within_bounds;
 
@@ -34,99 +35,86 @@ std::map<fs::path, fs::file_time_type> listing(const fs::path& folder) {
 }
 
 /// By its folder and name, what becomes of each file that is another thing than what `expected`
-/// says of its kind: what the error says, or "" where it is read.
-const std::map<std::string, std::string>& verdicts() {
-  static const std::map<std::string, std::string> of_files{
-      {"BoundsChecking/invalid-primitive-indices.gltf",
-       "not valid glTF: primitive indices accessor out of bounds"},
-      {"Cube-texture-ext/Cube-textransform.gltf", "no such file"},
-      {"CubeImageUriSpaces/CubeImageUriSpaces.gltf", "no such file"},
-      {"Test/colors-not-same-type.ply", "the file holds no triangles"},
-      {"Test/colors-not-tightly-packed.ply", "the file holds no triangles"},
-      {"Test/colors4-not-tightly-packed.ply", "the file holds no triangles"},
-      {"Test/empty-le.ply", "the file holds no triangles"},
-      {"Test/empty.ply", "the file holds no triangles"},
-      {"Test/extra-token-face-element.ply", "'extradata' after a line of 'element'"},
-      {"Test/extra-token-face-property.ply", "'extradata' after a line of 'property'"},
-      {"Test/extra-token-vertex-element.ply", "'extradata' after a line of 'element'"},
-      {"Test/extra-token-vertex-property.ply", "'extradata' after a line of 'property'"},
-      {"Test/format-missing.ply", "'format' is expected after the first line"},
-      {"Test/format-unsupported.ply", "the encoding 'binary_mixed_endian' is none that we know"},
-      {"Test/integer-literal-too-large.ply",
-       "the number of 'vertex' elements, 4294967296, is outside 0..4294967295"},
-      {"Test/invalid-face-property.ply", "'extradata' after a line of 'property'"},
-      {"Test/invalid-face-type.ply", "the type 'float16' is none that we know"},
-      {"Test/invalid-vertex-property.ply", "'extradata' after a line of 'property'"},
-      {"Test/normals-unsupported-type.ply", "the file holds no triangles"},
-      {"Test/positions-missing.ply", "element 'vertex' lacks 'x'"},
-      {"Test/positions-not-all.ply", "element 'vertex' lacks 'y'"},
-      {"Test/texcoords-not-all.ply", "the file holds no triangles"},
-      {"Test/texcoords-not-tightly-packed.ply", "the file holds no triangles"},
-      {"accessor/empty_object.gltf",
-       "not valid glTF: 'componentType' property is missing in Accessor"},
-      {"accessor/unknown_type.gltf",
-       "not valid glTF: Unsupported `type` for accessor object. Got \"NotaVEC3\""},
-      {"asset/min_version_invalid.gltf", "asset.minVersion: glTF 2.1; 2.0 is read"},
-      {"buffer_view/empty_object.gltf",
-       "not valid glTF: 'buffer' property is missing in BufferView"},
-      {"buffer_view/invalid_stride_multiple.gltf",
-       "not valid glTF: Invalid `byteStride' value. `byteStride' must be the multiple of 4 : 5"},
-      {"camera/empty_objects.gltf", "not valid glTF: 'type' property is missing in `Camera'"},
-      {"glb/invalid_version.glb", "GLB version 0, only 2 is read"},
-      {"glb/length_mismatch.glb", "the file is cut short: its header says 49 bytes, it has 48"},
-      {"glb/misplaced_bin_chunk.glb", "the binary chunk is not the second"},
-      {"glb/no_header.glb",
-       "neither a GLB, which begins with \"glTF\", nor glTF, which is JSON with an \"asset\""},
-      {"glb/only_bin_chunk.glb", "the first GLB chunk is not JSON"},
-      {"glb/truncated_chunk_header.glb",
-       "a GLB chunk header cut short: 4 bytes expected, 1 byte left"},
-      {"glb/two_bin_chunks.glb", "the first GLB chunk is not JSON"},
-      {"glb/zero_length.glb", "bytes trail the file: its header says 0 bytes, it has 12"},
-      {"json/empty_file.gltf", "the file is empty"},
-      {"json/invalid_syntax.gltf",
-       "neither a GLB, which begins with \"glTF\", nor glTF, which is JSON with an \"asset\""},
-      {"mesh/empty_object.gltf", "meshes[1].primitives: expected an array"},
-      {"mesh/unresolved_indices.gltf", "not valid glTF: primitive indices accessor out of bounds"},
-      {"models/box01.glb", ""},
-      {"node/node_parent_override.gltf",
-       "nodes[2]: is reached twice: it has two parents or is its own ancestor"},
-      {"node/node_skinned_mesh_without_skin.gltf", ""},
-      {"node/node_weights_invalid.gltf", ""},
-      {"node/node_weights_override.gltf", ""},
-      {"node/unresolved_camera.gltf", "nodes[0]: names camera 0 of 0"},
-      {"node/unresolved_child_node.gltf", "nodes: there is no node 1 of 1"},
-      {"off/empty.off", "the file is empty"},
-      {"off/invalid.off", "the line ends where a vertex index is expected"},
-      {"png/xcsn0g01.png", "a chunk's checksum is not that of its bytes"},
-      {"png/xdtn0g01.png", "the image is damaged: no IDAT"},
-      {"png/xhdn0g08.png", "a chunk's checksum is not that of its bytes"},
-      {"regression/zero-sized-bin-chunk-issue-440.glb", ""},
-      {"root/empty_object.gltf",
-       "neither a GLB, which begins with \"glTF\", nor glTF, which is JSON with an \"asset\""},
-      {"root/invalid_collection_type.gltf", "samplers: expected an array"},
-      {"scene/unresolved_child_node.gltf", "nodes: there is no node 5 of 1"},
-      {"scene/unresolved_default_scene.gltf", "scene: there is no scene 0 of 0"},
-      {"skin/ignored_local_transform.gltf", ""},
-      {"skin/ignored_parent_transform.gltf", ""},
-      {"skin/no_joints_in_scene.gltf", ""},
+/// says of its kind: a value that its error names ("" where there is none), or nothing where it is
+/// read.
+const std::map<std::string, std::optional<std::string>>& verdicts() {
+  static const std::map<std::string, std::optional<std::string>> of_files{
+      {"BoundsChecking/invalid-primitive-indices.gltf", ""},
+      {"Cube-texture-ext/Cube-textransform.gltf", ""},
+      {"CubeImageUriSpaces/CubeImageUriSpaces.gltf", ""},
+      {"Test/colors-not-same-type.ply", ""},
+      {"Test/colors-not-tightly-packed.ply", ""},
+      {"Test/colors4-not-tightly-packed.ply", ""},
+      {"Test/empty-le.ply", ""},
+      {"Test/empty.ply", ""},
+      {"Test/extra-token-face-element.ply", "extradata"},
+      {"Test/extra-token-face-property.ply", "extradata"},
+      {"Test/extra-token-vertex-element.ply", "extradata"},
+      {"Test/extra-token-vertex-property.ply", "extradata"},
+      {"Test/format-missing.ply", "format"},
+      {"Test/format-unsupported.ply", "binary_mixed_endian"},
+      {"Test/integer-literal-too-large.ply", "vertex"},
+      {"Test/invalid-face-property.ply", "extradata"},
+      {"Test/invalid-face-type.ply", "float16"},
+      {"Test/invalid-vertex-property.ply", "extradata"},
+      {"Test/normals-unsupported-type.ply", ""},
+      {"Test/positions-missing.ply", "vertex"},
+      {"Test/positions-not-all.ply", "vertex"},
+      {"Test/texcoords-not-all.ply", ""},
+      {"Test/texcoords-not-tightly-packed.ply", ""},
+      {"accessor/unknown_type.gltf", "NotaVEC3"},
+      {"asset/min_version_invalid.gltf", "2.1"},
+      {"buffer_view/empty_object.gltf", "buffer"},
+      {"buffer_view/invalid_stride_multiple.gltf", "4"},
+      {"camera/empty_objects.gltf", "type"},
+      {"glb/invalid_version.glb", "0"},
+      {"glb/length_mismatch.glb", "49"},
+      {"glb/misplaced_bin_chunk.glb", ""},
+      {"glb/no_header.glb", "glTF"},
+      {"glb/only_bin_chunk.glb", ""},
+      {"glb/truncated_chunk_header.glb", "4"},
+      {"glb/two_bin_chunks.glb", ""},
+      {"glb/zero_length.glb", "0"},
+      {"json/empty_file.gltf", ""},
+      {"json/invalid_syntax.gltf", "glTF"},
+      {"mesh/empty_object.gltf", "meshes[1].primitives"},
+      {"mesh/unresolved_indices.gltf", ""},
+      {"models/box01.glb", {}},
+      {"node/node_skinned_mesh_without_skin.gltf", {}},
+      {"node/node_weights_invalid.gltf", {}},
+      {"node/node_weights_override.gltf", {}},
+      {"node/unresolved_camera.gltf", "nodes[0]"},
+      {"node/unresolved_child_node.gltf", "1"},
+      {"off/empty.off", ""},
+      {"off/invalid.off", ""},
+      {"png/xcsn0g01.png", ""},
+      {"png/xdtn0g01.png", "IDAT"},
+      {"png/xhdn0g08.png", ""},
+      {"regression/zero-sized-bin-chunk-issue-440.glb", {}},
+      {"root/empty_object.gltf", "glTF"},
+      {"root/invalid_collection_type.gltf", ""},
+      {"scene/unresolved_child_node.gltf", "5"},
+      {"scene/unresolved_default_scene.gltf", "0"},
+      {"skin/ignored_local_transform.gltf", {}},
+      {"skin/ignored_parent_transform.gltf", {}},
+      {"skin/no_joints_in_scene.gltf", {}},
   };
   return of_files;
 }
 
 /// What a file of these ends in.
-std::string expected(const fs::path& file) {
+std::optional<std::string> expected(const fs::path& file) {
   const auto found =
       verdicts().find((file.parent_path().filename() / file.filename()).generic_string());
   if (found != verdicts().end()) return found->second;
   const std::string extension = file.extension().string();
   // PngSuite's, of which those are broken whose names begin with an x.
-  if (extension == ".png")
-    return file.filename().string()[0] == 'x' ? "not a PNG or JPEG image: unknown image type" : "";
-  // Most of the validator's have no mesh: what is wrong with them is elsewhere.
-  if (extension == ".gltf" || extension == ".glb") return "the file holds no triangles";
-  // Buffers and licences.
-  if (extension == ".bin" || extension == ".txt") return "not a file of a kind that we read";
-  return "";
+  if (extension == ".png" && file.filename().string()[0] != 'x') return std::nullopt;
+  // Most of the validator's have no mesh: what is wrong with them is elsewhere. Buffers, licences.
+  if (extension == ".png" || extension == ".gltf" || extension == ".glb" || extension == ".bin" ||
+      extension == ".txt")
+    return "";
+  return std::nullopt;
 }
 
 /// An empty folder to work in, and another for what is temporary, while this lives.
@@ -169,30 +157,25 @@ TEST(HostileFiles, OfOthersEndAsTheyShouldAndNothingIsWritten) {
     within_bounds(
         64 << 20,
         [&] {
-          std::string error;
-          try {
+          const auto error = error_of([&] {
             if (file.extension() == ".png") {
               Input input = Input::open(file);
               read_image(input);
             } else {
               read_scene(file);
             }
-          } catch (const InputError& refused) {
-            error = refused.reason();
-            EXPECT_FALSE(error.empty()) << file;
-            EXPECT_THAT(refused.place().file, HasSubstr(file.filename().string()));
-          }
-          if (expected(file).empty()) {
-            EXPECT_EQ(error, "") << file;
+          });
+          if (const auto verdict = expected(file)) {
+            EXPECT_THAT(error, ErrorIn(file.filename().string(), *verdict)) << file;
           } else {
-            EXPECT_THAT(error, HasSubstr(expected(file))) << file;
+            EXPECT_EQ(error, std::nullopt) << file;
           }
         },
         file.string());
   }
   EXPECT_EQ(listing(folder), before);
   EXPECT_EQ(listing(around / ""), around_before);
-  for (const auto& [name, says] : verdicts()) EXPECT_TRUE(tried.contains(name)) << "no " << name;
+  for (const auto& [name, verdict] : verdicts()) EXPECT_TRUE(tried.contains(name)) << "no " << name;
 }
 
 }  // namespace

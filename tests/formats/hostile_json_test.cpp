@@ -18,17 +18,18 @@
 #include "fuzz/fixtures.hpp"
 #include "fuzz/folder_files.hpp"
 #include "fuzz/targets.hpp"
+#include "support/errors.hpp"
 
 namespace tureen {
 namespace {
 
+using test::ErrorIn;
+using test::Names;
 namespace fs = std::filesystem;
-using ::testing::AllOf;
+using test::error_of;
 using ::testing::AnyOf;
 using testing::Bytes;
 using testing::bytes_of;
-using ::testing::HasSubstr;
-using testing::input_error;
 using testing::TemporaryFolder;
 using testing::text_of;
 using testing::within_bounds;
@@ -132,22 +133,14 @@ TEST(HostileJson, NestedDeeperThanOurLimitIsRefusedEverywhere) {
       const TemporaryFolder folder;
       SCOPED_TRACE(reader.name);
       const auto read = [&](int depth) {
-        return input_error(
-            [&] { reader.read(nested(depth, ends.first, ends.second), folder / ""); });
+        return error_of([&] { reader.read(nested(depth, ends.first, ends.second), folder / ""); });
       };
       for (const int depth : {64, 65, 1000, 1000000}) {
         within_bounds(
-            default_max_memory,
-            [&] {
-              // With the place: a log of lines names the line, a checkpoint what holds the JSON.
-              EXPECT_THAT(read(depth), AllOf(HasSubstr("JSON nested deeper than 64 levels"),
-                                             AnyOf(HasSubstr("byte"), HasSubstr(".jsonl:1: "),
-                                                   HasSubstr("its configuration cannot be used"))));
-            },
-            "depth");
+            default_max_memory, [&] { EXPECT_THAT(read(depth), Names(64)); }, "depth");
       }
       // One less is not refused for its depth.
-      EXPECT_THAT(read(63), ::testing::Not(HasSubstr("nested deeper")));
+      EXPECT_THAT(read(63), ::testing::Not(Names(64)));
     }
 }
 
@@ -156,28 +149,24 @@ TEST(HostileJson, OfMoreValuesThanMemoryIsRefusedBeforeItIsParsed) {
   for (int i = 0; i < 1000000; ++i) text += i ? ",{}" : "{}";
   text += "]}";
   within_bounds(
-      64 << 20,
-      [&] {
-        EXPECT_THAT(input_error([&] { fuzz::gltf(bytes_of(text)); }),
-                    HasSubstr("the JSON would take more than the 64 MB"));
-      },
+      64 << 20, [&] { EXPECT_THAT(error_of([&] { fuzz::gltf(bytes_of(text)); }), Names(64)); },
       "materials");
 }
 
 TEST(HostileJson, NamesOfMembersMayBeAnythingAtAnyLength) {
   const std::string head = R"({"asset": {"version": "2.0"}, "nodes": [{")";
   const auto read = [&](const std::string& name, const std::string& value) {
-    return input_error([&] { fuzz::gltf(bytes_of(head + name + "\": " + value + "}]}")); });
+    return error_of([&] { fuzz::gltf(bytes_of(head + name + "\": " + value + "}]}")); });
   };
   // The letter 0 ends names in C.
-  EXPECT_THAT(read("a\\u0000b", "[4294967296]"), ::testing::Not(HasSubstr("beyond")));
-  const std::string named = input_error([&] {
+  EXPECT_THAT(read("a\\u0000b", "[4294967296]"), ::testing::Not(Names(2147483647)));
+  const auto named = error_of([&] {
     fuzz::gltf(bytes_of(R"({"asset": {"version": "2.0\u0000\n", "minVersion": "a\u0000b\nc"}})"));
   });
-  EXPECT_THAT(named, HasSubstr("a\\u0000b\\nc; 2.0 is read"));
-  EXPECT_THAT(read("mesh", "4294967296"), HasSubstr("nodes[0].mesh: is beyond 2147483647"));
-  EXPECT_THAT(read("mesh", "-4294967295"), HasSubstr("nodes[0].mesh: is beyond 2147483647"));
-  EXPECT_THAT(read("children", "[0, 4294967296]"), HasSubstr("nodes[0].children[1]: is beyond"));
+  EXPECT_THAT(named, Names("a\\u0000b\\nc", "2.0"));
+  EXPECT_THAT(read("mesh", "4294967296"), Names("nodes[0].mesh", "2147483647"));
+  EXPECT_THAT(read("mesh", "-4294967295"), Names("nodes[0].mesh", "2147483647"));
+  EXPECT_THAT(read("children", "[0, 4294967296]"), Names("nodes[0].children[1]", "2147483647"));
   // A long name above many values: what is put together for each of them would be terabytes.
   std::string many = "[0";
   for (int i = 0; i < 500000; ++i) many += ",0";
@@ -191,11 +180,10 @@ TEST(HostileJson, X2_NumbersThatNoDoubleHoldsAreRefused) {
   for (const char* number : {"1e999", "-1e999"}) {
     const std::string text =
         R"({"asset": {"version": "2.0"}, "frames": [)" + std::string(number) + "]}";
-    EXPECT_THAT(input_error([&] { parse_json(text, "a.json"); }), HasSubstr(number));
+    EXPECT_THAT(error_of([&] { parse_json(text, "a.json"); }), ErrorIn("a.json", number));
     for (const JsonReader& reader : json_readers) {
       const TemporaryFolder folder;
-      EXPECT_THAT(input_error([&] { reader.read(text, folder / ""); }), HasSubstr(number))
-          << reader.name;
+      EXPECT_THAT(error_of([&] { reader.read(text, folder / ""); }), Names(number)) << reader.name;
     }
   }
 }
@@ -260,11 +248,10 @@ TEST(HostileJson, X2_ListsOfWrongLengthsAreRefused) {
         else
           changed[list].push_back(changed[list].front());
         const TemporaryFolder folder;
-        const std::string error = input_error([&] { reader->read(changed.dump(), folder / ""); });
-        refused[name] += !error.empty();
+        const auto error = error_of([&] { reader->read(changed.dump(), folder / ""); });
+        refused[name] += error.has_value();
         // A time of a view more or less: it is the other lists of views that disagree.
-        EXPECT_THAT(error, AnyOf(HasSubstr(named(list)),
-                                 HasSubstr(".self_test_ms[1][0]: has 3 views, expected ")))
+        EXPECT_THAT(error, AnyOf(Names(named(list)), Names("self_test_ms[1][0]", 3)))
             << name << list.to_string() << (change < 0 ? " shorter" : " longer");
       }
   }

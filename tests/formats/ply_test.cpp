@@ -21,10 +21,8 @@ namespace tureen {
 namespace {
 
 using namespace testing;
-using ::testing::AnyOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 const std::string data_folder = std::string(TUREEN_SOURCE_DIR) + "/../shared/data/";
 
@@ -33,8 +31,8 @@ Scene read_bytes(const std::string& text) {
   return read_ply(input);
 }
 
-std::string message_of(const std::string& text) {
-  return input_error([&] { read_bytes(text); });
+std::optional<Refusal> message_of(const std::string& text) {
+  return error_of([&] { read_bytes(text); });
 }
 
 /// A PLY put together value by value, in any encoding.
@@ -176,58 +174,51 @@ TEST(Ply, RemarksOnTrailingBytes) {
 TEST(Ply, RefusesWhatIsNotTriangles) {
   const std::string splat =
       "property float f_dc_0\nproperty float scale_0\nproperty float scale_1\n";
-  EXPECT_EQ(
+  EXPECT_THAT(
       message_of(ascii + "element vertex 1\n" + xyz + splat +
                  "property float scale_2\nproperty float rot_0\nend_header\n0 0 0 0 0 0 0 0\n"),
-      "folder/plant.ply:3: element 'vertex' holds 3D Gaussian splats, not triangles: a "
-      "radiance field of 1 Gaussians and no faces, which is not drawn");
+      ErrorAt("plant.ply:3", "vertex", "3D", 1));
   EXPECT_THAT(message_of(ascii + "element vertex 1\n" + xyz + splat +
                          "property float rot_0\nend_header\n0 0 0 0 0 0 0\n"),
-              HasSubstr("2D Gaussian splats, not triangles"));
-  EXPECT_EQ(message_of(ascii + vertices3 + "end_header\n" + body3),
-            "folder/plant.ply:3: element 'vertex' is a point cloud: 3 vertices and no faces, "
-            "nothing to draw");
-  EXPECT_EQ(message_of(ascii + faces1 + "end_header\n3 0 1 2\n"),
-            "folder/plant.ply:5: has no element 'vertex'");
+              ErrorAt("plant.ply:3", "2D"));
+  EXPECT_THAT(message_of(ascii + vertices3 + "end_header\n" + body3),
+              ErrorAt("plant.ply:3", "vertex", 3));
+  EXPECT_THAT(message_of(ascii + faces1 + "end_header\n3 0 1 2\n"),
+              ErrorAt("plant.ply:5", "vertex"));
 }
 
 TEST(Ply, RefusesByPlaceAndReason) {
-  const std::string at = "folder/plant.ply:";
   const std::string head = ascii + vertices3 + faces1 + "end_header\n";  // body from line 10 on
-  EXPECT_EQ(message_of(head + "0 0 0\n1 0\n0 1 0\n3 0 1 2\n"),
-            at + "11: the line ends where a property is expected");
-  EXPECT_EQ(message_of(head + "0 0 0 7\n1 0 0\n0 1 0\n3 0 1 2\n"),
-            at + "10: more than the properties of its element on this line: '7'");
-  EXPECT_EQ(message_of(head + body3 + "\n\n\n\n"),
-            at + "17: the file ends before its last 'face' element");
-  EXPECT_EQ(message_of(head + body3 + "3 0 1 3\n"), at + "13: 'face' 0 names vertex 3 of 3");
-  EXPECT_EQ(message_of(head + body3 + "3 0 -1 1\n"), at + "13: 'face' 0 names vertex -1 of 3");
-  EXPECT_EQ(message_of(head + body3 + "256 0 1 1\n"),
-            at + "13: a property of 256 is outside 0..255");
-  EXPECT_EQ(message_of(head + body3 + "200 0 1 1\n"),
-            at + "13: a list 'vertex_indices' of 200 values in the last 7 bytes of the file");
-  EXPECT_EQ(message_of(ascii + "element vertex 0\nproperty ushort x\nproperty ushort z\n" + faces1 +
-                       "end_header\n3 0 0 0\n"),
-            at + "3: element 'vertex' lacks 'y'");
-  EXPECT_EQ(message_of(ascii + "element vertex 1\n" + xyz + "property float x\n" + faces1 +
-                       "end_header\n0 0 0 0\n3 0 0 0\n"),
-            at + "3: element 'vertex' has a second property 'x'");
-  EXPECT_EQ(message_of(ascii + "element vertex 1\nproperty list int int x\n" + faces1 +
-                       "end_header\n0 0 0 0\n3 0 0 0\n"),
-            at + "3: element 'vertex' has a list 'x'");
-  EXPECT_EQ(message_of(ascii + vertices3 + "property uchar red\n" + faces1 + "end_header\n" +
-                       body3 + body3),
-            at + "3: element 'vertex' has colours that lack 'green'");
+  EXPECT_THAT(message_of(head + "0 0 0\n1 0\n0 1 0\n3 0 1 2\n"), ErrorAt("plant.ply:11"));
+  EXPECT_THAT(message_of(head + "0 0 0 7\n1 0 0\n0 1 0\n3 0 1 2\n"), ErrorAt("plant.ply:10", 7));
+  EXPECT_THAT(message_of(head + body3 + "\n\n\n\n"), ErrorAt("plant.ply:17", "face"));
+  EXPECT_THAT(message_of(head + body3 + "3 0 1 3\n"), ErrorAt("plant.ply:13", "face", 0, 3));
+  EXPECT_THAT(message_of(head + body3 + "3 0 -1 1\n"), ErrorAt("plant.ply:13", "face", 0, -1, 3));
+  EXPECT_THAT(message_of(head + body3 + "256 0 1 1\n"), ErrorAt("plant.ply:13", 256, 255));
+  EXPECT_THAT(message_of(head + body3 + "200 0 1 1\n"),
+              ErrorAt("plant.ply:13", "vertex_indices", 200, 7));
+  EXPECT_THAT(message_of(ascii + "element vertex 0\nproperty ushort x\nproperty ushort z\n" +
+                         faces1 + "end_header\n3 0 0 0\n"),
+              ErrorAt("plant.ply:3", "vertex", "y"));
+  EXPECT_THAT(message_of(ascii + "element vertex 1\n" + xyz + "property float x\n" + faces1 +
+                         "end_header\n0 0 0 0\n3 0 0 0\n"),
+              ErrorAt("plant.ply:3", "vertex", "x"));
+  EXPECT_THAT(message_of(ascii + "element vertex 1\nproperty list int int x\n" + faces1 +
+                         "end_header\n0 0 0 0\n3 0 0 0\n"),
+              ErrorAt("plant.ply:3", "vertex", "x"));
+  EXPECT_THAT(message_of(ascii + vertices3 + "property uchar red\n" + faces1 + "end_header\n" +
+                         body3 + body3),
+              ErrorAt("plant.ply:3", "vertex", "green"));
   EXPECT_THAT(message_of(ascii + vertices3 + "property int red\n" + faces1 + "end_header\n" +
                          body3 + body3),
-              HasSubstr("a colour 'red' of a type whose scale is not defined"));
-  EXPECT_EQ(message_of(ascii + vertices3 + "element face 1\nproperty int id\nend_header\n" + body3 +
-                       "1\n"),
-            at + "7: element 'face' lacks 'vertex_indices'");
-  EXPECT_EQ(message_of(ascii + vertices3 +
-                       "element face 1\nproperty list int float vertex_index\nend_header\n" +
-                       body3 + "1\n"),
-            at + "7: element 'face' has 'vertex_index' that are no list of whole numbers");
+              ErrorAt("plant.ply:3", "red"));
+  EXPECT_THAT(message_of(ascii + vertices3 + "element face 1\nproperty int id\nend_header\n" +
+                         body3 + "1\n"),
+              ErrorAt("plant.ply:7", "face", "vertex_indices"));
+  EXPECT_THAT(message_of(ascii + vertices3 +
+                         "element face 1\nproperty list int float vertex_index\nend_header\n" +
+                         body3 + "1\n"),
+              ErrorAt("plant.ply:7", "face", "vertex_index"));
 
   Builder b("binary_little_endian");
   b.line("element vertex 1")
@@ -237,18 +228,16 @@ TEST(Ply, RefusesByPlaceAndReason) {
   b.line("element face 2").line("property list char int vertex_indices").line("end_header");
   const std::string start = b.text();
   b.value(std::int8_t(0)).value(std::int8_t(0)).value(std::int8_t(0));
-  const auto byte = [&](std::size_t n) {
-    return "folder/plant.ply: byte " + std::to_string(start.size() + n) + ": ";
-  };
+  const auto byte = [&](std::size_t n) { return "plant.ply@" + std::to_string(start.size() + n); };
   Builder negative = b;
   negative.value(std::int8_t(-2)).value(0).value(0).value(0);
-  EXPECT_EQ(message_of(negative.text()), byte(4) + "a list 'vertex_indices' of -2 values");
+  EXPECT_THAT(message_of(negative.text()), ErrorAt(byte(4), "vertex_indices", -2));
   Builder index = b;
   index.value(std::int8_t(3)).value(0).value(0).value(77).value(std::int8_t(0));
-  EXPECT_EQ(message_of(index.text()), byte(16) + "'face' 0 names vertex 77 of 1");
+  EXPECT_THAT(message_of(index.text()), ErrorAt(byte(16), "face", 0, 77, 1));
   Builder shorter = b;
   shorter.value(std::int8_t(3)).value(0).value(0).value(0);
-  EXPECT_EQ(message_of(shorter.text()), byte(16) + "the file ends within its 'face' elements");
+  EXPECT_THAT(message_of(shorter.text()), ErrorAt(byte(16), "face"));
 }
 
 // -- Row X1 of the catalogue of numerical hazards, clause by clause
@@ -309,16 +298,14 @@ TEST(Ply, X1_FacesThatNameNoVertexRefuseTheFileByTheirNumber) {
         std::vector<std::vector<int>> faces{{0, 1, 2}, {1, 2, 3}, {0, 2, 3}};
         faces[1][corner] = index;
         EXPECT_THAT(message_of(square(encoding, "\n", faces)),
-                    HasSubstr("'face' 1 names vertex " + std::to_string(index) + " of 4"))
+                    ErrorIn("plant.ply", "face", 1, index, 4))
             << encoding;
       }
 }
 
 TEST(Ply, X1_ZeroFacesAreNoSceneUnlessThereIsNothingAtAll) {
   for (const std::string encoding : encodings) {
-    EXPECT_EQ(message_of(square(encoding, "\n", {})),
-              "folder/plant.ply:3: element 'vertex' is a point cloud: 4 vertices and no faces, "
-              "nothing to draw");
+    EXPECT_THAT(message_of(square(encoding, "\n", {})), ErrorAt("plant.ply:3", "vertex", 4));
     const Scene empty = read_bytes(Builder(encoding)
                                        .line("element vertex 0")
                                        .line("property float x")
@@ -335,8 +322,7 @@ TEST(Ply, X1_ZeroFacesAreNoSceneUnlessThereIsNothingAtAll) {
     write_ply(empty, folder / "empty.ply");
     EXPECT_TRUE(soup_of(read_ply(folder / "empty.ply")).triangles.empty());
     // As in every format: a picture of nothing would leave open what is wrong.
-    EXPECT_THAT(input_error([&] { read_scene(folder / "empty.ply"); }),
-                HasSubstr("empty.ply: the file holds no triangles"));
+    EXPECT_THAT(error_of([&] { read_scene(folder / "empty.ply"); }), ErrorAt("empty.ply"));
   }
 }
 
@@ -345,7 +331,7 @@ TEST(Ply, X1_SplatsAreToldWhatTheyAreWithAndWithoutTheirHarmonics) {
   const std::string scales =
       "property float scale_0\nproperty float scale_1\nproperty float scale_2\n"
       "property float rot_0\nend_header\n0 0 0 0 0 0 0 0";
-  const auto is_told = HasSubstr("holds 3D Gaussian splats, not triangles: a radiance field of 1 ");
+  const auto is_told = ErrorAt("plant.ply:3", "3D", 1);
   EXPECT_THAT(message_of(head + scales + "\n"), is_told);
   EXPECT_THAT(message_of(head + "property float f_rest_0\n" + scales + " 0\n"), is_told);
 }
@@ -357,9 +343,7 @@ TEST(Ply, X1_BodiesThatEndEarlyAreRefusedAtEveryLength) {
     // A text without its last line break is whole.
     const std::size_t whole = encoding == "ascii" ? text.size() - 1 : text.size();
     for (std::size_t size = body; size < whole; ++size)
-      EXPECT_THAT(message_of(text.substr(0, size)),
-                  AnyOf(HasSubstr("the file ends "), HasSubstr(" bytes, but only "),
-                        HasSubstr(" bytes of the file")))
+      EXPECT_THAT(message_of(text.substr(0, size)), ErrorIn("plant.ply"))
           << encoding << ' ' << size;
   }
 }
@@ -371,7 +355,7 @@ TEST(Ply, X1_SizesOfFourGigabytesAreRefusedByTheirNumber) {
         std::string text = square(encoding, "\n", {{0, 1, 2}});
         const std::size_t at = text.find(element) + element.size() - 1;
         text.replace(at, 1, size);
-        EXPECT_THAT(message_of(text), HasSubstr(size)) << encoding << ' ' << element;
+        EXPECT_THAT(message_of(text), ErrorIn("plant.ply", size)) << encoding << ' ' << element;
       }
 }
 
@@ -466,35 +450,35 @@ TEST(Ply, RoundTripsBitForBit_seed7) {
 TEST(Ply, RealGaussianSplatsAreToldWhatTheyAre) {
   const std::string folder = data_folder + "gaussians/";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
-  EXPECT_THAT(input_error([&] { read_ply(folder + "guitar_3dgs_dc.ply"); }),
-              HasSubstr("3D Gaussian splats, not triangles: a radiance field of 90854 Gaussians"));
-  EXPECT_THAT(input_error([&] { read_ply(folder + "sh3_trailing_bytes.ply"); }),
-              HasSubstr("3D Gaussian splats"));
+  EXPECT_THAT(error_of([&] { read_ply(folder + "guitar_3dgs_dc.ply"); }),
+              ErrorAt("w/testprose/../shared/data/gaussians/guitar_3dgs_dc.ply:3", "3D", 90854));
+  EXPECT_THAT(error_of([&] { read_ply(folder + "sh3_trailing_bytes.ply"); }),
+              ErrorAt("w/testprose/../shared/data/gaussians/sh3_trailing_bytes.ply:3", "3D"));
 }
 
 TEST(Ply, HostileFilesEndWell) {
   const std::string folder = data_folder + "hostile/ply";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
-  std::map<std::string, std::string> errors;
+  std::map<std::string, std::optional<Refusal>> errors;
   std::map<std::string, std::size_t> triangles;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (!entry.is_regular_file()) continue;
     const std::string name = entry.path().stem().string();
     std::size_t count = 0;
-    errors[name] = input_error([&] {
+    errors[name] = error_of([&] {
       const Scene scene = read_ply(entry.path());
       EXPECT_EQ(defect(soup_of(scene)), std::nullopt) << name;
       count = soup_of(scene).triangles.size();
     });
-    if (errors[name].empty()) triangles[name] = count;
+    if (!errors[name]) triangles[name] = count;
   }
   EXPECT_GE(errors.size(), 36u);
   for (const char* name : {"extra-token-face-element", "extra-token-vertex-property",
                            "format-missing", "format-unsupported", "integer-literal-too-large",
                            "invalid-face-type", "positions-not-all", "positions-missing"})
-    EXPECT_THAT(errors[name], HasSubstr(std::string(name) + ".ply:")) << name;
+    EXPECT_THAT(errors[name], ErrorIn(std::string(name) + ".ply")) << name;
   EXPECT_THAT(errors["integer-literal-too-large"],
-              HasSubstr(":5: the number of 'vertex' elements"));
+              ErrorAt("integer-literal-too-large.ply:5", "vertex"));
   for (const auto& [name, count] : triangles) {
     const bool empty = name.rfind("empty", 0) == 0 || name.find("not-") != std::string::npos ||
                        name == "normals-unsupported-type";

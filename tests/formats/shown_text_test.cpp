@@ -4,12 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "formats/utf8.hpp"
+#include "support/errors.hpp"
 
 namespace tureen {
 namespace {
 
+using test::Names;
 using testing::EndsWith;
-using testing::HasSubstr;
 using testing::StartsWith;
 
 TEST(ShownText, LeavesWhatTerminalsShow) {
@@ -45,7 +46,7 @@ TEST(ShownText, OfALongLineShowsBeginningAndEnd) {
   const std::string line = "x.glb: '" + std::string(1'000'000, 'a') + "' is no name";
   EXPECT_THAT(shown_line(line), StartsWith("x.glb: 'aaa"));
   EXPECT_THAT(shown_line(line), EndsWith("aaa' is no name"));
-  EXPECT_THAT(shown_line(line), HasSubstr("a [.. 999020 more bytes ..] a"));
+  EXPECT_THAT(shown_line(line), Names(999020));
   EXPECT_LT(shown_line(line).size(), 1100u);
   EXPECT_EQ(shown_line(std::string(1000, 'a')), std::string(1000, 'a'));
 }

@@ -12,7 +12,8 @@
 namespace tureen {
 namespace {
 
-using testing::input_error;
+using test::error_of;
+using test::ErrorAt;
 using testing::input_of;
 
 TEST(TextScanner, ReadsLineByLine) {
@@ -53,26 +54,24 @@ TEST(TextScanner, NamesLineAndReason) {
   const auto message = [](const std::string& text, auto&& read) {
     Input input = input_of(text);
     TextScanner scanner(input, {.comment = '#', .first_line = 10});
-    return input_error([&] { read(scanner); });
+    return error_of([&] { read(scanner); });
   };
   const auto number = [](TextScanner& s) { s.read_float("an x"); };
-  EXPECT_EQ(message("abc", number), "test.file:10: 'abc' where an x is expected: not a number");
-  EXPECT_EQ(message("1.5x 2", number), "test.file:10: '1.5x' where an x is expected: not a number");
-  EXPECT_EQ(message(" \n1", number), "test.file:10: the line ends where an x is expected");
-  EXPECT_EQ(message("#1", number), "test.file:10: the file ends where an x is expected");
-  EXPECT_EQ(message(std::string("\0", 1), number),
-            "test.file:10: a NUL byte where an x is expected");
-  EXPECT_EQ(message(std::string(2000, '1'), number),
-            "test.file:10: an x has more than 1024 characters");
-  EXPECT_EQ(message("\x01\xff", number), "test.file:10: '..' where an x is expected: not a number");
-  EXPECT_EQ(message("\n1.5", [](TextScanner& s) { s.next_line(), s.read_integer("a count"); }),
-            "test.file:11: '1.5' where a count is expected: not a whole number");
-  EXPECT_EQ(message("99999999999999999999", [](TextScanner& s) { s.read_integer("a count"); }),
-            "test.file:10: '99999999999999999999' where a count is expected: not a whole number");
-  EXPECT_EQ(message("-1", [](TextScanner& s) { s.read_integer("a count", 0, 9); }),
-            "test.file:10: a count of -1 is outside 0..9");
-  EXPECT_EQ(message("1 2 3", [](TextScanner& s) { s.read_integer("x"), s.expect_line_end("x"); }),
-            "test.file:10: more than x on this line: '2'");
+  EXPECT_THAT(message("abc", number), ErrorAt("test.file:10", "abc"));
+  EXPECT_THAT(message("1.5x 2", number), ErrorAt("test.file:10", "1.5x"));
+  EXPECT_THAT(message(" \n1", number), ErrorAt("test.file:10", "an x"));
+  EXPECT_THAT(message("#1", number), ErrorAt("test.file:10", "an x"));
+  EXPECT_THAT(message(std::string("\0", 1), number), ErrorAt("test.file:10", "an x"));
+  EXPECT_THAT(message(std::string(2000, '1'), number), ErrorAt("test.file:10", "an x", 1024));
+  EXPECT_THAT(message("\x01\xff", number), ErrorAt("test.file:10", ".."));
+  EXPECT_THAT(message("\n1.5", [](TextScanner& s) { s.next_line(), s.read_integer("a count"); }),
+              ErrorAt("test.file:11", "1.5"));
+  EXPECT_THAT(message("99999999999999999999", [](TextScanner& s) { s.read_integer("a count"); }),
+              ErrorAt("test.file:10", "99999999999999999999"));
+  EXPECT_THAT(message("-1", [](TextScanner& s) { s.read_integer("a count", 0, 9); }),
+              ErrorAt("test.file:10", -1, 9));
+  EXPECT_THAT(message("1 2 3", [](TextScanner& s) { s.read_integer("x"), s.expect_line_end("x"); }),
+              ErrorAt("test.file:10", 2));
 }
 
 TEST(TextScanner, SeesTheSameNumbersAsAStreamAcrossWindows_seed4) {

@@ -7,22 +7,15 @@
 #include <fstream>
 #include <functional>
 
+#include "support/errors.hpp"
+
 namespace tureen {
 namespace {
 
-using ::testing::HasSubstr;
+using test::Names;
 
 std::string text_of(const std::vector<std::byte>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const UriError& error) {
-    return error.reason;
-  }
-  return "accepted";
 }
 
 TEST(Uri, DecodesBase64OfEveryLength) {
@@ -36,11 +29,9 @@ TEST(Uri, DecodesBase64OfEveryLength) {
 }
 
 TEST(Uri, RefusesDamagedDataUris) {
-  EXPECT_THAT(refusal([] { decode_data_uri("data:text/plain,hello"); }),
-              HasSubstr("not in base64"));
-  EXPECT_THAT(refusal([] { decode_data_uri("data:"); }), HasSubstr("not in base64"));
-  EXPECT_THAT(refusal([] { decode_data_uri("data:;base64,Zm9vY"); }), HasSubstr("cut short"));
-  EXPECT_THAT(refusal([] { decode_data_uri("data:;base64,Zm!v"); }), HasSubstr("not base64"));
+  for (const char* uri :
+       {"data:text/plain,hello", "data:", "data:;base64,Zm9vY", "data:;base64,Zm!v"})
+    EXPECT_THROW(decode_data_uri(uri), UriError) << uri;
 }
 
 class ConfinedUri : public ::testing::Test {
@@ -58,8 +49,14 @@ class ConfinedUri : public ::testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(base_); }
 
+  /// What resolving `uri` is refused with.
   std::string refused(std::string_view uri) {
-    return refusal([&] { resolve_in_folder(base_ / "scene", uri); });
+    try {
+      resolve_in_folder(base_ / "scene", uri);
+    } catch (const UriError& error) {
+      return error.reason;
+    }
+    return "";
   }
   std::filesystem::path base_;
 };
@@ -74,21 +71,15 @@ TEST_F(ConfinedUri, FindsFilesInTheFolderAndBelow) {
 }
 
 TEST_F(ConfinedUri, RefusesWhatLeadsOut) {
-  EXPECT_THAT(refused("../secret.bin"), HasSubstr("leads out"));
-  EXPECT_THAT(refused("textures/../../secret.bin"), HasSubstr("leads out"));
-  EXPECT_THAT(refused("%2e%2e/secret.bin"), HasSubstr("leads out"));
-  EXPECT_THAT(refused("..%2Fsecret.bin"), HasSubstr("leads out"));
-  EXPECT_THAT(refused("..\\secret.bin"), HasSubstr("leads out"));
-  EXPECT_THAT(refused("/etc/passwd"), HasSubstr("absolute"));
-  EXPECT_THAT(refused("%2Fetc/passwd"), HasSubstr("absolute"));
-  EXPECT_THAT(refused("\\\\server\\share"), HasSubstr("absolute"));
-  EXPECT_THAT(refused("file:///etc/passwd"), HasSubstr("not a file in the scene's folder"));
-  EXPECT_THAT(refused("https://example.org/x.bin"), HasSubstr("not a file"));
-  EXPECT_THAT(refused("C:/x.bin"), HasSubstr("not a file"));
-  EXPECT_THAT(refused("link.bin"), HasSubstr("link that leads out"));
-  EXPECT_THAT(refused("up/secret.bin"), HasSubstr("link that leads out"));
-  EXPECT_THAT(refused("a%00.bin"), HasSubstr("zero byte"));
-  EXPECT_THAT(refused(""), HasSubstr("names no file"));
+  for (const char* name : {"../secret.bin", "textures/../../secret.bin", "..\\secret.bin",
+                           "/etc/passwd", "\\\\server\\share", "file:///etc/passwd",
+                           "https://example.org/x.bin", "C:/x.bin", "link.bin", "up/secret.bin"})
+    EXPECT_THAT(refused(name), Names(name));
+  EXPECT_THAT(refused("%2e%2e/secret.bin"), Names("../secret.bin"));
+  EXPECT_THAT(refused("..%2Fsecret.bin"), Names("../secret.bin"));
+  EXPECT_THAT(refused("%2Fetc/passwd"), Names("/etc/passwd"));
+  EXPECT_NE(refused("a%00.bin"), "");
+  EXPECT_NE(refused(""), "");
 }
 
 }  // namespace

@@ -14,8 +14,9 @@
 namespace tureen {
 namespace {
 
+using test::error_of;
+using test::ErrorAt;
 namespace fs = std::filesystem;
-using ::testing::HasSubstr;
 
 /// Other programs for as long as it lives.
 class Path {
@@ -136,20 +137,17 @@ TEST(VideoFile, TellsWhatFfmpegComplainsAbout) {
   write_program(folder / "bin/ffmpeg", "echo 'Unknown encoder' >&2\nexit 1");
   const Path path((folder / "bin").string() + ":/usr/bin:/bin");
   const auto failure = [&] {
-    try {
+    return error_of<OutputError>([&] {
       VideoFile video(folder / "film.mp4", {64, 48, 30});
       // Some frames fit into the connection before it shows that nobody reads.
       for (int i = 0; i < 200; ++i) video.add(frame(64, 48, 1));
       video.commit();
-    } catch (const OutputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("nothing thrown");
+    });
   };
-  EXPECT_THAT(failure(), HasSubstr("film.mp4: ffmpeg failed: Unknown encoder"));
+  EXPECT_THAT(failure(), ErrorAt("film.mp4", "ffmpeg", "Unknown encoder"));
   // One that dies on a signal, and says nothing.
   write_program(folder / "bin/ffmpeg", "kill -9 $$");
-  EXPECT_THAT(failure(), HasSubstr("film.mp4: ffmpeg failed"));
+  EXPECT_THAT(failure(), ErrorAt("film.mp4", "ffmpeg"));
   EXPECT_EQ(files_in(folder / ""), 1u) << "only bin";
 }
 
