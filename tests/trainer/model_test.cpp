@@ -265,12 +265,7 @@ TEST(FromScene, MovesTheOriginToASoupFarFromIt) {
 TEST(FromScene, RefusesAnEmptySoup) {
   Scene scene;
   scene.primitives = TriangleSoup{.positions = {}, .triangles = {}, .appearance = FaceColors{}};
-  EXPECT_THROW(
-      try { from_scene(scene, {}); } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("no triangle"));
-        throw;
-      },
-      InputError);
+  EXPECT_THROW(from_scene(scene, {}), InputError);
 }
 
 TEST(Mlp, BeginsWithinItsBoundsAndTheSameForASeed) {

@@ -16,6 +16,7 @@
 #include "formats/input.hpp"
 #include "formats/png.hpp"
 #include "formats/scene_file.hpp"
+#include "support/errors.hpp"
 #include "support/golden.hpp"
 #include "viewer/display.hpp"
 #include "viewer/session.hpp"
@@ -24,7 +25,6 @@ namespace tureen::test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
 using namespace tureen::viewer;
 
 /// One server for all tests of this process.
@@ -154,7 +154,7 @@ TEST_F(Window, ABadFileShowsItsErrorAndTheOldSceneStays) {
   std::ofstream(folder_ / "bad.glb") << "glTF, it says";
   const ChildResult result = replay(Person().wait().drop("bad.glb").look("bad"));
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err, HasSubstr("bad.glb cannot be shown"));
+  EXPECT_THAT(result.err, Names("bad.glb"));
   expect_golden(picture("bad"), "window_bad_file");
 }
 
@@ -398,24 +398,22 @@ TEST_F(Window, WhatIsRecordedCanBeReplayed) {
 TEST_F(Window, WhatCannotBeIsSaid) {
   ChildResult result = Child({"--size", "8"}, folder_).wait();
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("--size wants"));
+  EXPECT_THAT(result.err, Names("--size"));
   result = Child({"--replay", "none.json"}, folder_).wait();
   EXPECT_EQ(result.exit_code, 3);
-  EXPECT_THAT(result.err, HasSubstr("none.json"));
+  EXPECT_THAT(result.err, Names("none.json"));
   const std::string display = std::getenv("DISPLAY");
   ::unsetenv("DISPLAY");
   result = Child({"soup.glb"}, folder_).wait();
   ::setenv("DISPLAY", display.c_str(), 1);
   EXPECT_EQ(result.exit_code, 4);
-  EXPECT_THAT(result.err, HasSubstr("tureen render"));
+  EXPECT_THAT(result.err, Names("tureen render"));
 }
 
 TEST_F(Window, ObeysTheLimitOfMemory) {
   const ChildResult refused = replay(Person().wait(), {"soup.glb", "--max-memory", "64kB"});
   EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_THAT(refused.err,
-              HasSubstr("would take more than the 64 kB of memory that reading may take; "
-                        "--max-memory changes that"));
+  EXPECT_THAT(refused.err, Names("64 kB", "--max-memory"));
   const ChildResult read = replay(Person().wait(), {"soup.glb", "--max-memory", "1GB"});
   EXPECT_EQ(read.exit_code, 0) << read.err;
 }
@@ -424,7 +422,7 @@ TEST_F(Window, ObeysTheLimitOfMemory) {
 TEST_F(Window, IsStartedByTureenView) {
   const ChildResult help = Child({"view", "--help"}, folder_, TUREEN_HEADLESS_PROGRAM).wait();
   EXPECT_EQ(help.exit_code, 0) << help.err;
-  EXPECT_THAT(help.out, HasSubstr("tureen view"));
+  EXPECT_THAT(help.out, Names("tureen view"));
 }
 
 }  // namespace
