@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "soup/error.hpp"
+#include "support/errors.hpp"
 
 namespace tureen::cli {
 namespace {
@@ -49,13 +50,8 @@ TEST(DrawingOptions, RemovedValuesAreRefusedWithAHint) {
 }
 
 TEST(DrawingOptions, AnUnknownNameIsRefusedWithTheNearest) {
-  try {
-    parsed("--keep alpha-tset");
-    FAIL();
-  } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("not 'alpha-tset'"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("did you mean alpha-test?"));
-  }
+  EXPECT_THAT(test::error_of<UsageError>([] { parsed("--keep alpha-tset"); }),
+              test::ErrorAt("", "alpha-tset", "alpha-test"));
 }
 
 }  // namespace

@@ -6,13 +6,14 @@
 #include <cstdlib>
 
 #include "cli/photographs_fixture.hpp"
+#include "support/errors.hpp"
 
 namespace tureen {
 namespace {
 
 using test::ChildResult;
+using test::Names;
 using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::IsEmpty;
 
 const std::string example = TUREEN_SOURCE_DIR "/examples/soup.glb";
@@ -54,7 +55,7 @@ TEST_F(Eval, TheScenesOwnPicturesAreMetExactly) {
       ASSERT_EQ(sheet.at(width + x, y), photograph.at(x, y));
       ASSERT_EQ(sheet.at(2 * width + x, y), glm::u8vec4(0, 0, 0, 255));
     }
-  EXPECT_THAT(result.err, HasSubstr("test/r_1.png    100.00   1.0000   0.0000"));
+  EXPECT_THAT(result.err, Names("test/r_1.png", "100.00"));
 }
 
 TEST_F(Eval, AKnownErrorHasItsDecibels) {
@@ -102,25 +103,23 @@ TEST_F(Eval, TakesTheSplitTheScaleAndTheBackground) {
 TEST_F(Eval, ExitCodesSayWhoIsToBlame) {
   photograph(example);
   const auto expect = [&](const std::vector<std::string>& arguments, int code,
-                          const std::string& words) {
+                          const auto&... values) {
     const ChildResult result = run(arguments);
     EXPECT_EQ(result.exit_code, code);
-    EXPECT_THAT(result.err, HasSubstr(words));
+    EXPECT_THAT(result.err, Names(values...));
     EXPECT_THAT(result.out, IsEmpty());
   };
-  expect({"eval", example}, 2, "DATASET is required");
-  expect({"eval", example, "data", "--scale", "0"}, 2, "more than 0 and at most 1, not 0");
-  expect({"eval", example, "data", "--scale", "1.5"}, 2, "more than 0 and at most 1, not 1.5");
-  expect({"eval", example, "data", "--split", "tets"}, 2, "did you mean test?");
-  expect({"eval", example, "data", "--background", "pink"}, 2, "'pink' is no background");
-  expect({"eval", example, "data", "--context", "osmesa", "--scale", "0.1"}, 3,
-         "is 6 x 5 pixels; there must be at least 11 each way");
-  expect({"eval", example, "data", "--background", "transparent"}, 2, "have something behind them");
-  expect({"eval", example, "dat"}, 3, "dat: there is no such file or folder; did you mean data?");
-  expect({"eval", "soup.glb", "data"}, 3, "soup.glb: there is no such file or folder");
+  expect({"eval", example}, 2, "DATASET");
+  expect({"eval", example, "data", "--scale", "0"}, 2, "--scale", 0);
+  expect({"eval", example, "data", "--scale", "1.5"}, 2, "--scale", 1.5);
+  expect({"eval", example, "data", "--split", "tets"}, 2, "tets", "test");
+  expect({"eval", example, "data", "--background", "pink"}, 2, "pink");
+  expect({"eval", example, "data", "--context", "osmesa", "--scale", "0.1"}, 3, "6 x 5", 11);
+  expect({"eval", example, "data", "--background", "transparent"}, 2, "0.2,0.4,1");
+  expect({"eval", example, "dat"}, 3, "dat", "data");
+  expect({"eval", "soup.glb", "data"}, 3, "soup.glb");
   write("file", "");
-  expect({"eval", example, "data", "--context", "osmesa", "-o", "file"}, 5,
-         "file: cannot be made a folder");
+  expect({"eval", example, "data", "--context", "osmesa", "-o", "file"}, 5, "file");
   std::filesystem::remove(folder / "data/test/r_1.png");
   expect({"eval", example, "data", "--context", "osmesa", "-o", "views"}, 3, "r_1.png");
   EXPECT_FALSE(exists("views"));
@@ -131,7 +130,7 @@ TEST_F(Eval, DoesNotReplaceThePhotographsOfTheDataset) {
   std::filesystem::copy_file(folder / "data/test/r_0.png", folder / "data/test_r_0.png");
   const ChildResult refused = eval({"-o", "data"});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("data/test_r_0.png is there already, and in the dataset's"));
+  EXPECT_THAT(refused.err, Names("data/test_r_0.png"));
   EXPECT_EQ(read_png("data/test_r_0.png").pixels, read_png("data/test/r_0.png").pixels);
   EXPECT_FALSE(exists("data/test_r_1.png"));
   EXPECT_EQ(eval({"-o", "data/views"}).exit_code, 0);
@@ -146,7 +145,7 @@ TEST_F(Eval, WithoutAContextItSaysSo) {
   ::unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES");
   if (result.exit_code == 0) GTEST_SKIP() << "this EGL needs no loader, and cannot be made to fail";
   EXPECT_EQ(result.exit_code, 4);
-  EXPECT_THAT(result.err, HasSubstr("EGL"));
+  EXPECT_THAT(result.err, Names("EGL"));
 }
 
 }  // namespace

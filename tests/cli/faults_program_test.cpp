@@ -17,11 +17,13 @@
 #include "cli/faults.hpp"
 #include "cli/nobody.hpp"
 #include "cli/program_fixture.hpp"
+#include "support/errors.hpp"
 #include "support/measured.hpp"
 
 namespace tureen {
 namespace {
 
+using test::Names;
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using test::ChildResult;
@@ -75,8 +77,7 @@ TEST_F(Faults, AFullDiskLeavesWhatWasThere) {
       result = run(arguments);
     }
     EXPECT_EQ(result.exit_code, 5) << result.err;
-    EXPECT_THAT(result.err, HasSubstr(output));
-    EXPECT_THAT(result.err, HasSubstr("File too large"));  // what the system says then
+    EXPECT_THAT(result.err, Names(output, "File too large"));  // what the system says then
     EXPECT_EQ(contents(output), before);
     EXPECT_THAT(names(), Each(Not(HasSubstr(".tmp"))));
   };
@@ -118,7 +119,7 @@ TEST_F(Faults, ADiskWithoutSpaceLeavesWhatWasThere) {
         test::run_on_disk(80, {"convert", "large.off", output, "--force"}, folder);
     if (result.exit_code == test::no_disk) GTEST_SKIP() << "no disk to fill: " << result.err;
     EXPECT_EQ(result.exit_code, 5);
-    EXPECT_THAT(result.err, HasSubstr("cannot be written: No space left on device"));
+    EXPECT_THAT(result.err, Names("No space left on device"));
     EXPECT_EQ(test::names_in(folder / "after"), test::names_in(folder / "disk")) << output;
     for (const char* file : {"out.glb", "out.ply", "export"})
       EXPECT_EQ(contents("after/" + std::string(file)), contents("disk/" + std::string(file)))
@@ -147,7 +148,7 @@ TEST_F(Faults, WhereNothingMayBeWrittenNothingIs) {
   fs::permissions(folder / "locked", fs::perms::owner_all);
   for (const ChildResult& result : results) {
     EXPECT_EQ(result.exit_code, 5);
-    EXPECT_THAT(result.err, HasSubstr("cannot be created: Permission denied"));
+    EXPECT_THAT(result.err, Names("Permission denied"));
   }
   EXPECT_EQ(contents("locked"), before);
 }
@@ -264,7 +265,6 @@ TEST_F(Faults, ASignalAtAnyMomentLeavesTheOldOrTheNewWhole) {
           EXPECT_THAT(names(), Each(Not(HasSubstr(".tmp"))));
           if (result.exit_code != -1) {  // which is before anything was made
             EXPECT_EQ(result.exit_code, 5) << result.err;
-            EXPECT_THAT(result.err, HasSubstr("interrupted"));
           }
         }
       }

@@ -3,13 +3,14 @@
 
 #include "cli/program_fixture.hpp"
 #include "formats/dataset_fixture.hpp"
+#include "support/errors.hpp"
 
 namespace tureen {
 namespace {
 
 using test::ChildResult;
+using test::Names;
 using test::Program;
-using ::testing::HasSubstr;
 
 class MaxMemory : public Program {
  protected:
@@ -40,8 +41,7 @@ TEST_F(MaxMemory, IsObeyedByEveryCommandThatReads) {
     arguments.insert(arguments.end(), {"--max-memory", "30"});
     const ChildResult result = run(arguments);
     EXPECT_EQ(result.exit_code, 3);
-    EXPECT_THAT(result.err, HasSubstr("would take more than the 30 bytes of memory that reading "
-                                      "may take; --max-memory changes that"));
+    EXPECT_THAT(result.err, Names("30 bytes", "--max-memory"));
     EXPECT_FALSE(exists("out.glb"));
     EXPECT_FALSE(exists("out.png"));
   }
@@ -50,20 +50,20 @@ TEST_F(MaxMemory, IsObeyedByEveryCommandThatReads) {
 
 TEST_F(MaxMemory, IsInTheHelpAndRefusedWhereItIsNone) {
   for (const std::vector<std::string>& arguments : readers()) {
-    EXPECT_THAT(run({arguments[0], "--help"}).out, HasSubstr("--max-memory SIZE"));
+    EXPECT_THAT(run({arguments[0], "--help"}).out, Names("--max-memory"));
     const ChildResult result = run({arguments[0], arguments[1], "--max-memory", "much"});
     EXPECT_EQ(result.exit_code, 2) << arguments[0];
-    EXPECT_THAT(result.err, HasSubstr("'much' is no amount of memory; write it as 512MB or 8GB"));
+    EXPECT_THAT(result.err, Names("much", "512MB", "8GB"));
   }
 }
 
 TEST_F(MaxMemory, IsTheWindowsToo) {
   const ChildResult help = run({"view", "--help"});
   if (help.exit_code != 0) GTEST_SKIP() << "no window was built: " << help.err;
-  EXPECT_THAT(help.out, HasSubstr("--max-memory SIZE"));
+  EXPECT_THAT(help.out, Names("--max-memory"));
   const ChildResult result = run({"view", "--max-memory", "much"});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("'much' is no amount of memory"));
+  EXPECT_THAT(result.err, Names("much"));
 }
 
 TEST_F(MaxMemory, NamesThatAreNotUtf8AreSaidInJson) {

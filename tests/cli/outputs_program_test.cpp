@@ -8,16 +8,15 @@
 #include "cli/program_fixture.hpp"
 #include "formats/input.hpp"
 #include "formats/scene_file.hpp"
+#include "support/errors.hpp"
 
 namespace tureen {
 namespace {
 
+using test::Names;
 namespace fs = std::filesystem;
 using test::ChildResult;
 using test::Nobody;
-using testing::HasSubstr;
-using testing::Not;
-using testing::StartsWith;
 
 class Outputs : public test::Program {
  protected:
@@ -30,11 +29,11 @@ class Outputs : public test::Program {
     write("log.jsonl", "");
   }
   void expect(const std::vector<std::string>& arguments, int exit_code,
-              const std::string& words) const {
+              const auto&... values) const {
     SCOPED_TRACE(arguments[0] + " " + arguments.back());
     const ChildResult result = run(arguments);
     EXPECT_EQ(result.exit_code, exit_code);
-    EXPECT_THAT(result.err, HasSubstr(words));
+    EXPECT_THAT(result.err, Names(values...));
   }
   std::size_t triangles(const std::string& file) const {
     return std::get<TriangleSoup>(read_scene(folder / file).primitives).triangles.size();
@@ -52,7 +51,7 @@ TEST_F(Outputs, GoWhereLinksLeadAndTheLinksStay) {
   write("far/old.ply", "precious");
   fs::create_symlink("far/old.ply", folder / "middle");
   fs::create_symlink("middle", folder / "old.ply");
-  expect({"convert", "scene.off", "old.ply"}, 2, "old.ply exists already; --force replaces it");
+  expect({"convert", "scene.off", "old.ply"}, 2, "old.ply", "--force");
   EXPECT_EQ(fs::file_size(folder / "far/old.ply"), 8u);
   EXPECT_EQ(run({"convert", "scene.off", "old.ply", "--force"}).exit_code, 0);
   EXPECT_TRUE(is_link("old.ply"));
@@ -60,8 +59,7 @@ TEST_F(Outputs, GoWhereLinksLeadAndTheLinksStay) {
   EXPECT_EQ(triangles("far/old.ply"), 3u);
 
   fs::create_symlink("ring.ply", folder / "ring.ply");
-  expect({"convert", "scene.off", "ring.ply"}, 5,
-         "ring.ply: cannot be written: Too many levels of symbolic links");
+  expect({"convert", "scene.off", "ring.ply"}, 5, "Too many levels of symbolic links", "ring.ply");
 }
 
 TEST_F(Outputs, ThatAreFoldersGoWhereLinksLead) {
@@ -79,8 +77,7 @@ TEST_F(Outputs, ThatAreFoldersDoNotTakeAnythingElseWithThem) {
   ASSERT_EQ(run({"convert", "scene.off", "export/"}).exit_code, 0);
   ASSERT_EQ(run({"convert", "scene.off", "export/", "--force"}).exit_code, 0);
   write("export/notes.txt", "precious");
-  expect({"convert", "scene.off", "export/", "--force"}, 2,
-         "export is replaced as a whole, and holds notes.txt, which is no part of an export");
+  expect({"convert", "scene.off", "export/", "--force"}, 2, "notes.txt");
   EXPECT_EQ(fs::file_size(folder / "export/notes.txt"), 8u);
 }
 
@@ -89,18 +86,18 @@ TEST_F(Outputs, AreNotTheInputs) {
   const auto before = Input::open(folder / "a.png").read_rest();
   fs::create_symlink("a.png", folder / "link.png");
   for (const char* diff : {"a.png", "./a.png", "link.png"})
-    expect({"compare", "a.png", "b.png", "--diff", diff}, 2, "is an input itself");
+    expect({"compare", "a.png", "b.png", "--diff", diff}, 2, diff);
   EXPECT_EQ(Input::open(folder / "a.png").read_rest(), before);
-  const auto bench = [&](std::vector<std::string> outputs, const char* what) {
+  const auto bench = [&](std::vector<std::string> outputs, const char* name) {
     outputs.insert(outputs.begin(), {"bench", "scene.off"});
-    expect(outputs, 2, what);
+    expect(outputs, 2, name);
   };
   write("bench.json", "{}");
-  bench({"--against", "bench.json", "-o", "."}, "bench.json is an input itself");
-  bench({"--cameras", "bench.json", "-o", "."}, "bench.json is an input itself");
+  bench({"--against", "bench.json", "-o", "."}, "bench.json");
+  bench({"--cameras", "bench.json", "-o", "."}, "bench.json");
   fs::create_directory(folder / "photographs");
   write("photographs/bench.json", "{}");
-  bench({"photographs", "-o", "photographs"}, "in the folder of an input");
+  bench({"photographs", "-o", "photographs"}, "photographs");
 }
 
 TEST_F(Outputs, ReplaceNothingInFoldersOfInputs) {
@@ -108,17 +105,15 @@ TEST_F(Outputs, ReplaceNothingInFoldersOfInputs) {
   const auto before = Input::open(folder / "export/mesh.ply").read_rest();
   fs::create_symlink("export/mesh.ply", folder / "link.ply");
   for (const char* output : {"export/mesh.ply", "export/../export/mesh.ply", "link.ply"})
-    expect({"convert", "export", output, "--force"}, 2,
-           "in the folder of an input, export, nothing");
-  expect({"render", "export", "-o", "export/lut0.png"}, 2, "in the folder of an input, export");
-  expect({"render", "export", "--orbit", "2", "-o", "export/lut%d.png"}, 2, "lut0.png is there");
+    expect({"convert", "export", output, "--force"}, 2, "export");
+  expect({"render", "export", "-o", "export/lut0.png"}, 2, "export/lut0.png");
+  expect({"render", "export", "--orbit", "2", "-o", "export/lut%d.png"}, 2, "lut0.png");
   // What would be replaced as a whole takes what lies in it along.
-  expect({"convert", "export/mesh.ply", "export", "--force"}, 2,
-         "export holds an input, export/mesh.ply");
+  expect({"convert", "export/mesh.ply", "export", "--force"}, 2, "export/mesh.ply");
   EXPECT_EQ(Input::open(folder / "export/mesh.ply").read_rest(), before);
   // What is not there yet may come, once.
   EXPECT_EQ(run({"convert", "export", "export/scene.glb"}).exit_code, 0);
-  expect({"convert", "export", "export/scene.glb", "--force"}, 2, "scene.glb is there already");
+  expect({"convert", "export", "export/scene.glb", "--force"}, 2, "scene.glb");
 }
 
 TEST_F(Outputs, KeepThePermissionsOfWhatTheyReplace) {
@@ -134,20 +129,18 @@ TEST_F(Outputs, InFoldersDoNotDependOnWhatElseIsThere) {
   fs::create_directory(folder / "tureen");
   EXPECT_EQ(run({"convert", "scene.off", "export/"}).exit_code, 0);
   fs::create_symlink("nowhere", folder / "views");
-  expect({"eval", "bad.off", "photographs", "-o", "views"}, 5,
-         "views: cannot be made a folder: it is a link that leads nowhere");
+  expect({"eval", "bad.off", "photographs", "-o", "views"}, 5, "views");
 }
 
 TEST_F(Outputs, AreNoPipesNorDevices) {
   ASSERT_EQ(::mkfifo((folder / "pipe.ply").c_str(), 0644), 0);
   fs::create_symlink("/dev/null", folder / "null.ply");
   for (const char* output : {"pipe.ply", "null.ply"}) {
-    const std::string words = std::string(output) + ": cannot be written: it is a pipe or a device";
-    expect({"convert", "bad.off", output}, 5, words);
-    expect({"convert", "bad.off", output, "--force"}, 5, words);
+    expect({"convert", "bad.off", output}, 5, output);
+    expect({"convert", "bad.off", output, "--force"}, 5, output);
   }
   ASSERT_EQ(::mkfifo((folder / "pipe.png").c_str(), 0644), 0);
-  expect({"render", "bad.off", "-o", "pipe.png"}, 5, "pipe.png: cannot be written");
+  expect({"render", "bad.off", "-o", "pipe.png"}, 5, "pipe.png");
   EXPECT_TRUE(fs::is_fifo(folder / "pipe.ply"));
 }
 
@@ -165,46 +158,36 @@ TEST_F(Outputs, DoNotReplaceWhatIsWriteProtected) {
   test::make_streams_for_all(folder);
   const Nobody nobody;
   if (::eaccess(TUREEN_PROGRAM, X_OK) != 0) GTEST_SKIP() << TUREEN_PROGRAM << " is not for all";
-  expect({"convert", "bad.off", "precious.ply", "--force"}, 5,
-         "precious.ply: cannot be replaced: it is write-protected");
-  expect({"convert", "bad.off", "export/", "--force"}, 5,
-         "export: cannot be replaced: it is write-protected");
-  expect({"convert", "bad.off", "link"}, 5, "cannot be created: Permission denied");
+  expect({"convert", "bad.off", "precious.ply", "--force"}, 5, "precious.ply");
+  expect({"convert", "bad.off", "export/", "--force"}, 5, "export");
+  expect({"convert", "bad.off", "link"}, 5, "Permission denied");
   EXPECT_EQ(fs::file_size(folder / "precious.ply"), 8u);
 }
 
 TEST_F(Outputs, ThatCannotBeWrittenAreToldBeforeAnythingIsRead) {
   fs::create_directory(folder / "folder.ply");
   write("file", "");
-  expect({"convert", "bad.off", "nowhere/out.ply"}, 5,
-         "nowhere/out.ply: there is no folder nowhere");
-  expect({"convert", "bad.off", "nowhere/export/"}, 5, "there is no folder nowhere");
-  expect({"convert", "bad.off", "folder.ply", "--force"}, 5,
-         "folder.ply: cannot be written: it is a folder");
+  expect({"convert", "bad.off", "nowhere/out.ply"}, 5, "nowhere/out.ply");
+  expect({"convert", "bad.off", "nowhere/export/"}, 5, "nowhere");
+  expect({"convert", "bad.off", "folder.ply", "--force"}, 5, "folder.ply");
   // --force would change nothing, and is not promised to.
-  expect({"convert", "bad.off", "folder.ply"}, 5, "folder.ply: cannot be written: it is a folder");
-  expect({"convert", "bad.off", "file"}, 2, "file exists and is no DiffSoup export");
-  expect({"convert", "bad.off", "file", "--force"}, 2, "file exists and is no DiffSoup export");
-  expect({"convert", "bad.off", "out.xyz"}, 2, "no format that we write ends in .xyz");
-  expect({"convert", "bad.off", "out.xyz"}, 2, "; a page is .html");
-  expect({"convert", "bad.off", "out.gltf"}, 2, "glTF is written as .glb only");
-  expect({"convert", "bad.off", "."}, 2, ". holds an input, bad.off");
-  for (const char* name : {".ply", ".gltf", ".html"})
-    expect({"convert", "bad.off", name}, 2,
-           "'" + std::string(name) + "' is an extension without a name before it");
+  expect({"convert", "bad.off", "folder.ply"}, 5, "folder.ply");
+  expect({"convert", "bad.off", "file"}, 2, "file");
+  expect({"convert", "bad.off", "file", "--force"}, 2, "file");
+  expect({"convert", "bad.off", "out.xyz"}, 2, ".xyz");
+  expect({"convert", "bad.off", "out.xyz"}, 2, ".html");
+  expect({"convert", "bad.off", "out.gltf"}, 2, ".glb");
+  expect({"convert", "bad.off", "."}, 2, "bad.off");
+  for (const char* name : {".ply", ".gltf", ".html"}) expect({"convert", "bad.off", name}, 2, name);
   expect({"convert", "bad.off", ".hidden"}, 3, "bad.off");  // a folder like others
-  expect({"render", "bad.off", "-o", "nowhere/out.png"}, 5, "there is no folder nowhere");
-  expect({"render", "bad.off", "--orbit", "3", "-o", "nowhere/o.png"}, 5,
-         "there is no folder nowhere");
-  expect({"render", "bad.off", "--turntable", "1", "-o", "nowhere/o.png"}, 5,
-         "there is no folder nowhere");
-  expect({"compare", "bad.png", "a.png", "--diff", "nowhere/d.png"}, 5,
-         "there is no folder nowhere");
-  expect({"eval", "bad.off", "photographs", "-o", "file/views"}, 5, "file/views: cannot be");
-  expect({"bench", "bad.off", "-o", "file/b"}, 5, "file/b: cannot be");
-  expect({"tradeoff", "bad.off", "-o", "file/t"}, 5, "file/t: cannot be");
-  expect({"tradeoff", "bad.off", "--write-preset", "nowhere/t.glb"}, 5,
-         "there is no folder nowhere");
+  expect({"render", "bad.off", "-o", "nowhere/out.png"}, 5, "nowhere");
+  expect({"render", "bad.off", "--orbit", "3", "-o", "nowhere/o.png"}, 5, "nowhere");
+  expect({"render", "bad.off", "--turntable", "1", "-o", "nowhere/o.png"}, 5, "nowhere");
+  expect({"compare", "bad.png", "a.png", "--diff", "nowhere/d.png"}, 5, "nowhere");
+  expect({"eval", "bad.off", "photographs", "-o", "file/views"}, 5, "file/views");
+  expect({"bench", "bad.off", "-o", "file/b"}, 5, "file/b");
+  expect({"tradeoff", "bad.off", "-o", "file/t"}, 5, "file/t");
+  expect({"tradeoff", "bad.off", "--write-preset", "nowhere/t.glb"}, 5, "nowhere");
 }
 
 TEST_F(Outputs, ProbesLeaveNothing) {
@@ -223,12 +206,12 @@ TEST_F(Outputs, ProbesLeaveNothing) {
 }
 
 TEST_F(Outputs, AndInputsHaveNames) {
-  expect({"convert", "", "out.glb"}, 2, "IN is empty");
-  expect({"convert", "scene.off", ""}, 2, "OUT is empty");
-  expect({"info", ""}, 2, "SCENE is empty");
-  expect({"render", "scene.off", "-o", ""}, 2, "--output is empty");
-  expect({"compare", "a.png", "a.png", "--diff", ""}, 2, "--diff is empty");
-  expect({"eval", "scene.off", ""}, 2, "DATASET is empty");
+  expect({"convert", "", "out.glb"}, 2, "IN");
+  expect({"convert", "scene.off", ""}, 2, "OUT");
+  expect({"info", ""}, 2, "SCENE");
+  expect({"render", "scene.off", "-o", ""}, 2, "--output");
+  expect({"compare", "a.png", "a.png", "--diff", ""}, 2, "--diff");
+  expect({"eval", "scene.off", ""}, 2, "DATASET");
 }
 
 }  // namespace

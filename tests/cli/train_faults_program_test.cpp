@@ -12,11 +12,13 @@
 #include "cli/faults.hpp"
 #include "cli/nobody.hpp"
 #include "cli/train_fixture.hpp"
+#include "support/errors.hpp"
 #include "support/measured.hpp"
 
 namespace tureen {
 namespace {
 
+using test::Names;
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using test::ChildResult;
@@ -152,9 +154,9 @@ TEST_F(TrainFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewAndIsAsIfItHadNotBeen)
         EXPECT_THAT(result.exit_code, AnyOf(-1, signal == SIGINT ? 5 : -1)) << result.err;
       }
       if (result.exit_code == 5) {
-        EXPECT_THAT(result.err, HasSubstr("interrupted"));
+        // Before the first step there is none, and nothing is promised.
         EXPECT_TRUE(is_new || exists("ball.checkpoint") ||
-                    result.err.find("no step was done") != std::string::npos)
+                    result.err.find("--resume") == std::string::npos)
             << result.err;
       }
       const bool done = is_new && !exists("ball.checkpoint");
@@ -203,7 +205,7 @@ TEST_F(TrainFaults, AFullDiskLeavesTheOldSoupAndTheLastCheckpoint) {
       result = train("ball.glb", more, steps);
     }
     EXPECT_EQ(result.exit_code, 5);
-    EXPECT_THAT(result.err, HasSubstr(file + ": cannot be written: File too large"));
+    EXPECT_THAT(result.err, Names(file, "File too large"));
     EXPECT_TRUE(bytes("ball.glb") == before) << "the old soup is not what it was";
     EXPECT_TRUE(bytes("ball.checkpoint") == checkpoint) << "none, or the one that was there";
     EXPECT_THAT(test::names_in(folder), Each(Not(AnyOf(HasSubstr(".tmp"), EndsWith(".lock")))));
@@ -229,7 +231,7 @@ TEST_F(TrainFaults, AFullDiskLeavesTheOldSoupAndTheLastCheckpoint) {
   until_100.insert(until_100.end(), {"--preview-every", "100"});
   const ChildResult ended = train("ball.glb", until_100, steps);
   EXPECT_EQ(ended.exit_code, 5);
-  EXPECT_THAT(ended.err, HasSubstr("step_100.png: cannot be written: it is a folder"));
+  EXPECT_THAT(ended.err, Names("step_100.png"));
   ASSERT_TRUE(exists("ball.checkpoint"));
   std::vector<std::string> resume = often;
   resume.emplace_back("--resume");
@@ -248,7 +250,7 @@ TEST_F(TrainFaults, ADiskWithoutSpaceLeavesTheOldSoup) {
       test::run_on_disk(kilobytes, arguments("disk/ball.glb", often, steps), folder);
   if (result.exit_code == test::no_disk) GTEST_SKIP() << "no disk to fill: " << result.err;
   EXPECT_EQ(result.exit_code, 5);
-  EXPECT_THAT(result.err, HasSubstr("ball.checkpoint: cannot be written: No space left on device"));
+  EXPECT_THAT(result.err, Names("ball.checkpoint", "No space left on device"));
   EXPECT_EQ(test::names_in(folder / "after"), test::names_in(folder / "disk"));
   EXPECT_TRUE(bytes("after/ball.glb") == before);
 }
@@ -270,7 +272,7 @@ TEST_F(TrainFaults, WhereNothingMayBeWrittenNothingIs) {
   }
   fs::permissions(folder / "locked", fs::perms::owner_all);
   EXPECT_EQ(result.exit_code, 5);
-  EXPECT_THAT(result.err, HasSubstr("Permission denied"));
+  EXPECT_THAT(result.err, Names("Permission denied"));
   EXPECT_TRUE(test::contents_of(folder / "locked") == files);
 }
 

@@ -7,10 +7,12 @@
 
 #include "cli/train_fixture.hpp"
 #include "formats/scene_file.hpp"
+#include "support/errors.hpp"
 
 namespace tureen {
 namespace {
 
+using test::Names;
 namespace fs = std::filesystem;
 using test::ChildResult;
 using test::Train;
@@ -18,17 +20,18 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
+using testing::StartsWith;
 
 TEST_F(Train, MakesASoupAndAllThatBelongsToIt) {
   make_dataset();
   const ChildResult result =
       train("ball.glb", {"--json", "--preview-every", "20", "--export-diffsoup", "export"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(files(), ElementsAre("ball.glb", "ball.jsonl", "ball.previews/step_20.png",
-                                   "ball.previews/step_40.png", "export/lut0.png",
-                                   "export/lut1.png", "export/mesh.ply", "export/meta.json",
-                                   "export/mlp_weights.json"));
-  EXPECT_THAT(result.err, HasSubstr("The pictures have alpha: --preset object"));
+  EXPECT_THAT(files(),
+              ElementsAre("ball.glb", "ball.jsonl", "ball.previews/step_20.png",
+                          "ball.previews/step_40.png", "export/lut0.png", "export/lut1.png",
+                          "export/mesh.ply", "export/meta.json", "export/mlp_weights.json"));
+  EXPECT_THAT(result.err, Names("--preset object"));
 
   ASSERT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1);  // one line
   const auto json = nlohmann::ordered_json::parse(result.out);
@@ -78,14 +81,12 @@ TEST_F(Train, MeasuresItsOwnDrawingWhereTheDeviceCannotDrawTheTestViews) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto json = nlohmann::ordered_json::parse(result.out);
   if (json["test"]["drawn_by"] != "trainer") GTEST_SKIP() << "this device draws so many pixels";
-  EXPECT_THAT(result.err, HasSubstr("The soup could not be drawn by the runtime, so the trainer's "
-                                    "own drawing was measured: "));
   EXPECT_EQ(json["test"]["psnr_db"], json["trainer_psnr_db"]);
   EXPECT_GT(json["trainer_psnr_db"], 0);
   EXPECT_TRUE(exists("ball.glb"));
   // Without OpenGL that is the reason.
   if (run({"render", "ball.glb", "-o", "ball.png"}).exit_code == 0) {
-    EXPECT_THAT(result.err, HasSubstr("a picture of 32767x11 is larger than this device draws"));
+    EXPECT_THAT(result.err, Names("32767x11"));
   }
 }
 
@@ -115,23 +116,21 @@ TEST_F(Train, GoesOnAfterCtrlCAsIfItHadNotHappened) {
     child.signal(SIGINT);
     const ChildResult result = child.wait();
     ASSERT_EQ(result.exit_code, 5) << result.err;
-    EXPECT_THAT(result.err, HasSubstr("wrote ball.checkpoint after step "));
-    EXPECT_THAT(result.err, HasSubstr("--resume goes on from it\ntureen: interrupted"));
+    EXPECT_THAT(result.err, Names("ball.checkpoint", "--resume"));
   }
-  EXPECT_THAT(files(), ElementsAre("ball.checkpoint", "ball.jsonl", "whole/ball.glb",
-                                   "whole/ball.jsonl"));
+  EXPECT_THAT(files(),
+              ElementsAre("ball.checkpoint", "ball.jsonl", "whole/ball.glb", "whole/ball.jsonl"));
 
   // Not silently begun again, and not with other constants or photographs.
-  const auto refused = [&](const std::vector<std::string>& more, const std::string& words) {
+  const auto refused = [&](const std::vector<std::string>& more, const auto&... values) {
     const ChildResult result = train("ball.glb", more, steps);
     EXPECT_EQ(result.exit_code, 2);
-    EXPECT_THAT(result.err, HasSubstr(words));
+    EXPECT_THAT(result.err, Names(values...));
   };
-  refused({}, "ball.checkpoint is there, of a run that was not finished");
-  refused({"--resume", "--seed", "3"}, "seed is 3, the checkpoint's 0");
-  refused({"--resume", "--scale", "0.5"}, "r_0.png is 16 x 16, the checkpoint's 32 x 32");
-  EXPECT_THAT(train("ball.glb", {"--resume"}, "3001").err,
-              HasSubstr("steps is 3001, the checkpoint's 3000"));
+  refused({}, "ball.checkpoint");
+  refused({"--resume", "--seed", "3"}, "seed", 3, 0);
+  refused({"--resume", "--scale", "0.5"}, "r_0.png", 16, 32);
+  EXPECT_THAT(train("ball.glb", {"--resume"}, "3001").err, Names("steps", 3001, 3000));
 
   // What the command line does not name is the checkpoint's.
   const ChildResult result =
@@ -156,8 +155,7 @@ TEST_F(Train, SaysThatCtrlCBeforeTheFirstStepLeavesNoCheckpoint) {
   child.signal(SIGINT);
   const ChildResult result = child.wait();
   EXPECT_EQ(result.exit_code, 5);
-  EXPECT_THAT(result.err, HasSubstr("no step was done, so there is no checkpoint to go on from\n"
-                                    "tureen: interrupted"));
+  EXPECT_THAT(result.err, Not(Names("--resume")));
   EXPECT_THAT(files(), IsEmpty());
 }
 
@@ -168,7 +166,7 @@ TEST_F(Train, RefusesACheckpointThatIsAFolder) {
        std::vector<std::vector<std::string>>{{}, {"--resume"}}) {
     const ChildResult result = train("a.glb", more);
     EXPECT_EQ(result.exit_code, 5);
-    EXPECT_THAT(result.err, HasSubstr("a.checkpoint: cannot be written: it is a folder"));
+    EXPECT_THAT(result.err, StartsWith("tureen: a.checkpoint: "));
   }
 }
 
@@ -187,7 +185,7 @@ TEST_F(Train, CheckpointsAsOftenAsItIsTold) {
   fs::create_directories(folder / "ball.checkpoint");
   const ChildResult refused = train("ball.glb");
   EXPECT_EQ(refused.exit_code, 5);
-  EXPECT_THAT(refused.err, HasSubstr("ball.checkpoint: cannot be written: it is a folder"));
+  EXPECT_THAT(refused.err, Names("ball.checkpoint"));
   EXPECT_THAT(files(), IsEmpty());
   fs::remove(folder / "ball.checkpoint");
 
@@ -198,11 +196,11 @@ TEST_F(Train, CheckpointsAsOftenAsItIsTold) {
   EXPECT_TRUE(exists("ball.checkpoint"));
   const ChildResult cut = train("ball.glb", {"--resume"});
   EXPECT_EQ(cut.exit_code, 2);  // it was read
-  EXPECT_THAT(cut.err, HasSubstr("steps is 40, the checkpoint's 100000"));
+  EXPECT_THAT(cut.err, Names("steps", 40, 100000));
   write("ball.checkpoint", bytes("ball.checkpoint").substr(0, 5000));
   const ChildResult damaged = train("ball.glb", {"--resume"});
   EXPECT_EQ(damaged.exit_code, 3);
-  EXPECT_THAT(damaged.err, HasSubstr("ball.checkpoint: byte "));
+  EXPECT_THAT(damaged.err, Names("ball.checkpoint"));
 }
 
 TEST_F(Train, TakesItsConstantsFromPresetFileAndOptions) {
@@ -238,44 +236,43 @@ TEST_F(Train, TakesItsConstantsFromPresetFileAndOptions) {
 
 TEST_F(Train, ExitCodesSayWhoIsToBlame) {
   make_dataset();
-  const auto expect = [&](const std::vector<std::string>& words, int code,
-                          const std::string& message) {
+  const auto expect = [&](const std::vector<std::string>& words, int code, const auto&... values) {
     const ChildResult result = run(words);
     EXPECT_EQ(result.exit_code, code) << result.err;
-    EXPECT_THAT(result.err, HasSubstr(message));
+    EXPECT_THAT(result.err, Names(values...));
     EXPECT_THAT(result.out, IsEmpty());
   };
-  expect({"train"}, 2, "DATASET is required");
-  expect({"train", "ball"}, 2, "-o OUT.glb is required");
-  expect({"train", "ball", "-o", "ball.ply"}, 2, "'ball.ply' does not end in .glb");
-  expect(arguments("b.glb", {"--preset", "scenery"}), 2, "did you mean scene?");
-  expect(arguments("b.glb", {"--level", "9"}), 2, "max_level: 9 is not");
-  expect(arguments("b.glb", {"--batch", "0"}), 2, "batch: 0 is not");
-  expect(arguments("b.glb", {"--init", "points"}), 3, "no points to begin at");
-  expect(arguments("b.glb", {"--batch", "5000"}), 2, "batch: 5000 is not from 1 to 1024 (a step h");
-  expect(arguments("b.glb", {}, "99999999999"), 2, "is not from 1 to 10000000 (it would");
-  expect(arguments("b.glb", {"--init", "none.off"}), 3, "none.off: there is no such file");
-  expect(arguments("b.glb", {"--init", "pionts"}), 3, "did you mean points?");
-  expect(arguments("b.glb", {"--config", "none.json"}), 3, "none.json: there is no such file");
+  expect({"train"}, 2, "DATASET");
+  expect({"train", "ball"}, 2, "-o", "OUT.glb");
+  expect({"train", "ball", "-o", "ball.ply"}, 2, "ball.ply", ".glb");
+  expect(arguments("b.glb", {"--preset", "scenery"}), 2, "scenery", "scene");
+  expect(arguments("b.glb", {"--level", "9"}), 2, "max_level", 9);
+  expect(arguments("b.glb", {"--batch", "0"}), 2, "batch", 0);
+  expect(arguments("b.glb", {"--init", "points"}), 3);
+  expect(arguments("b.glb", {"--batch", "5000"}), 2, "batch", 5000, 1024);
+  expect(arguments("b.glb", {}, "99999999999"), 2, "steps", "99999999999", 10000000);
+  expect(arguments("b.glb", {"--init", "none.off"}), 3, "none.off");
+  expect(arguments("b.glb", {"--init", "pionts"}), 3, "pionts", "points");
+  expect(arguments("b.glb", {"--config", "none.json"}), 3, "none.json");
   write("bad.json", R"({"stepz": 3, "sed": 1})");
-  expect(arguments("b.glb", {"--config", "bad.json"}), 3, "did you mean steps?");
-  expect(arguments("b.glb", {"--config", "bad.json"}), 3, "did you mean seed?");
+  expect(arguments("b.glb", {"--config", "bad.json"}), 3, "bad.json", "stepz", "steps");
+  expect(arguments("b.glb", {"--config", "bad.json"}), 3, "sed", "seed");
   write("mesh.json", R"({"initialisation": "mesh"})");
-  expect(arguments("b.glb", {"--config", "mesh.json"}), 2, "--init FILE");
+  expect(arguments("b.glb", {"--config", "mesh.json"}), 2, "--init", "FILE");
   write("scene.json", R"({"preset": "scene"})");
-  expect(arguments("b.glb", {"--config", "scene.json", "--preset", "object"}), 2,
-         "name different presets");
-  expect(arguments("b.glb", {"--resume"}), 3, "b.checkpoint: there is no such file");
-  expect(arguments("b.glb", {"--scale", "0.2"}), 3, "is 6 x 6 pixels; there must be at least 11");
-  expect(arguments("none/b.glb"), 5, "none/b.glb: there is no folder none");
-  expect(arguments("b.glb", {"--export-diffsoup", "ball"}), 2, "ball exists and is no DiffSoup");
-  expect(arguments("b.glb", {"--export-diffsoup", "b.glb/"}), 2, "the export cannot be b.glb");
-  expect(arguments("b.glb", {"--log", "b.lock"}), 2, "the log cannot be b.lock");
-  expect(arguments("b.glb", {"--seed", "-1"}), 2, "a seed is a whole number from 0 to");
-  expect(arguments("b.glb", {"--seed", "99999999999999999999"}), 2, "a seed is a whole number");
+  expect(arguments("b.glb", {"--config", "scene.json", "--preset", "object"}), 2, "--preset",
+         "scene.json");
+  expect(arguments("b.glb", {"--resume"}), 3, "b.checkpoint");
+  expect(arguments("b.glb", {"--scale", "0.2"}), 3, "6 x 6", 11);
+  expect(arguments("none/b.glb"), 5, "none/b.glb");
+  expect(arguments("b.glb", {"--export-diffsoup", "ball"}), 2, "ball");
+  expect(arguments("b.glb", {"--export-diffsoup", "b.glb/"}), 2, "b.glb");
+  expect(arguments("b.glb", {"--log", "b.lock"}), 2, "b.lock");
+  expect(arguments("b.glb", {"--seed", "-1"}), 2, "--seed", -1);
+  expect(arguments("b.glb", {"--seed", "99999999999999999999"}), 2, "--seed");
   fs::remove(folder / "ball/train/r_3.png");
   expect(arguments("b.glb"), 3, "r_3.png");
-  expect({"train", "bal", "-o", "b.glb"}, 3, "did you mean ball?");
+  expect({"train", "bal", "-o", "b.glb"}, 3, "bal", "ball");
   EXPECT_THAT(files(), ElementsAre("bad.json", "mesh.json", "scene.json"));
 }
 
@@ -285,7 +282,7 @@ TEST_F(Train, TwoRunsDoNotShareAnOutput) {
   ASSERT_TRUE(first.wait_until([&] { return exists("ball.jsonl"); }));
   const ChildResult second = train("ball.glb");
   EXPECT_EQ(second.exit_code, 2);
-  EXPECT_THAT(second.err, HasSubstr("another run is writing the files beside ball.lock"));
+  EXPECT_THAT(second.err, Names("ball.lock"));
   first.signal(SIGKILL);
   first.wait();
   EXPECT_TRUE(exists("ball.lock"));  // but nobody holds it
@@ -301,9 +298,7 @@ TEST_F(Train, KeepsWhatItHasLearnedWhereAFileCannotBeWritten) {
   const std::vector<std::string> previews{"--preview-every", "10"};
   const ChildResult failed = train("ball.glb", previews);
   EXPECT_EQ(failed.exit_code, 5);
-  EXPECT_THAT(failed.err, HasSubstr("wrote ball.checkpoint after step 20 of 40"));
-  EXPECT_THAT(failed.err,
-              HasSubstr("ball.previews/step_20.png: cannot be written: it is a folder"));
+  EXPECT_THAT(failed.err, Names("ball.checkpoint", "20 of 40", "ball.previews/step_20.png"));
   EXPECT_FALSE(exists("ball.glb"));
 
   const ChildResult went_on = train("ball.glb", {"--resume"});
@@ -349,9 +344,9 @@ TEST_F(Train, DoesNotReplaceWhatItBeginsWith) {
   const std::string before = bytes("ball.glb");
   const ChildResult refused = train("ball.glb", {"--init", "ball.glb"});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("-o would replace ball.glb, from which --init begins"));
+  EXPECT_THAT(refused.err, Names("-o", "ball.glb", "--init"));
   EXPECT_EQ(bytes("ball.glb"), before);
-  EXPECT_THAT(train("ball.glb", {}, "2").err, HasSubstr("ball.glb is there and will be replaced"));
+  EXPECT_THAT(train("ball.glb", {}, "2").err, Names("ball.glb"));
 }
 
 }  // namespace

@@ -9,12 +9,12 @@
 #include <sstream>
 
 #include "soup/error.hpp"
+#include "support/errors.hpp"
 
 namespace tureen::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
 
 class Log : public testing::Test {
  protected:
@@ -31,13 +31,8 @@ class Log : public testing::Test {
     return all.str();
   }
   void write(const std::string& content) const { std::ofstream(path, std::ios::binary) << content; }
-  std::string refusal() const {
-    try {
-      read_training_log(path);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "(it was read)";
+  std::optional<test::Refusal> refusal() const {
+    return test::error_of([&] { read_training_log(path); });
   }
 
   fs::path path;
@@ -134,20 +129,22 @@ TEST_F(Log, IsReadAtEveryLengthThatARunMayLeave) {
 }
 
 TEST_F(Log, SaysWhichLineIsWrong) {
+  using test::ErrorAt;
+  const std::string name = path.filename().string();
   TrainingLog::create(path).append(record(100));
   const std::string line = text();
   write(line + "hello\n");
-  EXPECT_THAT(refusal(), HasSubstr(":2: no record of training: not valid JSON"));
+  EXPECT_THAT(refusal(), ErrorAt(name + ":2"));
   write(line + "{\"step\": 200}\n");
-  EXPECT_THAT(refusal(), HasSubstr(":2: no record of training: lacks \"seconds\""));
+  EXPECT_THAT(refusal(), ErrorAt(name + ":2", "seconds"));
   write(line + "[1]\n");
-  EXPECT_THAT(refusal(), HasSubstr(":2: no record of training: expected an object"));
+  EXPECT_THAT(refusal(), ErrorAt(name + ":2"));
   write(line + line);
-  EXPECT_THAT(refusal(), HasSubstr(":2: step 100 does not come after the one before"));
+  EXPECT_THAT(refusal(), ErrorAt(name + ":2", 100));
   EXPECT_THROW(TrainingLog::resume(path, 100), InputError);
   EXPECT_EQ(text(), line + line);  // untouched
   fs::remove(path);
-  EXPECT_THAT(refusal(), HasSubstr("there is no such file or folder"));
+  EXPECT_THAT(refusal(), ErrorAt(name));
 }
 
 TEST_F(Log, SaysThatItCannotBeWritten) {

@@ -66,7 +66,6 @@ TEST_F(UntrustedText, DoesNotFillTheScreen) {
   const ChildResult result = run({"info", "scene.gltf"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_LT(result.err.size(), 5000u);
-  EXPECT_THAT(result.err, HasSubstr("more bytes ..]"));
 }
 
 TEST_F(UntrustedText, OfArgumentsIsShownAlike) {
