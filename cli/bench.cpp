@@ -159,7 +159,7 @@ Examples:
   tureen bench soup.glb --sweep --json > bench.json       five sizes
   tureen bench soup.glb --size 640x360,1920x1080 --cameras orbit:12,adversarial
   tureen bench soup.glb photographs --sizes full,half     the dataset's test cameras
-  tureen bench soup.glb --ceilings -o timed               the result, and the images timed
+  tureen bench soup.glb --ceilings -o timed               report.html, and the images timed
   tureen bench soup.glb --against timed/bench.json        what has become faster or slower since
   tureen bench soup.glb --only tureen,triangles --seconds 60
   tureen bench soup.glb --only tureen-fragment,tureen-compute

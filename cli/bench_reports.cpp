@@ -9,6 +9,7 @@
 #include "cli/bench_words.hpp"
 #include "cli/number_range.hpp"
 #include "cli/output_argument.hpp"
+#include "cli/report_page.hpp"
 #include "formats/existing_path.hpp"
 #include "formats/input.hpp"
 #include "formats/output.hpp"
@@ -25,13 +26,8 @@ std::string text_of(const fs::path& path) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-fs::path json_file(const BenchReportOptions& options) {
-  return fs::path(options.folder) / "bench.json";
-}
-
-void write_and_say(const fs::path& path, const std::string& text) {
-  write_file(path, text);
-  say("wrote " + path.string());
+std::vector<fs::path> files_of(const BenchReportOptions& options) {
+  return options.folder.empty() ? std::vector<fs::path>() : result_files(options.folder, "bench");
 }
 
 /// What --fail-slower cannot say of what has passed.
@@ -61,7 +57,7 @@ void say_comparison(const BenchComparison& comparison, const std::string& file) 
 void add_bench_report_options(CLI::App& command, BenchReportOptions& options) {
   command
       .add_option("-o,--output", options.folder,
-                  "a folder for the result, bench.json, and the images timed")
+                  "a folder for report.html, bench.json and the images timed")
       ->option_text("FOLDER");
   auto* against = command
                       .add_option("--against", options.against,
@@ -81,8 +77,8 @@ void add_bench_report_options(CLI::App& command, BenchReportOptions& options) {
 std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& options,
                                                  std::vector<std::string> inputs) {
   if (!options.against.empty()) inputs.push_back(options.against);
-  if (!options.folder.empty())
-    for (const std::string& input : inputs) require_not_input(json_file(options), input);
+  for (const fs::path& output : files_of(options))
+    for (const std::string& input : inputs) require_not_input(output, input);
   std::optional<BenchResult> then;
   if (!options.against.empty()) {
     require_there(options.against);
@@ -97,7 +93,7 @@ std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& optio
   if (!options.folder.empty()) {
     make_folder(options.folder);
     require_writable_folder(options.folder);
-    require_writable_file(json_file(options));
+    for (const fs::path& file : files_of(options)) require_writable_file(file);
   }
   return then;
 }
@@ -111,7 +107,8 @@ ExitCode report_bench(const BenchReportOptions& options, const BenchResult& now,
   if (comparison) told["comparison"] = to_json(*comparison, options.against);
   if (options.json) print_json(told);
 
-  if (!options.folder.empty()) write_and_say(json_file(options), json_text(told));
+  if (!options.folder.empty()) write_result(options.folder, "bench", json_text(told));
+  for (const fs::path& file : files_of(options)) say("wrote " + file.string());
 
   if (!options.fail_slower || !comparison) return ExitCode::done;
   const auto unknown =

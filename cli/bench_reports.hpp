@@ -13,7 +13,7 @@ namespace tureen::cli {
 
 /// As typed; empty where not given.
 struct BenchReportOptions {
-  std::string folder;   // for bench.json and the images timed
+  std::string folder;   // for report.html, bench.json and the images timed
   std::string against;  // an earlier bench.json
   std::optional<double> fail_slower;
   bool json = false;  // the result on standard output
@@ -28,9 +28,9 @@ void add_bench_report_options(CLI::App& command, BenchReportOptions& options);
 std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& options,
                                                  std::vector<std::string> inputs);
 
-/// Writes the file, whole or not at all, prints where it is, and what changed since `then`.
-/// ExitCode::check_failed only where --fail-slower was given and something is slower than that.
-/// Throws OutputError.
+/// Writes the files, each complete or not at all, prints their names, and what changed since
+/// `then`. ExitCode::check_failed only where --fail-slower was given and something is slower than
+/// that. Throws OutputError.
 ExitCode report_bench(const BenchReportOptions& options, const BenchResult& now,
                       const std::optional<BenchResult>& then);
 

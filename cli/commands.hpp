@@ -22,6 +22,7 @@ void add_convert(CLI::App& program, Action& action);
 void add_eval(CLI::App& program, Action& action);
 void add_info(CLI::App& program, Action& action);
 void add_render(CLI::App& program, Action& action);
+void add_report(CLI::App& program, Action& action);
 void add_tradeoff(CLI::App& program, Action& action, std::vector<std::string> arguments);
 void add_train(CLI::App& program, Action& action);
 void add_view(CLI::App& program, Action& action);

@@ -12,6 +12,7 @@
 #include "cli/output_argument.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
+#include "cli/report_page.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/values.hpp"
 #include "soup/error.hpp"
@@ -49,6 +50,8 @@ Json report(const Options& options, const Evaluation& result) {
   for (const ViewMetrics& view : result.views) views.push_back(to_json(view, with_flip));
   return {{"views", views},
           {"mean", to_json(result.mean, with_flip)},
+          {"scene", options.scene.path},
+          {"dataset", options.dataset.path},
           {"split", split_name(options.split)},
           {"ssim_border", name(options.evaluation.metrics.ssim_border)},
           {"context", result.context},
@@ -69,6 +72,11 @@ ExitCode evaluate_scene(Options options) {
   const std::filesystem::path data = options.dataset.path;
   std::error_code unknown;  // what is not there is said where it is read
   evaluation.spared = std::filesystem::is_directory(data, unknown) ? data : data.parent_path();
+  if (!options.folder.empty())
+    for (const std::filesystem::path& file : result_files(options.folder, "eval")) {
+      require_not_input(file, evaluation.spared);
+      require_not_input(file, options.scene.path);
+    }
 
   Scene scene = read(options.scene);
   const TriangleSoup& soup = opaque_soup(scene);
@@ -95,8 +103,13 @@ ExitCode evaluate_scene(Options options) {
                   counted(soup.triangles.size()), photographs.size(), split_name(options.split),
                   result.renderer, result.context, name(evaluation.metrics.ssim_border)));
   say_table(result, evaluation.metrics.with_flip);
-  if (!result.output.empty())
-    say(fmt::format("wrote {} pictures to {}", result.output.size(), options.folder));
+  if (!options.folder.empty()) {
+    say(fmt::format("wrote {} images to {}", result.output.size(), options.folder));
+    const std::vector<std::filesystem::path> files = result_files(options.folder, "eval");
+    for (const std::filesystem::path& file : files) result.output.push_back(file.string());
+    write_result(options.folder, "eval", json_text(report(options, result)));
+    for (const std::filesystem::path& file : files) say("wrote " + file.string());
+  }
   if (options.json) print_json(report(options, result));
   return ExitCode::done;
 }
@@ -130,8 +143,8 @@ context, 5 it does not fit on the device or cannot be written.)");
       ->option_text("NAME");
   command
       ->add_option("-o,--output", options->folder,
-                   "a folder for pictures: photograph, rendering and heat map side by side for "
-                   "each view, and a contact_sheet.png")
+                   "a folder for report.html, eval.json, and images: photograph, rendering and "
+                   "heat map side by side for each view, and a contact_sheet.png")
       ->option_text("FOLDER");
   command
       ->add_option("--background", options->background,

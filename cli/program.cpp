@@ -118,6 +118,7 @@ void add_commands(CLI::App& program, Action& action, const std::vector<std::stri
   add_eval(program, action);
   add_bench(program, action, arguments);
   add_tradeoff(program, action, arguments);
+  add_report(program, action);
 }
 
 int run_program(int argc, char** argv) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cli/base64.hpp"
-#include "cli/html_page.hpp"
+#include "cli/html_escape.hpp"
 #include "cli/program_folder.hpp"
 #include "formats/extension.hpp"
 #include "formats/glb_container.hpp"

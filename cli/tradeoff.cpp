@@ -14,6 +14,7 @@
 #include "cli/output_argument.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
+#include "cli/report_page.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/tradeoff_model.hpp"
 #include "cli/tradeoff_report.hpp"
@@ -109,11 +110,9 @@ void require_writable_outputs(const Options& options) {
 
 void write_files(const Options& options, TradeoffReport& report) {
   if (options.folder.empty()) return;
-  const fs::path folder = options.folder;
-  make_folder(folder);
-  const fs::path json = folder / "tradeoff.json";
-  report.output.push_back(json.string());
-  write_file(json, json_text(to_json(report)));
+  for (const fs::path& file : result_files(options.folder, "tradeoff"))
+    report.output.push_back(file.string());
+  write_result(options.folder, "tradeoff", json_text(to_json(report)));
 }
 
 /// The scene as a GLB of ours that promises what was measured.
@@ -300,7 +299,7 @@ published pipeline with it. The choice is the cheapest with an E_render of at le
 hardly a pixel covered wrongly.
 
 Examples:
-  tureen tradeoff soup.glb -o tradeoff                the result in a folder
+  tureen tradeoff soup.glb -o tradeoff                report.html and tradeoff.json
   tureen tradeoff soup.glb lego --scale 0.5 -o tradeoff
                                                       with E_model against photographs
   tureen tradeoff soup.glb --write-preset fast.glb    the scene with the choice, as another
@@ -314,8 +313,7 @@ on the device or cannot be written.)");
   add_dataset_argument(*command, options->dataset);
   command->get_option("DATASET")->required(false);
   add_memory_option(*command);
-  command
-      ->add_option("-o,--output", options->folder, "a folder for the result, tradeoff.json")
+  command->add_option("-o,--output", options->folder, "a folder for report.html and tradeoff.json")
       ->option_text("FOLDER");
   add_choice<tradeoff::Samples>(
       *command, "--reference", options->samples,

@@ -28,8 +28,7 @@ void check_kind(const fs::path& file, std::string_view beginning, const char* ki
 }
 
 void check_log(const TrainingFiles& files) {
-  for (const fs::path& other :
-       {files.scene, files.checkpoint, files.previews, files.lock})
+  for (const fs::path& other : {files.scene, files.checkpoint, files.previews, files.lock})
     if (files.log.lexically_normal() == other.lexically_normal())
       throw UsageError("the log cannot be " + other.string() + ", which is written, too");
   // All lines of a log begin so, also one that was cut short.

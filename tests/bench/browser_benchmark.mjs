@@ -3,7 +3,7 @@
 //
 //   node browser_benchmark.mjs OUT SCENE.glb.. [--quick]
 //
-// OUT gets SCENE-RASTERISER.json for `tureen bench --import`; standard output gets the rest, a row of JSON a
+// OUT gets SCENE-RASTERISER.json for `tureen report`; standard output gets the rest, a row of JSON a
 // line.
 
 import { copyFileSync, mkdirSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
@@ -101,7 +101,7 @@ async function openingTimes(browser, site, scene) {
   return { first: median(times.map(({ first }) => first)), whole: median(times.map(({ whole }) => whole)) };
 }
 
-/** A scene on a rasteriser: its file for `tureen bench --import`, and its row. */
+/** A scene on a rasteriser: its file for `tureen report`, and its row. */
 async function measureScene(browser, site, rasteriser, path) {
   const name = basename(path, extname(path)), file = encodeURIComponent(basename(path));
   console.error(`${name} on ${rasteriser}`);

@@ -30,6 +30,7 @@ TEST_F(BenchFiles, ARunIsComparedWithAnEarlierOne) {
   const ChildResult first = bench({"-o", "before"});
   ASSERT_EQ(first.exit_code, 0) << first.err;
   EXPECT_TRUE(exists("before/bench.json"));
+  EXPECT_TRUE(exists("before/report.html"));
   // What the machine does meanwhile must not decide a test: the earlier run becomes much faster.
   nlohmann::json before = read_json("before/bench.json");
   for (auto& measurement : before["measurements"]) {

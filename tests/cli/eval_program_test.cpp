@@ -32,8 +32,8 @@ TEST_F(Eval, TheScenesOwnPicturesAreMetExactly) {
   const ChildResult result = eval({"-o", "views"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto json = nlohmann::ordered_json::parse(result.out);
-  EXPECT_THAT(keys(json), ElementsAre("views", "mean", "split", "ssim_border", "context",
-                                      "renderer", "plan", "output"));
+  EXPECT_THAT(keys(json), ElementsAre("views", "mean", "scene", "dataset", "split", "ssim_border",
+                                      "context", "renderer", "plan", "output"));
   ASSERT_EQ(json["views"].size(), 2u);
   EXPECT_THAT(keys(json["views"][0]), ElementsAre("name", "psnr_db", "ssim", "flip"));
   EXPECT_EQ(json["views"][1]["name"], "test/r_1.png");
@@ -46,7 +46,9 @@ TEST_F(Eval, TheScenesOwnPicturesAreMetExactly) {
   EXPECT_EQ(json["split"], "test");
   EXPECT_EQ(json["ssim_border"], "valid");
   EXPECT_EQ(json["output"], nlohmann::ordered_json({"views/test_r_0.png", "views/test_r_1.png",
-                                                    "views/contact_sheet.png"}));
+                                                    "views/contact_sheet.png", "views/eval.json",
+                                                    "views/report.html"}));
+  for (const auto& file : json["output"]) EXPECT_TRUE(exists(file)) << file;
   const Image8 sheet = read_png("views/test_r_1.png"), photograph = read_png("data/test/r_1.png");
   EXPECT_EQ(sheet.width, 3 * width);
   for (int y = 0; y < height; ++y)

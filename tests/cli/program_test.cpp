@@ -24,7 +24,7 @@ using testing::Not;
 // --- Usage ----------------------------------------------------------------------------------
 
 TEST_F(Program, HelpTeachesAndGoesToStandardOutput) {
-  for (const char* command : {"render", "info", "convert", "compare", "train", "eval"}) {
+  for (const char* command : {"render", "info", "convert", "compare", "train", "eval", "report"}) {
     const ChildResult result = run({command, "--help"});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.out, Names(std::string("tureen ") + command));

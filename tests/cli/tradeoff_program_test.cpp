@@ -59,6 +59,7 @@ TEST_F(Tradeoff, MeasuresWritesAndKeepsTheChoice) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto json = nlohmann::json::parse(result.out);
   EXPECT_TRUE(exists("report/tradeoff.json"));
+  EXPECT_TRUE(exists("report/report.html"));
   for (const auto& path : json["output"]) EXPECT_TRUE(exists(path)) << path;
 
   const auto& configurations = json["drawing"]["configurations"];

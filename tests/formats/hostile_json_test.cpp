@@ -88,8 +88,6 @@ const std::array<JsonReader, 18> json_readers{{
      [](const std::string& text, const fs::path&) { fuzz::bench_result(bytes_of(text)); }},
     {"bench of a page",
      [](const std::string& text, const fs::path&) { fuzz::web_bench(bytes_of(text)); }},
-    {"tradeoff.json",
-     [](const std::string& text, const fs::path&) { fuzz::tradeoff_result(bytes_of(text)); }},
     {"checkpoint", [](const std::string& text,
                       const fs::path&) { fuzz::training_checkpoint(checkpoint_of(text)); }},
     {"configuration",

@@ -377,9 +377,7 @@ TEST(HostileSizes, InTheJsonOfRunsAndMeasurements) {
       {"bench_result",
        {"cores", "width", "height", "views", "rounds", "frames_per_sample", "frames"}},
       {"web_bench",
-       {"cores", "screen_width", "screen_height", "width", "height", "frames_per_sample"}},
-      {"tradeoff_result",
-       {"cores", "width", "height", "views", "rounds", "front", "r0", "configuration"}}};
+       {"cores", "screen_width", "screen_height", "width", "height", "frames_per_sample"}}};
   std::set<std::string> tried;
   for (const fuzz::Fixture& fixture : fuzz::fixtures()) {
     const auto names = members.find(fixture.target);

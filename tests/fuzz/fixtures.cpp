@@ -379,8 +379,6 @@ void add_benchmarks(Collection& all) {
   Input input = Input::memory("web_bench.json", bytes);
   all.add("bench_result", "bench.json", to_json(cli::read_web_bench(input).at(0)).dump());
   all.add("web_bench", "web_bench.json", std::move(bytes));
-  all.add("tradeoff_result", "tradeoff.json",
-          Input::open(TUREEN_SOURCE_DIR "/tests/cli/tradeoff.json").read_rest());
 }
 
 }  // namespace

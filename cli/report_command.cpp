@@ -1,0 +1,109 @@
+// `tureen report`: results as one page, in the browser or in a file.
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/output_argument.hpp"
+#include "cli/report.hpp"
+#include "cli/report_results.hpp"
+#include "formats/extension.hpp"
+#include "formats/output.hpp"
+#include "soup/error.hpp"
+
+extern char** environ;
+
+namespace tureen::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<std::string> inputs;
+  std::string output;  // empty: the page opens in the browser
+};
+
+const char* set_variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value && *value ? value : nullptr;
+}
+
+/// One name for all pages that are only looked at, so that none are left behind.
+fs::path page_in_cache() {
+  fs::path folder;
+  if (const char* cache = set_variable("XDG_CACHE_HOME"))
+    folder = cache;
+  else if (const char* home = set_variable("HOME"))
+    folder = fs::path(home) / ".cache";
+  else
+    throw UsageError("neither XDG_CACHE_HOME nor HOME is set: name the page, -o OUT.html");
+  make_folder(folder / "tureen");
+  return fs::absolute(folder / "tureen/report.html");
+}
+
+/// Whether a browser shows it now.
+bool open_in_browser(const std::string& page) {
+#ifdef __APPLE__
+  std::string program = "open";
+#else
+  // Without a screen xdg-open would take a browser for terminals.
+  if (!set_variable("DISPLAY") && !set_variable("WAYLAND_DISPLAY")) return false;
+  std::string program = "xdg-open";
+#endif
+  std::string argument = page;
+  char* arguments[] = {program.data(), argument.data(), nullptr};
+  pid_t process = 0;
+  int status = 0;
+  return posix_spawnp(&process, program.c_str(), nullptr, nullptr, arguments, environ) == 0 &&
+         waitpid(process, &status, 0) == process && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+ExitCode report(const Options& options) {
+  const bool opens = options.output.empty();
+  if (!opens && extension_of(options.output) != ".html")
+    throw UsageError("'" + options.output + "' does not end in .html; a report is one page");
+  const fs::path page = opens ? page_in_cache() : fs::path(options.output);
+  for (const std::string& input : options.inputs)
+    if (!fs::is_directory(input)) require_not_input(page, input);
+  require_writable_file(page);
+  std::vector<ReportResult> results;
+  for (const std::string& input : options.inputs)
+    for (ReportResult& each : read_results(input)) results.push_back(std::move(each));
+  write_file(page, report_page(results, page));
+  if (!opens)
+    say("wrote " + page.string());
+  else if (!open_in_browser(page.string()))
+    print_text(page.string() + "\n");
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_report(CLI::App& program, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("report", "Results as a page: tables, plots, images");
+  command->footer(
+      R"(Shows what bench, tradeoff and eval write with --json or -o, the logs of train, what the page
+bench.html downloads, and the measurements of ./dev. Several results of one kind are set side by
+side; scenes of tradeoff are joined. The page needs no network. Images stay where they are.
+
+Examples:
+  tureen report timed/bench.json                opens the browser, or prints the page's path
+  tureen report phone.json laptop.json          frame times by device
+  tureen report lego.jsonl chair.jsonl -o trainings.html
+  tureen report lego/tradeoff.json chair/tradeoff.json       means over scenes
+  tureen report results                         all results in a folder
+
+Exit codes: 0 done, 2 wrong usage, 3 a result cannot be read, 5 the page cannot be written.)");
+  command->add_option("FILE", options->inputs, "JSON results, training logs, or folders of them")
+      ->required()
+      ->type_name("");
+  command->add_option("-o,--output", options->output, "the page; by default it opens in a browser")
+      ->option_text("OUT.html");
+  command->callback([options, &action] { action = [options] { return report(*options); }; });
+}
+
+}  // namespace tureen::cli

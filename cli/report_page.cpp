@@ -1,0 +1,100 @@
+#include "cli/report_page.hpp"
+
+#include <cctype>
+#include <string_view>
+
+#include "cli/report.hpp"
+#include "cli/report_files.hpp"
+#include "formats/output.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// As an address: what is neither a letter, a digit nor one of -_.~/ is percent-encoded.
+std::string address(const std::string& path) {
+  constexpr const char* hex = "0123456789ABCDEF";
+  std::string result;
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte < 0x80 && std::isalnum(byte)) ||
+        std::string_view("-_.~/").find(c) != std::string::npos)
+      result += c;
+    else
+      result += {'%', hex[byte >> 4], hex[byte & 15]};
+  }
+  return result;
+}
+
+/// The folder of `file` as seen from that of `page`, with a '/' at its end; "" where it is the
+/// same.
+std::string folder_address(const fs::path& file, const fs::path& page) {
+  const auto folder = [](const fs::path& path) {
+    return fs::weakly_canonical(fs::absolute(path).parent_path());
+  };
+  const std::string relative = folder(file).lexically_relative(folder(page)).generic_string();
+  return relative == "." ? "" : address(relative) + "/";
+}
+
+/// JSON that ends no <script> element: '<' is only ever part of a text there.
+std::string escaped(std::string_view json) {
+  std::string result;
+  for (const char c : json) {
+    if (c == '<')
+      result += "\\u003c";
+    else
+      result += c;
+  }
+  return result;
+}
+
+std::string data_of(std::span<const ReportResult> results, const fs::path& page) {
+  std::string data;
+  for (const ReportResult& each : results) {
+    std::string head = json_text(
+        {{"file", each.file}, {"folder", folder_address(each.file, page)}, {"kind", each.kind}},
+        -1);
+    head.resize(head.rfind('}'));
+    data += (data.empty() ? "" : ",\n") + head + ",\"data\":" + each.json + "}";
+  }
+  return escaped("[" + data + "]");
+}
+
+}  // namespace
+
+std::string report_page(std::span<const ReportResult> results, const fs::path& page) {
+  // Elements of report.html, in their order, and what takes their place.
+  const std::pair<std::string_view, std::string> parts[] = {
+      {R"(<link rel="stylesheet" href="report.css">)",
+       "<style>\n" + std::string(report_files::text("report.css")) + "</style>"},
+      {R"(<script type="application/json" id="data">[]</script>)",
+       "<script type=\"application/json\" id=\"data\">" + data_of(results, page) + "</script>"},
+      {R"(<script src="chart.min.js"></script>)",
+       "<script>\n" + std::string(report_files::text("chart.min.js")) + "</script>"},
+      {R"(<script src="report.js"></script>)",
+       "<script>\n" + std::string(report_files::text("report.js")) + "</script>"}};
+  std::string_view rest = report_files::text("report.html");
+  std::string html;
+  for (const auto& [element, replacement] : parts) {
+    const std::size_t at = rest.find(element);
+    html.append(rest.substr(0, at)).append(replacement);
+    rest.remove_prefix(at + element.size());
+  }
+  return html.append(rest);
+}
+
+std::vector<fs::path> result_files(const fs::path& folder, const std::string& kind) {
+  return {folder / (kind + ".json"), folder / "report.html"};
+}
+
+void write_result(const fs::path& folder, const std::string& kind, const std::string& json) {
+  const std::vector<fs::path> files = result_files(folder, kind);
+  const ReportResult result{files[0].string(), kind, json};
+  make_folder(folder);
+  write_file(files[0], json);
+  write_file(files[1], report_page({&result, 1}, files[1]));
+}
+
+}  // namespace tureen::cli

@@ -1,0 +1,124 @@
+#include "cli/report_results.hpp"
+
+#include <algorithm>
+
+#include "cli/json_reading.hpp"
+#include "cli/provenance.hpp"
+#include "cli/tradeoff_report.hpp"
+#include "cli/training_log.hpp"
+#include "cli/web_bench.hpp"
+#include "formats/existing_path.hpp"
+#include "formats/extension.hpp"
+#include "formats/input.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A result of none of our kinds: a folder may hold such files.
+struct UnknownResult : InputError {
+  using InputError::InputError;
+};
+
+void check_tradeoff(const JsonView& root) {
+  require_format(root, tradeoff_format, tradeoff_version, "no result of tureen tradeoff");
+  scene_of(root["scene"]);
+  device_of(root["device"]);
+  for (const char* name : {"drawing", "antialiasing"}) {
+    const JsonView configurations = root[name]["configurations"];
+    if (configurations.size() == 0) configurations.fail("is empty");
+    list(configurations, [](const JsonView& each) { return each["e_render"]["psnr_db"].number(); });
+  }
+}
+
+void check_eval(const JsonView& root) {
+  root["mean"]["psnr_db"].number();
+  if (root["views"].size() == 0) root["views"].fail("is empty");
+  list(root["views"], [](const JsonView& each) {
+    each["name"].text();
+    return each["psnr_db"].number();
+  });
+}
+
+void check_measurements(const JsonView& root) {
+  require_format(root, "tureen measurements", 1, "no measurements");
+  root["name"].text();
+  const JsonView tables = root["tables"];
+  for (const auto& [name, rows] : tables.value().items()) tables[name.c_str()].size();
+}
+
+/// The lines of a log, a list; a last one that is not complete is left out.
+ReportResult training(const std::string& file, const std::string& text) {
+  if (read_training_log(file).empty())
+    throw InputError({file, {}, {}}, "the log holds no record yet");
+  std::string lines = text.substr(0, text.rfind('\n'));
+  std::replace(lines.begin(), lines.end(), '\n', ',');
+  return {file, "training", "[" + lines + "]"};
+}
+
+std::vector<ReportResult> web_bench(const std::string& file) {
+  Input input = Input::open(file);
+  std::vector<ReportResult> results;
+  for (const BenchResult& each : read_web_bench(input))
+    results.push_back({file, "bench", json_text(to_json(each))});
+  return results;
+}
+
+std::vector<ReportResult> read_file(const std::string& file) {
+  const std::vector<std::byte> bytes = Input::open(file).read_rest();
+  std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (text.starts_with("{\"step\":")) return {training(file, text)};  // as every log begins
+  const nlohmann::json document = parse_json(text, file);
+  if (text.starts_with("\xef\xbb\xbf"))
+    text.erase(0, 3);  // a byte order mark is no JSON within the page
+  const JsonView root(document, file);
+  const std::string format =
+      document.is_object() ? document.value("format", nlohmann::json()).dump() : "";
+  if (format == "\"tureen web bench\"") return web_bench(file);
+  if (format == "\"tureen bench\"") {
+    bench_result_from_json(text, file);
+    return {{file, "bench", text}};
+  }
+  if (format == "\"tureen tradeoff\"") {
+    check_tradeoff(root);
+    return {{file, "tradeoff", text}};
+  }
+  if (format == "\"tureen measurements\"") {
+    check_measurements(root);
+    return {{file, "measurements", text}};
+  }
+  if (format == "null" && document.contains("views") && document.contains("mean")) {
+    check_eval(root);
+    return {{file, "eval", text}};
+  }
+  throw UnknownResult({file, {}, {}},
+                      "no result of bench, tradeoff, train or eval, nor measurements of ./dev");
+}
+
+std::vector<ReportResult> read_folder(const fs::path& folder) {
+  std::vector<std::string> files;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    if (const std::string extension = extension_of(entry.path());
+        entry.is_regular_file() && (extension == ".json" || extension == ".jsonl"))
+      files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  std::vector<ReportResult> results;
+  for (const std::string& file : files) try {
+      for (ReportResult& each : read_file(file)) results.push_back(std::move(each));
+    } catch (const UnknownResult&) {
+    }
+  if (results.empty())
+    throw InputError({folder.string(), {}, {}}, "the folder holds no result, .json or .jsonl");
+  return results;
+}
+
+}  // namespace
+
+std::vector<ReportResult> read_results(const fs::path& path) {
+  require_there(path);
+  return fs::is_directory(path) ? read_folder(path) : read_file(path.string());
+}
+
+}  // namespace tureen::cli

@@ -1,0 +1,163 @@
+// The report page: the data is in it as it was, whatever it holds, and what is no result is
+// refused.
+#include "cli/report_page.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "cli/report_results.hpp"
+#include "cli/tradeoff_fixture.hpp"
+#include "formats/format_testing.hpp"
+#include "formats/output.hpp"
+#include "soup/error.hpp"
+
+namespace tureen::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+using tureen::testing::TemporaryFolder;
+
+/// Ends a script element, opens a comment, and is no ASCII.
+const std::string hostile = "</script><!-- \xc3\xa9 \\ \" &lt;";
+
+json measurements() {
+  return {{"format", "tureen measurements"},
+          {"version", 1},
+          {"name", hostile},
+          {"tables", {{"cases", {{{"case", hostile}, {"ours", 1e-300}}}}}}};
+}
+
+json eval() {
+  return {{"views", {{{"name", hostile}, {"psnr_db", 30.125}}}}, {"mean", {{"psnr_db", 30.125}}}};
+}
+
+json tradeoff() {
+  json result = test::lego();
+  result["scene"]["name"] = hostile;
+  return result;
+}
+
+json bench() {
+  return json::parse(R"({"format": "tureen bench", "version": 2, "date": "",
+    "program": {"version": "", "commit": "", "arguments": ["a b"]},
+    "scene": {"name": "s", "path": "", "triangles": 1, "appearance": ""},
+    "machine": {"cpu": "", "cores": 1, "memory_mib": 1},
+    "device": {"context": "", "renderer": "", "vendor": "", "version": "", "software": true},
+    "protocol": {"clock": "", "rounds": 1, "aa_spread": 0},
+    "load": {"read_ms": 1, "plan_ms": 1, "upload_ms": 1, "peak_mib": 1, "device_mib": 1},
+    "configurations": [], "measurements": [], "notes": ["</script>"], "key": "not known"})");
+}
+
+/// What the page's script finds.
+json data_of(const std::string& page) {
+  const std::string begin = R"(<script type="application/json" id="data">)";
+  const std::size_t at = page.find(begin) + begin.size();
+  const std::string text = page.substr(at, page.find("</script>", at) - at);
+  EXPECT_EQ(text.find('<'), std::string::npos);
+  return json::parse(text);
+}
+
+class Report : public ::testing::Test {
+ protected:
+  std::string file(const std::string& name, const std::string& text) const {
+    write_file(folder / name, text);
+    return (folder / name).string();
+  }
+  json shown(const std::string& path) const {
+    return data_of(report_page(read_results(path), folder / "page.html"));
+  }
+  std::string refusal(const std::string& text) const {
+    const std::string path = file("bad.json", text);
+    return tureen::testing::input_error([&] { read_results(path); });
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(Report, HoldsTheDataOfEveryKindAsItWas) {
+  for (const auto& [kind, document] : {std::pair("measurements", measurements()),
+                                       {"eval", eval()},
+                                       {"tradeoff", tradeoff()},
+                                       {"bench", bench()}}) {
+    for (const char* mark : {"", "\xef\xbb\xbf"}) {
+      const json data = shown(file(std::string(kind) + ".json", mark + document.dump(1)));
+      ASSERT_THAT(data, SizeIs(1)) << kind;
+      EXPECT_EQ(data[0]["kind"], kind);
+      EXPECT_EQ(data[0]["data"], document) << kind;
+      EXPECT_EQ(data[0]["folder"], "") << "beside the page";
+    }
+  }
+}
+
+TEST_F(Report, OfALogHoldsItsCompleteLines) {
+  const json record{{"step", 50},         {"seconds", 1.5},        {"loss", nullptr},
+                    {"l1", 0.1},          {"ssim", 0.5},           {"train_psnr_db", 20.5},
+                    {"triangles", 15000}, {"it_per_second", 33.5}, {"non_finite", 0}};
+  nlohmann::ordered_json line{{"step", 50}};
+  line.update(record);
+  const std::string text = line.dump();
+  const json data = shown(file("log.jsonl", text + "\n" + text.substr(0, 30)));
+  EXPECT_EQ(data[0]["kind"], "training");
+  EXPECT_EQ(data[0]["data"], json::array({record}));
+  EXPECT_THAT(refusal(text), HasSubstr("bad.json"));
+  EXPECT_THAT(refusal(text + "\n{}\n"), HasSubstr("bad.json:2: "));
+}
+
+TEST_F(Report, OfADownloadOfThePageHoldsResultsOfBench) {
+  const json data = shown(std::string(TUREEN_SOURCE_DIR) + "/tests/cli/web_bench.json");
+  EXPECT_EQ(data[0]["kind"], "bench");
+  EXPECT_EQ(data[0]["data"]["device"]["renderer"], "Adreno (TM) 740");
+  EXPECT_THAT(data[0]["data"]["measurements"], SizeIs(3));
+}
+
+TEST_F(Report, OfAFolderHoldsAllResultsInIt) {
+  make_folder(folder / "a b/deep");
+  file("a b/deep/eval.json", eval().dump());
+  file("a b/bench.json", bench().dump());
+  file("a b/transforms.json", "{\"frames\": []}");
+  const json data = shown((folder / "a b").string());
+  ASSERT_THAT(data, SizeIs(2));
+  EXPECT_EQ(data[0]["folder"], "a%20b/");
+  EXPECT_EQ(data[1]["folder"], "a%20b/deep/");
+  file("a b/bad.json", "{");
+  EXPECT_THAT(tureen::testing::input_error([&] { read_results(folder / "a b"); }),
+              HasSubstr("bad.json"));
+  EXPECT_THROW(read_results(folder / "a b/none"), InputError);
+}
+
+TEST_F(Report, RefusesWhatItCannotShowWithThePlace) {
+  for (const char* text : {"", "{", "[]", "3", "{}", R"({"format": "tureen growth"})",
+                           R"({"format": ["tureen bench"]})", "{\"step\":1}\n"})
+    EXPECT_THAT(refusal(text), HasSubstr("bad.json")) << text;
+  const auto without = [&](json document, const char* key) {
+    document.erase(key);
+    return refusal(document.dump());
+  };
+  EXPECT_THAT(without(bench(), "scene"), HasSubstr("\"scene\""));
+  EXPECT_THAT(without(tradeoff(), "antialiasing"), HasSubstr("\"antialiasing\""));
+  EXPECT_THAT(without(measurements(), "tables"), HasSubstr("\"tables\""));
+  json no_number = eval();
+  no_number["views"][0]["psnr_db"] = "30";
+  EXPECT_THAT(refusal(no_number.dump()), HasSubstr("views[0].psnr_db"));
+  json newer = tradeoff();
+  newer["version"] = 99;
+  EXPECT_THAT(refusal(newer.dump()), HasSubstr("version"));
+}
+
+TEST_F(Report, WritesAResultWithItsPage) {
+  write_result(folder / "new/out", "eval", eval().dump());
+  std::ifstream stream(folder / "new/out/report.html");
+  const json data = data_of({std::istreambuf_iterator<char>(stream), {}});
+  EXPECT_EQ(data[0]["data"], eval());
+  EXPECT_EQ(data[0]["folder"], "");
+  EXPECT_TRUE(fs::exists(folder / "new/out/eval.json"));
+}
+
+}  // namespace
+}  // namespace tureen::cli
