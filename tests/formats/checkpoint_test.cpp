@@ -213,7 +213,7 @@ TEST(Checkpoint, WhatDoesNotFitIsRefusedByName) {
   EXPECT_THAT(changed([](DiffSoup& d) {
                 d.features = TensorFixture::floats({2, 6, 7}, ramp(84, 1));
               }),
-              ErrorAt("scene.pt", "feat_acc", "1.001"));
+              ErrorAt("scene.pt", "feat_acc", "1.001000"));
   EXPECT_THAT(changed([](DiffSoup& d) {
                 d.alpha = TensorFixture::floats({2, 6, 1}, std::vector<float>(12, NAN));
               }),
