@@ -7,7 +7,6 @@
 #include "runtime/copy_ceiling.hpp"
 #include "runtime/renderer.hpp"
 #include "soup/error.hpp"
-#include "soup/preset_data.hpp"
 
 namespace tureen::cli {
 
@@ -37,15 +36,9 @@ class RendererContestant final : public Contestant {
                      const PlanPreferences& preferences)
       : context_(context) {
     configuration.name = name;
-    const auto& stored = std::get<TriangleSoup>(scene.primitives);
+    const auto& soup = std::get<TriangleSoup>(scene.primitives);
     auto start = std::chrono::steady_clock::now();
-    std::optional<PresetSoup> turned;
-    if (preferences.preset) turned = with_preset(stored, *preferences.preset);
-    const TriangleSoup& soup = turned ? turned->soup : stored;
     RenderPlan plan = make_plan(soup, device_limits(context.capabilities()), preferences);
-    if (turned)
-      plan.sentences.insert(plan.sentences.begin() + 1, turned->sentences.begin(),
-                            turned->sentences.end());
     configuration.plan_ms = milliseconds_since(start);
     start = std::chrono::steady_clock::now();
     renderer_ = std::make_unique<Renderer>(
@@ -114,17 +107,13 @@ struct Setting {
   std::vector<std::string> options;
 };
 
-Setting setting_of(const std::string& name, const DrawingOptions& drawing) {
-  PlanPreferences plan = drawing.plan;
+Setting setting_of(const std::string& name, PlanPreferences plan) {
   if (name == published) {
     plan.pipeline = PipelineKind::published;
     plan.shading_stage = ShadingStage::fragment;  // it has no other
     return {plan, {"--pipeline", "published"}};
   }
   plan.pipeline = PipelineKind::tureen;
-  // The published viewer knows no knobs of a scene.
-  if (drawing.scene_preset.preset)
-    plan.preset = combined(*drawing.scene_preset.preset, plan.preset.value_or(RenderPreset()));
   if (name == in_fragments) plan.shading_stage = ShadingStage::fragment;
   if (name == as_compute) plan.shading_stage = ShadingStage::compute;
   std::vector<std::string> options;
@@ -153,7 +142,7 @@ std::unique_ptr<Contestant> make_contestant(const std::string& name,
                                             const ContestantOptions& options,
                                             const gl::Context& context, const Scene& scene) {
   if (name == copy) return std::make_unique<CopyContestant>(context);
-  const Setting setting = setting_of(name, options.drawing);
+  const Setting setting = setting_of(name, preferences_for(scene, options.drawing));
   auto contestant = std::make_unique<RendererContestant>(name, context, scene, setting.plan);
   contestant->configuration.options = setting.options;
   return contestant;
@@ -200,19 +189,9 @@ void check(const ContestantOptions& options) {
   }
 }
 
-Contestants make_contestants(const ContestantOptions& given, const gl::Context& context,
+Contestants make_contestants(const ContestantOptions& options, const gl::Context& context,
                              const Scene& scene) {
-  ContestantOptions options = given;
   Contestants result;
-  use_preset_of(scene, options.drawing);
-  if (options.drawing.scene_preset.preset) {
-    // It is obeyed where everybody else obeys it.
-    const CheckedRenderer checked =
-        make_renderer(context, std::get<TriangleSoup>(scene.primitives), scene.origin,
-                      options.drawing, glm::vec4(scene.info.background, 1.0f));
-    if (!checked.sentence.empty()) result.notes.push_back(checked.sentence);
-    if (!checked.obeys_preset) options.drawing.scene_preset.preset.reset();
-  }
   const std::vector<std::string> names = names_of(options);
   for (const std::string& name : names) {
     const auto leave_out = [&](const Error& error) {

@@ -6,6 +6,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/convert_slim.hpp"
+#include "cli/edit_options.hpp"
 #include "cli/memory_option.hpp"
 #include "cli/output_argument.hpp"
 #include "cli/report.hpp"
@@ -25,6 +26,7 @@ struct Options {
   std::string output;
   bool force = false;
   bool json = false;
+  Edits edits;
   SlimArguments slim;
 };
 
@@ -68,6 +70,17 @@ void check_output(const Options& options) {
     throw UsageError(options.output + " exists already", "--force replaces it");
 }
 
+void apply(const Edits& edits, Scene& scene) {
+  if (edits == Edits{}) return;
+  auto* soup = std::get_if<TriangleSoup>(&scene.primitives);
+  if (!soup || !std::holds_alternative<LatticeTexture>(soup->appearance))
+    throw UsageError(std::string("--lattice-level, --color and --texel-bits change lattice "
+                                 "textures; this scene has ") +
+                     (soup ? appearance_name(soup->appearance) : "soft triangles"));
+  *soup = edited(std::move(*soup), edits);
+  scene.info.notes.push_back("reduced by tureen convert: " + describe(edits));
+}
+
 /// Writes `file`, in the format that its name says. Says what that lost, and returns it.
 Json write(Scene scene, const Options& options, const fs::path& file) {
   if (options.slim.slim) return convert_slim(std::move(scene), options.slim, file);
@@ -80,7 +93,8 @@ Json write(Scene scene, const Options& options, const fs::path& file) {
 
 /// Whether a page may hold the bytes of the scene's own file.
 bool is_page_of_file(const Options& options) {
-  return !options.slim.slim && options.scene.up.empty() && is_our_glb(options.scene.path);
+  return !options.slim.slim && options.scene.up.empty() && options.edits == Edits{} &&
+         is_our_glb(options.scene.path);
 }
 
 Json write_page(const ScenePageTemplate& page, Scene scene, const Options& options) {
@@ -109,6 +123,7 @@ ExitCode convert_scene(const Options& options) {
   if (is_scene_page(options.output)) page = ScenePageTemplate::find();
   Scene scene = read(options.scene);
   say_list("Reading " + options.scene.path + ":", all_notes(scene.info));
+  apply(options.edits, scene);
   const Json figures = page ? write_page(*page, std::move(scene), options)
                             : write(std::move(scene), options, options.output);
   const std::uint64_t bytes = bytes_on_disk(options.output);
@@ -151,6 +166,8 @@ Examples:
   tureen convert soup.glb soup.off --force    replaces soup.off
   tureen convert soup.glb small.glb --compress --photographs lego --scale 0.5
                                               loses 0.1 dB against lego, no more
+  tureen convert soup.glb less.glb --lattice-level 2
+                                              coarser textures; tradeoff measures the error
   tureen convert soup.glb soup.html           a page to send to somebody
   tureen convert foreign.glb soup.glb --vertex-colors srgb --up 0,0,1)");
   add_scene_argument(*command, options->scene, "IN");
@@ -161,6 +178,7 @@ Examples:
   command->add_flag("--force", options->force, "replace OUT if it exists");
   command->add_flag("--json", options->json,
                     "what was written and lost as JSON on standard output");
+  add_edit_options(*command, options->edits);
   add_slim_arguments(*command, options->slim);
   command->callback([options, &action] { action = [options] { return convert_scene(*options); }; });
 }

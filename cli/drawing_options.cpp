@@ -5,7 +5,6 @@
 
 #include "cli/choice.hpp"
 #include "cli/number_range.hpp"
-#include "cli/progress.hpp"
 
 namespace tureen::cli {
 
@@ -28,14 +27,6 @@ LeaveOut named(const std::string& name) {
 
 }  // namespace
 
-namespace {
-
-RenderPreset& preset_of(DrawingOptions& options) {
-  return options.plan.preset ? *options.plan.preset : options.plan.preset.emplace();
-}
-
-}  // namespace
-
 void add_drawing_options(CLI::App& command, DrawingOptions& options) {
   add_choice<gl::Backend>(command, "--context", options.backend,
                           {{"auto", gl::Backend::automatic},
@@ -47,12 +38,6 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
       command, "--pipeline", options.plan.pipeline,
       {{"auto", PipelineKind::tureen}, {"published", PipelineKind::published}},
       "auto (our own), or published: drawn as DiffSoup's viewer draws, the baseline")
-      ->option_text("NAME");
-  add_choice<PresetUse>(
-      command, "--preset", options.preset_use,
-      {{"scene", PresetUse::scene}, {"faithful", PresetUse::faithful}},
-      "scene (default): the knobs that the scene's file sets, where four views keep its promise; "
-      "faithful: drawn as it is stored")
       ->option_text("NAME");
   CLI::Option* no_specialise = command.add_flag_callback(
       "--no-specialise", [&options] { options.plan.specialise = false; },
@@ -78,42 +63,27 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
       {{"measured", "use fragment, the default, or compute"}})
       ->option_text("NAME");
   CLI::Option* supersample = command.add_option_function<int>(
-      "--supersample", [&options](int n) { preset_of(options).supersampling = n; },
-      "smooth edges: N x N samples a pixel, 1 to 8; costs N x N times the pixels");
+      "--supersample", [&options](int n) { options.quality = Quality{.supersampling = n}; },
+      "smooth edges: N x N samples a pixel, 1 to 8; costs N x N times the pixels; the scene's own "
+      "number by default");
   supersample->check(between(1, 8))->option_text("N");
 }
 
 void add_drawing_scale(CLI::App& command, DrawingOptions& options) {
   command
       .add_option_function<double>(
-          "--scale", [&options](double scale) { preset_of(options).resolution_scale = scale; },
+          "--scale",
+          [&options](double scale) { options.quality = Quality{.resolution_scale = scale}; },
           "faster and blurred: draw S of the rows and columns, 0.25 to 1, and enlarge")
       ->check(between(0.25, 1.0))
       ->excludes(command.get_option("--supersample"))
       ->option_text("S");
 }
 
-void use_preset_of(const Scene& scene, DrawingOptions& options) {
-  if (!scene.preset || options.preset_use == PresetUse::faithful) return;
-  options.scene_preset = {scene.preset, preset_views(scene)};
-}
-
-CheckedRenderer make_renderer(const gl::Context& context, const TriangleSoup& soup,
-                              glm::dvec3 origin, const DrawingOptions& options,
-                              glm::vec4 background) {
-  std::optional<Progress> progress;
-  RenderOptions render_options{.plan = options.plan, .background = background};
-  render_options.progress = [&](double fraction) {
-    if (!progress) progress.emplace("turning knobs");
-    progress->update(fraction);
-  };
-  return checked_renderer(context, soup, origin, render_options, options.scene_preset);
-}
-
-std::vector<std::string> plan_sentences(const CheckedRenderer& checked) {
-  std::vector<std::string> sentences = checked.renderer.plan().sentences;
-  if (!checked.sentence.empty()) sentences.insert(sentences.begin(), checked.sentence);
-  return sentences;
+PlanPreferences preferences_for(const Scene& scene, const DrawingOptions& options) {
+  PlanPreferences preferences = options.plan;
+  preferences.quality = options.quality.value_or(scene.quality);
+  return preferences;
 }
 
 }  // namespace tureen::cli

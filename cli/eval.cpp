@@ -7,6 +7,7 @@
 #include "cli/choice.hpp"
 #include "cli/commands.hpp"
 #include "cli/dataset_argument.hpp"
+#include "cli/drawing_options.hpp"
 #include "cli/evaluation.hpp"
 #include "cli/memory_option.hpp"
 #include "cli/output_argument.hpp"
@@ -24,6 +25,7 @@ namespace {
 struct Options {
   SceneArgument scene;
   DatasetArgument dataset;
+  DrawingOptions drawing;
   EvaluationOptions evaluation;
   DatasetPart split = DatasetPart::test;
   std::string background;  // empty: the scene's own
@@ -81,7 +83,8 @@ ExitCode evaluate_scene(Options options) {
   Scene scene = read(options.scene);
   const TriangleSoup& soup = opaque_soup(scene);
   if (options.background.empty()) evaluation.background = scene.info.background;
-  use_preset_of(scene, evaluation.drawing);
+  evaluation.plan = preferences_for(scene, options.drawing);
+  evaluation.backend = options.drawing.backend;
   Dataset dataset = read(options.dataset, options.split);
   require_sides(options.dataset, dataset, {.least = ssim_window});
   const std::vector<Photograph> photographs = photographs_of(dataset);
@@ -162,7 +165,7 @@ context, 5 it does not fit on the device or cannot be written.)");
   command->add_flag_callback(
       "--no-flip", [options] { options->evaluation.metrics.with_flip = false; },
       "leave FLIP out, which takes more than half of the time of measuring");
-  add_drawing_options(*command, options->evaluation.drawing);
+  add_drawing_options(*command, options->drawing);
   command->add_flag("--json", options->json, "the numbers as JSON on standard output");
   command->callback(
       [options, &action] { action = [options] { return evaluate_scene(*options); }; });

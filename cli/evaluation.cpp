@@ -107,10 +107,9 @@ Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
   check_spared(options.spared, options.folder, files);
   if (!options.folder.empty()) make_folder(options.folder);
 
-  const gl::Context context = gl::Context::create({.backend = options.drawing.backend});
-  CheckedRenderer checked =
-      make_renderer(context, soup, origin, options.drawing, {options.background, 1.0f});
-  Renderer& renderer = checked.renderer;
+  const gl::Context context = gl::Context::create({.backend = options.backend});
+  Renderer renderer(context, soup, origin,
+                    {.plan = options.plan, .background = {options.background, 1.0f}});
   Evaluation result;
   result.context = context.description();
   result.renderer = context.capabilities().renderer;
@@ -141,7 +140,7 @@ Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
     result.output.push_back(sheet.string());
   }
   result.mean = mean_of(result.views);
-  result.plan = plan_sentences(checked);
+  result.plan = renderer.plan().sentences;
   return result;
 }
 

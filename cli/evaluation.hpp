@@ -14,16 +14,18 @@
 #include <string>
 #include <vector>
 
-#include "cli/drawing_options.hpp"
 #include "cli/report.hpp"
 #include "formats/dataset.hpp"
+#include "runtime/gl/context.hpp"
+#include "runtime/plan.hpp"
 #include "soup/metrics.hpp"
 #include "soup/scene.hpp"
 
 namespace tureen::cli {
 
 struct EvaluationOptions {
-  DrawingOptions drawing;
+  gl::Backend backend = gl::Backend::automatic;
+  PlanPreferences plan = {};
   /// Behind the scene and behind photographs with alpha; display-referred.
   glm::vec3 background{0.0f};
   MetricOptions metrics = {.ssim_border = SsimBorder::valid};

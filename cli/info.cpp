@@ -187,11 +187,7 @@ ExitCode inform(const Options& options) {
   say(fmt::format("  up           ({:.6g}, {:.6g}, {:.6g})", scene.info.up.x, scene.info.up.y,
                   scene.info.up.z));
   say(fmt::format("  cameras      {}", scene.cameras.size()));
-  if (scene.preset)
-    say(fmt::format("  preset       {}{}", describe(*scene.preset),
-                    scene.preset->promised_psnr_db
-                        ? fmt::format("; {:.1f} dB promised", *scene.preset->promised_psnr_db)
-                        : std::string()));
+  if (scene.quality != Quality{}) say("  quality      " + describe(scene.quality));
   say_list("Notes:", all_notes(scene.info));
   say_list("Plan:", plan.sentences);
   say_list("Devices:", device_lines);
@@ -219,7 +215,10 @@ ExitCode inform(const Options& options) {
                  {"cameras", Json::parse(cameras_to_json(scene.cameras)).at("cameras")},
                  {"notes", all_notes(scene.info)},
                  {"remarks", remarks_json(scene.info.remarks)},
-                 {"preset", scene.preset ? Json(describe(*scene.preset)) : Json()},
+                 {"preset", scene.quality != Quality{} ? Json(describe(scene.quality)) : Json()},
+                 {"quality",
+                  {{"resolution_scale", scene.quality.resolution_scale},
+                   {"supersampling", scene.quality.supersampling}}},
                  {"plan", plan.sentences},
                  {"devices", devices},
                  {"lint", to_json(findings)}});

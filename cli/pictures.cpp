@@ -96,8 +96,8 @@ Drawer drawer_of(Renderer& renderer, const gl::Capabilities& device) {
               },
           .read = [&renderer] { return renderer.read_color(); },
           .tiles = [&renderer, &device] { return tiles_of(renderer, device); },
-          .supersampling = renderer.plan().supersampling,
-          .resolution_scale = renderer.plan().resolution_scale};
+          .supersampling = renderer.plan().quality.supersampling,
+          .resolution_scale = renderer.plan().quality.resolution_scale};
 }
 
 Drawer drawer_of(Inspector& inspector, const gl::Capabilities& device) {

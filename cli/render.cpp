@@ -19,6 +19,7 @@
 #include "cli/view_options.hpp"
 #include "formats/video_file.hpp"
 #include "runtime/inspector.hpp"
+#include "runtime/renderer.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {
@@ -57,14 +58,15 @@ Pictures draw_views(const Drawer& drawer, const gl::Capabilities& device, const 
 Drawn draw_colors(const gl::Context& context, const Scene& scene, const TriangleSoup& soup,
                   const Options& options, glm::vec4 background, const Views& views) {
   const gl::Capabilities& device = context.capabilities();
-  CheckedRenderer checked = make_renderer(context, soup, scene.origin, options.drawing, background);
-  const Drawer drawer = drawer_of(checked.renderer, device);
+  Renderer renderer(context, soup, scene.origin,
+                    {.plan = preferences_for(scene, options.drawing), .background = background});
+  const Drawer drawer = drawer_of(renderer, device);
   // What --frames refuses is said before hours of drawing.
   FrameTimes times;
   if (options.frames > 0) times = benchmark(drawer, device, views.cameras, options.frames);
   Pictures pictures = draw_views(drawer, device, views, options.output);
   if (options.frames > 0) pictures.times = times;
-  return {std::move(pictures), plan_sentences(checked), {}, checked.renderer.device_bytes()};
+  return {std::move(pictures), renderer.plan().sentences, {}, renderer.device_bytes()};
 }
 
 Drawn draw_inspection(const gl::Context& context, const Scene& scene, const TriangleSoup& soup,
@@ -139,7 +141,6 @@ ExitCode render(Options options) {
   const TriangleSoup& soup = opaque_soup(scene);
   const Views views = resolve_views(options.views, scene, options.scene.path);
   if (options.background.empty()) background = glm::vec4(scene.info.background, 1.0f);
-  use_preset_of(scene, options.drawing);
   require_shown(options.show, soup);
 
   const gl::Context context = gl::Context::create({.backend = options.drawing.backend});

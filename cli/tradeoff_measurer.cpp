@@ -29,10 +29,10 @@ Job job_of(const std::vector<tradeoff::Knob>& knobs, const tradeoff::Configurati
   Job job;
   job.outcome.configuration = configuration;
   job.outcome.name = tradeoff::describe(knobs, configuration);
-  job.outcome.preset = tradeoff::preset_of(knobs, configuration);
+  job.outcome.applied = tradeoff::applied_by(knobs, configuration);
   job.outcome.method = specialised ? Method::specialised : Method::generic;
   job.plan.specialise = specialised;
-  job.plan.preset = job.outcome.preset;
+  job.plan.quality = job.outcome.applied.quality;
   return job;
 }
 
@@ -52,11 +52,13 @@ void Measurer::report_share(double fraction) const {
 }
 
 std::unique_ptr<Renderer> Measurer::renderer_for(const Job& job) const {
-  return std::make_unique<Renderer>(
-      scene_.context, scene_.soup, scene_.origin,
-      RenderOptions{.plan = job.plan,
-                    .background = {options_.background, 0.0f},
-                    .progress = [this](double) { report_share(0.2 * made_); }});
+  const RenderOptions options{.plan = job.plan, .background = {options_.background, 0.0f}};
+  const auto renderer_of = [&](const TriangleSoup& soup) {
+    return std::make_unique<Renderer>(scene_.context, soup, scene_.origin, options);
+  };
+  const Edits& edits = job.outcome.applied.edits;
+  if (edits == Edits{}) return renderer_of(scene_.soup);
+  return renderer_of(edited(scene_.soup, edits, [this](double) { report_share(0.2 * made_); }));
 }
 
 void Measurer::measure_group(std::vector<Job> jobs) {

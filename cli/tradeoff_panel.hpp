@@ -20,21 +20,20 @@ struct ExactError {
   double coverage_mismatch = 0;
 };
 
-/// By whom an outcome was drawn: by our plan, by it with nothing left out (--no-specialise), by the
-/// published pipeline, or by the oracle, which emulates a precision and takes neither time nor
-/// bytes.
-enum class Method { specialised, generic, published, emulated };
+/// By whom an outcome was drawn: by our plan, by it with nothing left out (--no-specialise), or by
+/// the published pipeline.
+enum class Method { specialised, generic, published };
 
 /// Of methods in their order, as files have them.
-inline constexpr std::array<const char*, 4> method_names{"tureen", "tureen --no-specialise",
-                                                         "published", "oracle"};
+inline constexpr std::array<const char*, 3> method_names{"tureen", "tureen --no-specialise",
+                                                         "published"};
 const char* name_of(Method method);
 
 /// One way to draw, with the numbers it came to.
 struct Outcome {
   tradeoff::Configuration configuration;  // of the panel's knobs
   std::string name;                       // in words: "lattice level 2"
-  RenderPreset preset;
+  tradeoff::Applied applied;
   Method method = Method::specialised;
   /// ms but for spread, of which FrameStatistics::spread says what it is.
   FrameStatistics ms;
@@ -44,7 +43,6 @@ struct Outcome {
   std::vector<std::string> warnings;
 
   int departures() const { return tradeoff::departures(configuration); }
-  bool has_time() const { return method != Method::emulated; }
 };
 
 struct Skipped {

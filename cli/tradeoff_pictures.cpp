@@ -45,7 +45,7 @@ void on_all_cores(
 }
 
 std::vector<ImageF> oracle_pictures(const StudyScene& scene, const StudyOptions& options,
-                                    tradeoff::Samples samples, MlpPrecision precision) {
+                                    tradeoff::Samples samples) {
   std::vector<ImageF> pictures(scene.cameras.size());
   const auto progress = [&](double fraction) { report(options, "reference pictures", fraction); };
   on_all_cores(pictures.size(), progress, [&](std::size_t i, const auto& check) {
@@ -53,7 +53,6 @@ std::vector<ImageF> oracle_pictures(const StudyScene& scene, const StudyOptions&
                                               {.samples = samples,
                                                .subpixel_bits = options.subpixel_bits,
                                                .background = options.background,
-                                               .mlp_precision = precision,
                                                .progress = check});
   });
   return pictures;

@@ -21,11 +21,9 @@ void on_all_cores(
     std::size_t count, const std::function<void(double)>& progress,
     const std::function<void(std::size_t i, const std::function<void(double)>& check)>& work);
 
-/// One picture a camera. With another precision than `exact` the network is emulated. Throws what
-/// options.progress throws, soon after it did.
+/// One picture a camera. Throws what options.progress throws, soon after it did.
 std::vector<ImageF> oracle_pictures(const StudyScene& scene, const StudyOptions& options,
-                                    tradeoff::Samples samples,
-                                    MlpPrecision precision = MlpPrecision::exact);
+                                    tradeoff::Samples samples);
 
 /// In 8 bits a channel, as a screen shows them.
 std::vector<ImageF> as_shown(std::span<const ImageF> pictures);

@@ -53,7 +53,6 @@ std::optional<ModelError> model_of(const std::vector<std::optional<ModelError>>&
 Json configuration_json(const TradeoffReport& report, const Panel& panel, std::size_t i,
                         const std::optional<ModelError>& model) {
   const Outcome& outcome = panel.outcomes[i];
-  const auto timed = [&](double value) { return outcome.has_time() ? Json(value) : Json(nullptr); };
   return {{"name", outcome.name},
           {"scene", report.scene.name},
           {"method", name_of(outcome.method)},
@@ -61,11 +60,11 @@ Json configuration_json(const TradeoffReport& report, const Panel& panel, std::s
           {"commit", report.program.commit},
           {"machine", report.machine.cpu},
           {"driver", report.device.renderer + "; " + report.device.version},
-          {"ms", timed(outcome.ms.min_of_medians)},
-          {"ms_median", timed(outcome.ms.median)},
-          {"ms_p95", timed(outcome.ms.p95)},
-          {"ms_spread", timed(outcome.ms.spread * outcome.ms.min_of_medians)},
-          {"mib", timed(outcome.device_mib)},
+          {"ms", outcome.ms.min_of_medians},
+          {"ms_median", outcome.ms.median},
+          {"ms_p95", outcome.ms.p95},
+          {"ms_spread", outcome.ms.spread * outcome.ms.min_of_medians},
+          {"mib", outcome.device_mib},
           {"e_render", to_json(outcome.error, report.with_flip)},
           {"e_render_exact", to_json(outcome.exact)},
           {"e_model", to_json(model, report.with_flip)},
@@ -108,9 +107,7 @@ Json choice_json(const TradeoffReport& report) {
   return {{"configuration", *study.choice},
           {"name", outcome.name},
           {"psnr_db", outcome.error.psnr_db},
-          {"promised_psnr_db",
-           report.promised_psnr_db ? Json(*report.promised_psnr_db) : Json(nullptr)},
-          {"written", report.preset_written ? Json(*report.preset_written) : Json(nullptr)}};
+          {"written", report.scene_written ? Json(*report.scene_written) : Json(nullptr)}};
 }
 
 Json model_protocol_json(const TradeoffReport& report) {
@@ -134,12 +131,10 @@ std::string table_line(const TradeoffReport& report, const Panel& panel, std::si
       chosen                  ? '>'
       : is_on_front(panel, i) ? '*'
                               : ' ',
-      outcome.name, width,
-      outcome.has_time() ? fmt::format("{:.2f}", outcome.ms.min_of_medians) : "-",
+      outcome.name, width, fmt::format("{:.2f}", outcome.ms.min_of_medians),
       generic ? fmt::format("{:.2f}", generic->ms.min_of_medians) : "-", error.psnr_db,
       outcome.exact ? fmt::format("{:.2f}", outcome.exact->psnr_db) : "-", error.max_abs,
-      error.p999_abs, error.coverage_mismatch,
-      outcome.has_time() ? fmt::format("{:.1f}", outcome.device_mib) : "-");
+      error.p999_abs, error.coverage_mismatch, fmt::format("{:.1f}", outcome.device_mib));
 }
 
 void say_panel(const TradeoffReport& report, const Panel& panel, const std::string& title) {
@@ -172,7 +167,7 @@ void say_model(const TradeoffReport& report) {
   const auto table = [&](const Panel& panel, const std::vector<std::optional<ModelError>>& list) {
     for (std::size_t i = 0; i < list.size(); ++i)
       if (list[i])
-        say(fmt::format("  {:<44}  {:>7.2f} dB  SSIM {:.4f}", told_name(panel.outcomes[i]),
+        say(fmt::format("  {:<44}  {:>7.2f} dB  SSIM {:.4f}", panel.outcomes[i].name,
                         list[i]->psnr_db, list[i]->ssim));
   };
   table(report.study.drawing, report.drawing_model);
@@ -180,10 +175,6 @@ void say_model(const TradeoffReport& report) {
 }
 
 }  // namespace
-
-std::string told_name(const Outcome& outcome) {
-  return outcome.name + (outcome.method == Method::emulated ? " (emulated)" : "");
-}
 
 const char* where_it_looks(const TradeoffReport& report) {
   return report.samples == "device" ? "at the device's own sample points" : "of exact triangles";

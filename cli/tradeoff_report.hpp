@@ -49,15 +49,10 @@ struct TradeoffReport {
   /// those that were not measured. Empty without a dataset.
   std::vector<std::optional<ModelError>> drawing_model, antialiasing_model;
   std::optional<ModelProtocol> model;
-  /// What a preset of the choice promises, in dB: runtime/preset_check.hpp.
-  std::optional<double> promised_psnr_db;
-  std::optional<std::string> preset_written;  // where
+  std::optional<std::string> scene_written;   // by --write, where
   std::vector<std::string> notes;             // on reading the scene, the cameras, the dataset
   std::vector<std::string> output;            // files that were written
 };
-
-/// The name of an outcome where it stands by itself, as one drawn by the oracle says.
-std::string told_name(const Outcome& outcome);
 
 /// The reference of drawing knobs, in words: "at the device's own sample points".
 const char* where_it_looks(const TradeoffReport& report);

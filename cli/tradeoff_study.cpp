@@ -6,7 +6,6 @@
 #include <cassert>
 #include <cmath>
 #include <iterator>
-#include <tuple>
 
 #include "cli/tradeoff_measurer.hpp"
 #include "cli/tradeoff_pictures.hpp"
@@ -20,22 +19,18 @@ namespace {
 using tradeoff::Configuration;
 using tradeoff::Knob;
 
-/// What no soup can be drawn with, before anything is uploaded, and what no reference can judge.
-tradeoff::Refusal refusal_of(const std::vector<Knob>& knobs, const TriangleSoup& soup) {
-  return [&knobs, &soup](const Configuration& configuration) {
-    const RenderPreset preset = tradeoff::preset_of(knobs, configuration);
-    const std::optional<std::string> reason = defect(preset, soup);
-    return reason ? reason : tradeoff::too_fine(preset);
+/// What nothing can be drawn with, before anything is uploaded.
+tradeoff::Refusal refusal_of(const std::vector<Knob>& knobs) {
+  return [&knobs](const Configuration& configuration) {
+    return defect(tradeoff::applied_by(knobs, configuration).quality);
   };
 }
 
-/// Those that the runtime draws.
 std::vector<Job> jobs_of(const std::vector<Knob>& knobs, const std::vector<Configuration>& list,
                          bool specialised) {
   std::vector<Job> jobs;
   for (const Configuration& configuration : list)
-    if (tradeoff::emulated_precision(knobs, configuration) == MlpPrecision::exact)
-      jobs.push_back(job_of(knobs, configuration, specialised));
+    jobs.push_back(job_of(knobs, configuration, specialised));
   return jobs;
 }
 
@@ -53,19 +48,19 @@ void find_ranges(Panel& panel) {
   for (const Outcome& outcome : panel.outcomes) {
     if (outcome.method == Method::generic || outcome.method == Method::published) continue;
     configurations.push_back(outcome.configuration);
-    measured.push_back({outcome.has_time() ? outcome.ms.min_of_medians : std::nan(""),
+    measured.push_back({outcome.ms.min_of_medians,
                         is_judged(panel, outcome) ? outcome.error.psnr_db : std::nan("")});
   }
   panel.ranges = tradeoff::knob_ranges(configurations, measured, panel.knobs.size());
 }
 
 /// What follows from the star: which knobs matter, all combinations of these, and the front.
-void finish(const TriangleSoup& soup, const StudyOptions& options, const std::string& task,
-            Measurer& measurer, Panel& panel) {
+void finish(const StudyOptions& options, const std::string& task, Measurer& measurer,
+            Panel& panel) {
   find_ranges(panel);
   const tradeoff::Design rest =
       tradeoff::factorial(tradeoff::setting_counts(panel.knobs), panel.ranges,
-                          refusal_of(panel.knobs, soup), options.factorial);
+                          refusal_of(panel.knobs), options.factorial);
   note_skipped(panel, rest);
   measurer.measure(jobs_of(panel.knobs, rest.configurations, true), task);
   find_front(panel);
@@ -76,21 +71,6 @@ RenderError ideal_error(const std::vector<ImageF>& reference, bool with_flip) {
   return error_between(reference, as_shown(reference), with_flip);
 }
 
-/// The star's configurations that only the oracle draws.
-void emulate(const StudyScene& scene, const StudyOptions& options,
-             const std::vector<Configuration>& star, const References& references, Panel& panel) {
-  for (const Configuration& configuration : star) {
-    const MlpPrecision precision = tradeoff::emulated_precision(panel.knobs, configuration);
-    if (precision == MlpPrecision::exact) continue;
-    Outcome outcome = job_of(panel.knobs, configuration, true).outcome;
-    outcome.method = Method::emulated;
-    std::tie(outcome.error, outcome.exact) =
-        errors_of(references, as_shown(oracle_pictures(scene, options, options.samples, precision)),
-                  options.with_flip);
-    panel.outcomes.push_back(std::move(outcome));
-  }
-}
-
 void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& study) {
   Panel& panel = study.drawing;
   References references{oracle_pictures(scene, options, tradeoff::Samples::device),
@@ -99,13 +79,12 @@ void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& 
   if (options.samples == tradeoff::Samples::exact) references.judge = references.exact;
   panel.ideal = ideal_error(references.judge, options.with_flip);
 
-  const RenderPlan plan = make_plan(scene.soup, device_limits(scene.context.capabilities()));
   const std::vector<std::uint64_t> visible = count_visible_pixels(
       scene.context, scene.soup, scene.origin, scene.counting,
       [&](double fraction) { report(options, "visible triangles", fraction); });
-  panel.knobs = tradeoff::drawing_knobs(scene.soup, plan.site, visible);
+  panel.knobs = tradeoff::drawing_knobs(scene.soup, visible);
   const tradeoff::Design star =
-      tradeoff::star(tradeoff::setting_counts(panel.knobs), refusal_of(panel.knobs, scene.soup));
+      tradeoff::star(tradeoff::setting_counts(panel.knobs), refusal_of(panel.knobs));
   note_skipped(panel, star);
 
   Measurer measurer(scene, options, references, panel);
@@ -119,26 +98,24 @@ void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& 
   std::vector<Job> generic = jobs_of(panel.knobs, star.configurations, false);
   std::move(generic.begin(), generic.end(), std::back_inserter(jobs));
   measurer.measure(std::move(jobs), "one knob at a time");
-  emulate(scene, options, star.configurations, references, panel);
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i)
     if (panel.outcomes[i].method == Method::published) study.published = i;
-  finish(scene.soup, options, "knobs combined", measurer, panel);
+  finish(options, "knobs combined", measurer, panel);
 }
 
 void study_antialiasing(const StudyScene& scene, const StudyOptions& options, Study& study) {
   Panel& panel = study.antialiasing;
   const References references{oracle_pictures(scene, options, tradeoff::Samples::antialiased), {}};
   panel.ideal = ideal_error(references.judge, options.with_flip);
-  const std::vector<int> counts = device_limits(scene.context.capabilities()).sample_counts;
-  panel.knobs = tradeoff::antialiasing_knobs(options.most_samples, counts);
+  panel.knobs = tradeoff::antialiasing_knobs(options.most_samples);
   const tradeoff::Design star =
-      tradeoff::star(tradeoff::setting_counts(panel.knobs), refusal_of(panel.knobs, scene.soup));
+      tradeoff::star(tradeoff::setting_counts(panel.knobs), refusal_of(panel.knobs));
   note_skipped(panel, star);
   Measurer measurer(scene, options, references, panel);
   measurer.measure(jobs_of(panel.knobs, star.configurations, true), "antialiasing");
   for (Outcome& outcome : panel.outcomes)
     if (!is_judged(panel, outcome)) outcome.warnings.emplace_back(not_judged);
-  finish(scene.soup, options, "antialiasing combined", measurer, panel);
+  finish(options, "antialiasing combined", measurer, panel);
 }
 
 }  // namespace

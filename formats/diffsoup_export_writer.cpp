@@ -92,7 +92,6 @@ struct FillLuts {
     Luts luts(texture.patches.size(), highest_level(texture));
     const std::size_t per_face = lattice::texel_count(luts.level);
     const bool inert = !texture.mlp;
-    if (texture.harmonics) refuse("baked harmonics");
     std::vector<float> coarse, fine(per_face * channels);
     std::size_t refined = 0, blended = 0;
     for (std::size_t t = 0; t < texture.patches.size(); ++t) {

@@ -35,11 +35,11 @@ Scene read_tureen_glb(Input& input, const GlbContainer& glb, const ReadOptions& 
 /// Whether this is one of our files.
 bool is_tureen_glb(const GlbContainer& glb);
 
-/// Writes every kind of scene, soft triangles too, and its preset. Returns what is lost, a sentence
-/// each: nothing, unless a text is not UTF-8. Throws UsageError for a scene that has a defect(),
-/// has no up axis, holds a camera without pixels or with more than 65,536 in a row or column, holds
-/// a camera or a material with numbers that are not finite, does not fit into 4 GiB, has baked
-/// harmonics or a preset with a defect(); OutputError where the file cannot be written.
+/// Writes every kind of scene, soft triangles too, and its quality. Returns what is lost, a
+/// sentence each: nothing, unless a text is not UTF-8. Throws UsageError for a scene that has a
+/// defect(), has no up axis, holds a camera without pixels or with more than 65,536 in a row or
+/// column, holds a camera or a material with numbers that are not finite, does not fit into 4 GiB,
+/// or whose quality has a defect(); OutputError where the file cannot be written.
 ///
 /// Memory beside the scene: the final colours (8 bytes a vertex of the drawn mesh) and the encoded
 /// images. Arrays of the scene are written from where they lie.

@@ -25,7 +25,6 @@ inline constexpr const char* domains[] = {"face", "vertex"};
 inline constexpr const char* wraps[] = {"repeat", "mirror", "clamp"};
 inline constexpr const char* filters[] = {"nearest", "linear"};
 inline constexpr const char* colors[] = {"network", "harmonics", "base"};
-inline constexpr const char* feature_storages[] = {"visibility", "rgba16f", "rgba8"};
 inline constexpr const char* sites[] = {"automatic", "deferred", "forward"};
 
 }  // namespace tureen::glb_layout

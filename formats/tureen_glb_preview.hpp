@@ -28,8 +28,8 @@ std::optional<std::uint64_t> tureen_glb_preview_size(std::span<const std::byte> 
 /// The scene as far as it can be shown: what read_tureen_glb will say of it (origin, cameras, info)
 /// with its positions and triangles, but FaceColors, each face's final colour in the mean, or, of a
 /// soup of vertex colours, VertexColors; rounded to 16 bits linear, opaque, cut-outs as whole
-/// triangles, soft triangles as hard ones. It has no preset and no defect(). Nothing where the size
-/// above is not known, 0, or more than `prefix` has. Throws InputError.
+/// triangles, soft triangles as hard ones. Its quality is the default, and it has no defect().
+/// Nothing where the size above is not known, 0, or more than `prefix` has. Throws InputError.
 std::optional<Scene> read_tureen_glb_preview(std::span<const std::byte> prefix,
                                              const std::string& name);
 

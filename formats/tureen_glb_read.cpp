@@ -12,7 +12,7 @@
 #include "formats/slim_texels.hpp"
 #include "formats/tureen_glb.hpp"
 #include "formats/tureen_glb_geometry.hpp"
-#include "formats/tureen_glb_preset.hpp"
+#include "formats/tureen_glb_quality.hpp"
 #include "soup/lattice.hpp"
 #include "soup/spherical_harmonics.hpp"
 
@@ -36,13 +36,14 @@ class Reader {
     const JsonView appearance = extension_["appearance"];
     TriangleSoup soup;
     read_geometry(soup);
-    read_preset(scene, soup);
+    const Edits edits = read_preset(scene, soup);
     if (appearance["type"].text() == "soft_triangles") {
       scene.primitives = soft_triangles(appearance, std::move(soup));
+      if (edits != Edits{}) scene.info.remarks.push_back({Remark::Kind::preset_dropped});
     } else {
       soup.appearance = read_appearance(appearance, soup);
       if (const auto reason = defect(soup)) extension_.fail(*reason);
-      scene.primitives = std::move(soup);
+      scene.primitives = with_edits(std::move(soup), edits, scene.info.remarks);
     }
     return scene;
   }
@@ -94,15 +95,46 @@ class Reader {
     return bytes;
   }
 
-  void read_preset(Scene& scene, const TriangleSoup& soup) {
+  /// Sets the scene's quality. The edits are those that a file of an earlier version asks for.
+  Edits read_preset(Scene& scene, const TriangleSoup& soup) {
     const auto view = extension_.find("preset");
-    if (!view) return;
-    RenderPreset preset = tureen::read_preset(*view);
+    if (!view) return {};
+    StoredPreset preset = tureen::read_preset(*view);
+    scene.quality = preset.quality;
     if (view->find("keeps_face"))
-      preset.keeps_face = arrays_.read<std::uint8_t>(*view, "keeps_face", soup.triangles.size(),
-                                                     glb_formats::scalar_u8);
-    if (const auto reason = defect(preset, soup)) view->fail(*reason);
-    scene.preset = std::move(preset);
+      preset.edits.keeps_face = arrays_.read<std::uint8_t>(
+          *view, "keeps_face", soup.triangles.size(), glb_formats::scalar_u8);
+    if (const auto reason = defect(preset.edits, soup)) view->fail(*reason);
+    if (!preset.ignored.empty())
+      scene.info.remarks.push_back(
+          {.kind = Remark::Kind::preset_keys_ignored, .names = preset.ignored});
+    return std::move(preset.edits);
+  }
+
+  /// What the lattices take at a level at most this; faces that share all of their texels go on
+  /// sharing them.
+  static std::uint64_t texels_at_most(const LatticeTexture& texture, int level) {
+    std::vector<std::uint64_t> patches;
+    for (const LatticePatch& patch : texture.patches)
+      patches.push_back(std::uint64_t(patch.first_texel) << 3 | patch.level);
+    std::sort(patches.begin(), patches.end());
+    patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
+    std::uint64_t texels = 0;
+    for (const std::uint64_t patch : patches)
+      texels += lattice::texel_count(std::min(int(patch & 7), level));
+    return texels;
+  }
+
+  TriangleSoup with_edits(TriangleSoup soup, const Edits& edits, std::vector<Remark>& remarks) {
+    if (edits == Edits{}) return soup;
+    PassingMemory passing(input_.budget());
+    input_.take_memory(byte_size(soup), 1, "what the file's preset makes of the scene");
+    if (const auto* texture = std::get_if<LatticeTexture>(&soup.appearance))
+      input_.take_memory(texels_at_most(*texture, edits.lattice_level),
+                         LatticeTexture::channels * (texture->is_float() ? 4 : 1),
+                         "what the file's preset makes of the texels");
+    remarks.push_back({.kind = Remark::Kind::preset_applied, .names = {describe(edits)}});
+    return edited(std::move(soup), edits);
   }
 
   Appearance read_appearance(const JsonView& view, const TriangleSoup& soup) {

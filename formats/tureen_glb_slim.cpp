@@ -35,8 +35,6 @@ std::vector<std::string> write_slim_glb(const Scene& scene, const SlimSoup& slim
   std::vector<std::string> losses;
   BinaryPlan plan;
   json extension = info_json(scene, losses);
-  if (scene.preset)
-    losses.push_back("the scene's preset, whose promise was made of texels without a loss");
   extension["version"] = tureen_slim_version;
   extension["vertex_count"] = used_vertices(soup->triangles);
   extension["face_count"] = soup->triangles.size();

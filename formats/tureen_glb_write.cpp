@@ -12,7 +12,7 @@
 #include "formats/png.hpp"
 #include "formats/tureen_glb.hpp"
 #include "formats/tureen_glb_layout.hpp"
-#include "formats/tureen_glb_preset.hpp"
+#include "formats/tureen_glb_quality.hpp"
 #include "formats/tureen_glb_writing.hpp"
 #include "soup/lattice.hpp"
 #include "soup/mean_color.hpp"
@@ -96,10 +96,6 @@ struct AddAppearance {
   }
 
   json operator()(const LatticeTexture& texture) const {
-    if (texture.harmonics)
-      throw UsageError(
-          "a GLB cannot hold baked harmonics: write the scene with its network, and a "
-          "preset that asks for them");
     json result = {{"type", "lattice_texture"}, {"texel_count", texture.texel_count()}};
     add_patches(result, texture.patches);
     if (texture.mlp) result["color_mlp"] = mlp_json(plan, *texture.mlp);
@@ -356,6 +352,11 @@ json info_json(const Scene& scene, std::vector<std::string>& losses) {
                                     {"cy", camera.cy},
                                     {"view_from_world", matrix}});
   }
+  if (scene.quality != Quality{}) {
+    if (const auto reason = defect(scene.quality))
+      throw UsageError("the scene cannot be written: " + *reason);
+    extension["preset"] = quality_json(scene.quality);
+  }
   return extension;
 }
 
@@ -413,12 +414,6 @@ std::vector<std::string> write_tureen_glb(const Scene& scene, const std::filesys
   extension["vertex_count"] = soup.positions.size();
   extension["face_count"] = soup.triangles.size();
   json primitive = add_mesh(plan, extension, soup);
-  if (scene.preset) {
-    if (const auto reason = defect(*scene.preset, soup))
-      throw UsageError("the scene cannot be written: " + *reason);
-    extension["preset"] = preset_json(*scene.preset);
-    plan.accessor(extension["preset"], "keeps_face", bytes_of(scene.preset->keeps_face), scalar_u8);
-  }
   extension["appearance"] =
       soft ? soft_json(plan, *soft) : std::visit(AddAppearance{plan}, soup.appearance);
 

@@ -146,7 +146,6 @@ class Preparation {
                          1.0f);
       });
     LatticeSources sources = prepare_lattice(texture, plan_, layout_);
-    if (texture.harmonics) include("harmonics.glsl");
     include("appearance_lattice.glsl");
     result_.constants["LATTICE_LEVEL"] = std::to_string(plan_.lattice.uniform_level);
     add("features0", std::move(sources.features0));
@@ -156,22 +155,7 @@ class Preparation {
     if (plan_.opaque_count < plan_.faces.size())
       add(plan_.lattice.alpha_by_cell ? "alpha_cells" : "alpha_texels", std::move(sources.alpha));
     if (plan_.lattice.uniform_level < 0) add("patches", std::move(sources.patches));
-    result_.constants["LATTICE_HARMONICS"] = "0";
-    if (texture.harmonics) add_bands(*texture.harmonics, std::move(sources.bands));
     if (texture.mlp) add_mlp(*texture.mlp, plan_.feature_ranges);
-  }
-
-  void add_bands(const LatticeHarmonics& sh, TexelSource bands) {
-    add("bands", std::move(bands));
-    result_.constants["LATTICE_HARMONICS"] = std::to_string(sh.degree);
-    result_.constants["HARMONICS_DEGREE"] = std::to_string(sh.degree);
-    result_.constants["VIEW_SIGN"] = sh.view == ViewConvention::surface_to_eye ? "1.0" : "-1.0";
-    // Signed bytes are read as byte / 127. Nine digits give every float back.
-    char scale[32];
-    std::snprintf(scale, sizeof scale, "%.8e", double(sh.scale));
-    std::replace(scale, scale + sizeof scale, ',', '.');
-    result_.constants["BAND_SCALE"] =
-        std::holds_alternative<std::vector<std::int8_t>>(sh.coefficients) ? scale : "1.0";
   }
 
   void prepare(const UvTextures& textures) {

@@ -81,19 +81,13 @@ class Forecaster {
                          1.0f);
       });
     const std::uint64_t texels = lattice_texels(texture);
-    const auto four_channels = std::uint64_t(plan_.lattice.texel_bits) / 2;
+    const auto four_channels = std::uint64_t(texture.is_float() ? 16 : 4);
     add("lattice texels", texels, four_channels);
     if (plan_.latent_features) add("lattice texels", texels, four_channels);
     if (plan_.opaque_count < plan_.faces.size())
       plan_.lattice.alpha_by_cell ? add("lattice alpha", alpha_cells(texture), four_channels)
                                   : add("lattice alpha", texels, four_channels / 4);
     if (plan_.lattice.uniform_level < 0) add("lattice patches", slots(), 16);
-    if (texture.harmonics) {
-      const bool bytes =
-          std::holds_alternative<std::vector<std::int8_t>>(texture.harmonics->coefficients);
-      add("baked harmonics", texels * std::uint64_t(3 * band_groups(texture.harmonics->degree)),
-          bytes ? 4 : std::uint64_t(std::max(plan_.lattice.texel_bits, 16)) / 2);
-    }
   }
 
   /// Four alphas a cell; faces that share texels share cells where texels stay as the soup has

@@ -1,44 +1,34 @@
 // What the geometry pass of a deferred frame leaves a pixel for the shading pass to colour: the
-// name of the winning fragment, or its features.
+// winning face and where on it, (slot, barycentrics) as RG32UI.
 #pragma once
 
-#include <array>
 #include <glm/vec2.hpp>
 
+#include "runtime/gl/objects.hpp"
 #include "runtime/gl/program.hpp"
-#include "runtime/plan.hpp"
 
 namespace tureen {
 
 class FragmentStore {
  public:
-  using FeatureStorage = RenderPreset::FeatureStorage;
-
   /// Nothing is stored.
   FragmentStore() = default;
-  /// Targets of this size that share a depth texture. Throws DeviceLimitError as make_framebuffer.
-  FragmentStore(FeatureStorage storage, int width, int height, GLuint depth);
+  /// A target of this size with a depth texture. Throws DeviceLimitError as make_framebuffer.
+  FragmentStore(int width, int height, GLuint depth);
 
-  /// The shaders of the two passes.
-  static const char* geometry_shader(FeatureStorage storage);
-  static const char* shading_shader(FeatureStorage storage);
-
-  /// Makes the targets those that are drawn into, and no fragment the winner where the storage can
-  /// say so; where features are stored, the depth alone tells.
+  /// Makes it the target that is drawn into, with no face in any pixel.
   void begin() const;
-  /// For the shading pass: binds the targets to units first_unit.. and sets the samplers of
-  /// `program`, in use.
-  void bind(const gl::Program& program, int first_unit) const;
+  /// For the shading pass: binds the target to a unit and sets the sampler `visible` of `program`,
+  /// in use.
+  void bind(const gl::Program& program, int unit) const;
 
-  /// What such targets take, without the depth texture.
-  static std::size_t bytes(FeatureStorage storage, glm::ivec2 size);
+  /// Bytes of such a target without the depth texture.
+  static std::size_t bytes(glm::ivec2 size);
 
-  /// With (slot, barycentrics) as RG32UI, or 0 where features are stored.
-  GLuint visibility_framebuffer() const;
+  GLuint framebuffer() const { return framebuffer_.id(); }
 
  private:
-  FeatureStorage storage_ = FeatureStorage::visibility;
-  std::array<gl::Texture, 2> targets_;  // the second only where features are stored
+  gl::Texture visible_;
   gl::Framebuffer framebuffer_;
 };
 

@@ -17,22 +17,10 @@
 #include "runtime/shader_source.hpp"
 #include "runtime/targets.hpp"
 #include "soup/error.hpp"
-#include "soup/preset_data.hpp"
 
 namespace tureen {
 
 namespace {
-
-/// Those that change what is drawn, not how.
-RenderPreset data_knobs(RenderPreset preset) {
-  const RenderPreset faithful;
-  preset.feature_storage = faithful.feature_storage;
-  preset.site = faithful.site;
-  preset.resolution_scale = faithful.resolution_scale;
-  preset.supersampling = faithful.supersampling;
-  preset.alpha_to_coverage = faithful.alpha_to_coverage;
-  return preset;
-}
 
 /// A plan that keeps all there is to see. Only how the same is computed may be chosen.
 RenderPlan make_inspection_plan(const TriangleSoup& soup, const DeviceLimits& limits,
@@ -43,8 +31,7 @@ RenderPlan make_inspection_plan(const TriangleSoup& soup, const DeviceLimits& li
   RenderPlan plan = make_plan(soup, limits,
                               {.leave_out = leave_out,
                                .reversed_depth = options.reversed_depth,
-                               .site = ShadingSite::deferred,
-                               .preset = options.preset});
+                               .site = ShadingSite::deferred});
   plan.latent_features = feature_count(soup) > 4;
   return plan;
 }
@@ -190,8 +177,7 @@ void Inspector::State::resize(int new_width, int new_height) {
                       new_width, new_height);
   color_framebuffer = make_framebuffer({color.id()}, depth.id());
   counts_framebuffer = make_framebuffer({counts.id()}, 0);
-  store =
-      FragmentStore(RenderPreset::FeatureStorage::visibility, new_width, new_height, depth.id());
+  store = FragmentStore(new_width, new_height, depth.id());
   width = new_width;
   height = new_height;
 }
@@ -312,15 +298,8 @@ void Inspector::State::set_corners(const gl::Program& program, const FrameCamera
 
 Inspector::Inspector(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
                      const InspectorOptions& options) {
-  InspectorOptions kept = options;
-  std::optional<PresetSoup> turned;
-  if (kept.preset) {
-    kept.preset = data_knobs(*kept.preset);
-    if (!defect(*kept.preset, soup)) turned = with_preset(soup, *kept.preset, kept.progress);
-  }
   gl::use_plain_pixel_transfer();
-  state_ =
-      std::make_unique<State>(context.capabilities(), turned ? turned->soup : soup, origin, kept);
+  state_ = std::make_unique<State>(context.capabilities(), soup, origin, options);
 }
 
 Inspector::~Inspector() = default;
@@ -359,7 +338,7 @@ Image8 Inspector::read_color() const {
 
 std::vector<std::uint32_t> Inspector::read_faces() const {
   if (state_->what == Inspection::overdraw) return {};
-  return read_visible_faces(state_->store.visibility_framebuffer(), {state_->width, state_->height},
+  return read_visible_faces(state_->store.framebuffer(), {state_->width, state_->height},
                             state_->plan.faces);
 }
 

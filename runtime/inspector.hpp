@@ -5,11 +5,9 @@
 // and ordinary frames know nothing of it. GL state is treated as Renderer treats it.
 #pragma once
 
-#include <functional>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "runtime/gl/context.hpp"
@@ -22,20 +20,15 @@
 namespace tureen {
 
 struct InspectorOptions {
-  /// Of its knobs those that change the data, and which faces are drawn, are turned; the others
-  /// have no say.
-  std::optional<RenderPreset> preset = {};
   bool reversed_depth = true;  // where the device can, as PlanPreferences has it
   /// What pixels become of which nothing is shown.
   glm::vec4 background{0.0f, 0.0f, 0.0f, 1.0f};
-  /// As in RenderOptions.
-  std::function<void(double)> progress = {};
 };
 
 class Inspector {
  public:
   /// The soup is not needed afterwards. It must have no defect(). Throws DeviceLimitError when it
-  /// does not fit, UsageError for a preset with a defect().
+  /// does not fit.
   Inspector(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
             const InspectorOptions& options = {});
   ~Inspector();

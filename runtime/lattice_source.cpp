@@ -8,10 +8,8 @@
 #include <memory>
 #include <utility>
 
-#include "runtime/texel_encoding.hpp"
 #include "soup/error.hpp"
 #include "soup/lattice.hpp"
-#include "soup/preset_data.hpp"
 
 namespace tureen {
 
@@ -189,91 +187,6 @@ TexelSource alpha_texel_source(const std::vector<Value>& values, const SharedPla
           "lattice alpha", fill};
 }
 
-// With other bits than the soup has.
-
-TexelSource encoded_features(const LatticeTexture& texture, const SharedPlacement& placement,
-                             int bits, int channel) {
-  const auto fill = [&texture, placement, bits, channel, each = rgba_format(bits).bytes](
-                        std::uint64_t first, std::span<std::byte> out) {
-    placement->for_each_texel(first, out.size() / each, [&](std::uint64_t i, std::uint64_t texel) {
-      std::array<float, 4> values{};
-      for (int c = 0; c < 4 && channel + c < LatticeTexture::features; ++c)
-        values[std::size_t(c)] = texture.value(texel, channel + c);
-      encode_texel(values, bits, Alphas::none, &out[i * each]);
-    });
-  };
-  return {rgba_format(bits), placement->texel_count(), "lattice texels", fill};
-}
-
-/// Of bytes that the soup has as floats.
-TexelSource encoded_alpha_texels(const LatticeTexture& texture, const SharedPlacement& placement) {
-  const auto fill = [&texture, placement](std::uint64_t first, std::span<std::byte> out) {
-    placement->for_each_texel(first, out.size(), [&](std::uint64_t i, std::uint64_t texel) {
-      std::array<std::byte, 4> encoded;
-      encode_texel({texture.value(texel, LatticeTexture::features), 0, 0, 0}, 8, Alphas::all,
-                   encoded.data());
-      out[i] = encoded[0];
-    });
-  };
-  return {texel_formats::r8, placement->texel_count(), "lattice alpha", fill};
-}
-
-TexelSource encoded_alpha_cells(const LatticeTexture& texture, const SharedPlacement& placement,
-                                int bits) {
-  const auto fill = [&texture, placement, bits, each = rgba_format(bits).bytes](
-                        std::uint64_t first, std::span<std::byte> out) {
-    placement->for_each_cell(first, out.size() / each,
-                             [&](std::uint64_t i, const std::array<std::uint64_t, 4>& corners) {
-                               std::array<float, 4> values;
-                               for (std::size_t k = 0; k < 4; ++k)
-                                 values[k] = texture.value(corners[k], LatticeTexture::features);
-                               encode_texel(values, bits, Alphas::all, &out[i * each]);
-                             });
-  };
-  return {rgba_format(bits), placement->cells(), "lattice alpha", fill};
-}
-
-/// One texel of the soup in one texel of the store's: the `part`-th four of its values.
-void write_bands(const LatticeHarmonics& harmonics, int bits, std::uint64_t texel,
-                 std::uint64_t part, std::byte* out) {
-  const auto own = std::uint64_t(harmonics.values_per_texel());
-  const auto* bytes = std::get_if<std::vector<std::int8_t>>(&harmonics.coefficients);
-  std::array<float, 4> values{};
-  for (std::uint64_t k = 0; k < 4 && 4 * part + k < own; ++k) {
-    const std::uint64_t index = texel * own + 4 * part + k;
-    if (bytes)
-      out[k] = std::byte((*bytes)[index]);
-    else
-      values[k] = float(harmonics.value(index));
-  }
-  if (!bytes) encode_texel(values, bits, Alphas::none, out);
-}
-
-TexelSource band_source(const LatticeHarmonics& harmonics, const SharedPlacement& placement,
-                        int texel_bits) {
-  const int bits = std::max(texel_bits, 16);
-  const auto parts = 3 * std::uint64_t(band_groups(harmonics.degree));
-  const TexelFormat format =
-      std::holds_alternative<std::vector<std::int8_t>>(harmonics.coefficients)
-          ? texel_formats::rgba8_signed
-          : rgba_format(bits);
-  const auto fill = [&harmonics, placement, bits, parts, each = format.bytes](
-                        std::uint64_t first, std::span<std::byte> out) {
-    std::fill(out.begin(), out.end(), std::byte{0});
-    const std::uint64_t end = first + out.size() / each, first_texel = first / parts;
-    placement->for_each_texel(first_texel, (end + parts - 1) / parts - first_texel,
-                              [&](std::uint64_t i, std::uint64_t source) {
-                                for (std::uint64_t part = 0; part < parts; ++part) {
-                                  const std::uint64_t place = (first_texel + i) * parts + part;
-                                  if (place >= first && place < end)
-                                    write_bands(harmonics, bits, source, part,
-                                                &out[(place - first) * each]);
-                                }
-                              });
-  };
-  return {format, placement->texel_count() * parts, "baked harmonics", fill};
-}
-
 void check_capacity(const Placement& placement, const RenderPlan& plan, const TexelLayout& layout) {
   const std::uint64_t needed = std::max(placement.texel_count(), placement.cells());
   if (needed <= layout.capacity()) return;
@@ -291,30 +204,18 @@ LatticeSources prepare_lattice(const LatticeTexture& texture, const RenderPlan& 
                                const TexelLayout& layout) {
   const auto placement = std::make_shared<const Placement>(texture, plan);
   check_capacity(*placement, plan, layout);
-  const int bits = plan.lattice.texel_bits;
-  const TexelFormat format = rgba_format(bits);
+  const TexelFormat format = texture.is_float() ? texel_formats::rgba32f : texel_formats::rgba8;
   const bool cut_outs = plan.opaque_count < plan.faces.size();
   LatticeSources sources;
-  if (bits == stored_texel_bits(texture, 32)) {
-    std::visit(
-        [&](const auto& values) {
-          sources.features0 = feature_source(values, placement, format, 0);
-          if (plan.latent_features)
-            sources.features1 = feature_source(values, placement, format, 4);
-          if (cut_outs)
-            sources.alpha = plan.lattice.alpha_by_cell
-                                ? alpha_cell_source(values, placement, format)
-                                : alpha_texel_source(values, placement);
-        },
-        texture.texels);
-  } else {
-    sources.features0 = encoded_features(texture, placement, bits, 0);
-    if (plan.latent_features) sources.features1 = encoded_features(texture, placement, bits, 4);
-    if (cut_outs)
-      sources.alpha = plan.lattice.alpha_by_cell ? encoded_alpha_cells(texture, placement, bits)
-                                                 : encoded_alpha_texels(texture, placement);
-  }
-  if (texture.harmonics) sources.bands = band_source(*texture.harmonics, placement, bits);
+  std::visit(
+      [&](const auto& values) {
+        sources.features0 = feature_source(values, placement, format, 0);
+        if (plan.latent_features) sources.features1 = feature_source(values, placement, format, 4);
+        if (cut_outs)
+          sources.alpha = plan.lattice.alpha_by_cell ? alpha_cell_source(values, placement, format)
+                                                     : alpha_texel_source(values, placement);
+      },
+      texture.texels);
   if (plan.lattice.uniform_level < 0) {
     const auto patches = placement->patches();
     sources.patches =

@@ -14,18 +14,12 @@ struct LatticeSources {
   /// (docs/decisions/alpha-cells.md has the measurement); or, where the plan says so, of each
   /// texel.
   TexelSource alpha;
-  /// LatticeHarmonics' values of each texel, four to a texel of this store: 3 times
-  /// band_groups(degree) of them, each group of three holding four RGB coefficients, the last ones
-  /// of degree 1 unused.
-  TexelSource bands;
   TexelSource patches;  // (first texel, level, first cell, 0) a slot
 };
 
-constexpr int band_groups(int degree) { return degree; }
-
 /// Only what the plan reads: features1 where the network sees it, alpha with cut-outs,
-/// patches without a uniform level, bands with harmonics; the others have no `fill`. All of them
-/// read `texture`, which must outlive them. Throws DeviceLimitError.
+/// patches without a uniform level; the others have no `fill`. All of them read `texture`, which
+/// must outlive them. Throws DeviceLimitError.
 LatticeSources prepare_lattice(const LatticeTexture& texture, const RenderPlan& plan,
                                const TexelLayout& layout);
 

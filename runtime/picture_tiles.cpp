@@ -78,13 +78,13 @@ Image8 draw_in_tiles(const Camera& camera, const PictureTiles& tiles) {
 }
 
 PictureTiles tiles_of(Renderer& renderer, const gl::Capabilities& capabilities) {
-  if (renderer.plan().resolution_scale < 1)
+  if (renderer.plan().quality.resolution_scale < 1)
     throw UsageError(
         "a picture that is drawn in tiles has no resolution scale: coarser tiles would not meet");
   // 2^26 samples at once: the gibibyte of targets that pictures drawn whole may have.
   constexpr int most_samples = 8192;
   return tiles_drawn_by(renderer, std::min(capabilities.max_picture_side, most_samples) /
-                                      renderer.plan().supersampling);
+                                      renderer.plan().quality.supersampling);
 }
 
 PictureTiles tiles_of(Inspector& inspector, const gl::Capabilities& capabilities) {

@@ -1,7 +1,6 @@
 #include "runtime/plan.hpp"
 
 #include "runtime/color_mlp_source.hpp"
-#include "runtime/drawing_knobs.hpp"
 #include "runtime/plan_draft.hpp"
 #include "soup/error.hpp"
 
@@ -17,7 +16,7 @@ void choose_site(PlanDraft& draft) {
                      (std::holds_alternative<UvTextures>(draft.soup.appearance) && !plan.color_mlp);
   const bool forward =
       cheap && (draft.may(LeaveOut::shading_pass) || !draft.preferences.specialise);
-  const std::optional<ShadingSite> wanted = wanted_site(draft.preferences);
+  const std::optional<ShadingSite> wanted = draft.preferences.site;
   plan.site = wanted.value_or(forward ? ShadingSite::forward : ShadingSite::deferred);
   plan.depth_rejects_background =
       draft.may(LeaveOut::background) && plan.site == ShadingSite::deferred;
@@ -30,7 +29,6 @@ void choose_site(PlanDraft& draft) {
         "the shading pass, colours are cheap enough to write at once (exact but for rounding)");
 }
 
-/// After the knobs: features that are stored want another shading pass.
 void choose_stage(PlanDraft& draft, const DeviceLimits& limits) {
   RenderPlan& plan = draft.plan;
   const ShadingStage wanted = draft.preferences.shading_stage;
@@ -43,13 +41,15 @@ void choose_stage(PlanDraft& draft, const DeviceLimits& limits) {
       draft.say("nothing is shaded as compute, as colours are written at once");
     return;
   }
-  if (plan.feature_storage != RenderPreset::FeatureStorage::visibility) {
-    if (wanted == ShadingStage::compute)
-      draft.say("features that are stored are shaded in the fragment stage, not as compute");
-    return;
-  }
   if (wanted == ShadingStage::compute) draft.say("shading runs as compute, as asked");
   plan.shading_stage = wanted;
+}
+
+void plan_quality(PlanDraft& draft) {
+  draft.plan.quality = draft.preferences.quality;
+  if (draft.plan.quality.resolution_scale < 1)
+    draft.say("draws " + describe(draft.plan.quality) + " and enlarges the image bilinearly");
+  if (draft.plan.quality.supersampling > 1) draft.say("draws " + describe(draft.plan.quality));
 }
 
 void describe_drawing(PlanDraft& draft) {
@@ -89,20 +89,19 @@ void plan_appearance(PlanDraft& draft, const UvTextures& textures) {
 
 RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
                      const PlanPreferences& preferences) {
-  if (preferences.preset)
-    if (const auto reason = defect(*preferences.preset, soup)) throw UsageError(*reason);
+  if (const auto reason = defect(preferences.quality)) throw UsageError(*reason);
   PlanDraft draft{soup, preferences, {}};
   draft.plan.pipeline = preferences.pipeline;
   if (preferences.pipeline == PipelineKind::published) {
     plan_published(draft);
-    if (preferences.preset) obey_drawing_knobs(*preferences.preset, limits, draft.plan);
+    plan_quality(draft);
     return std::move(draft.plan);
   }
   draft.plan.reversed_depth = limits.clip_control && preferences.reversed_depth;
   plan_faces(draft, limits);
   std::visit([&](const auto& appearance) { plan_appearance(draft, appearance); }, soup.appearance);
   choose_site(draft);
-  if (preferences.preset) obey_drawing_knobs(*preferences.preset, limits, draft.plan);
+  plan_quality(draft);
   choose_stage(draft, limits);
   describe_drawing(draft);
   return std::move(draft.plan);

@@ -11,7 +11,7 @@
 #include "runtime/color_mlp_source.hpp"
 #include "runtime/draw_order.hpp"
 #include "runtime/leave_out.hpp"
-#include "soup/render_preset.hpp"
+#include "soup/quality.hpp"
 #include "soup/triangle_soup.hpp"
 
 namespace tureen {
@@ -21,8 +21,6 @@ struct DeviceLimits {
   int max_texture_size = 4096;
   int max_array_layers = 256;
   bool clip_control = false;
-  bool half_float_targets = true;              // RGBA16F can be drawn into
-  std::vector<int> sample_counts = {2, 4, 8};  // that multisampling has, rising
   bool compute_shaders = false;                // with images that they write
   bool software = false;  // the processor draws: triangles are dear, its time is ours
 };
@@ -59,10 +57,9 @@ struct PlanPreferences {
   /// where faces cover the whole picture, and slower elsewhere.
   ShadingStage shading_stage = ShadingStage::fragment;
   /// Alpha by cell may take so many bytes of the device; if more, it is stored by the texel: the
-  /// same pictures, in more time. Texels of other than 8 or 32 bits have it by cell always.
+  /// same pictures, in more time.
   std::uint64_t most_alpha_cell_bytes = ~std::uint64_t(0);
-  /// Knobs that trade error for time; none: faithful. Without a defect() for the soup.
-  std::optional<RenderPreset> preset = {};
+  Quality quality = {};
 };
 
 /// How the texels of a lattice lie on the device.
@@ -77,8 +74,6 @@ struct LatticePlan {
   /// Alpha is stored by the cell, read once a fragment, or by the texel, read three times, in less
   /// than a third of the memory.
   bool alpha_by_cell = true;
-  /// Bits of a channel: 32 and 8 as texels are stored, 16 and 4 where the preset asks for them.
-  int texel_bits = 32;
 };
 
 struct RenderPlan {
@@ -108,28 +103,18 @@ struct RenderPlan {
 
   /// What of LeaveOut this plan leaves out.
   LeaveOutSet left_out;
-  /// What a deferred plan stores of the nearest fragment; features only where color_mlp and
-  /// depth_rejects_background.
-  RenderPreset::FeatureStorage feature_storage = RenderPreset::FeatureStorage::visibility;
   /// `fragment` where there is no choice.
   ShadingStage shading_stage = ShadingStage::fragment;
-  /// Alpha to coverage of so many samples a pixel instead of the alpha test; 0: none. Forward.
-  int coverage_samples = 0;
-  /// Rows and columns drawn for each of the picture's, and samples a pixel and axis: one of the two
-  /// is 1.
-  double resolution_scale = 1.0;
-  int supersampling = 1;
+  Quality quality;
 
-  /// For people: how the scene is drawn, a sentence for each knob that is turned ("knob: .."), and
+  /// For people: how the scene is drawn, a sentence for each quality setting that is applied, and
   /// one for each thing left out, with the measured margin.
   std::vector<std::string> sentences;
 };
 
-/// The soup must have no defect(), and is what with_preset() (soup/preset_data.hpp) made of it
-/// where there is a preset, as Renderer has it; the plan obeys the other knobs. Throws UsageError
-/// when the published pipeline is asked for and cannot draw this soup or is given a knob that it
-/// does not have, and for a preset with a defect(); DeviceLimitError for alpha to coverage where
-/// there is no multisampling, and for the compute stage where there are no compute shaders.
+/// The soup must have no defect(). Throws UsageError when the published pipeline is asked for and
+/// cannot draw this soup, and for a quality with a defect(); DeviceLimitError for the compute stage
+/// where there are no compute shaders.
 RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
                      const PlanPreferences& preferences = {});
 

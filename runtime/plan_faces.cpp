@@ -37,15 +37,6 @@ void leave_out_coincident_faces(PlanDraft& draft, const std::vector<FaceAlpha>& 
   faces = std::move(kept);
 }
 
-/// Those that the preset does not keep.
-void drop_faces(PlanDraft& draft, const RenderPreset& preset, std::vector<std::uint32_t>& faces) {
-  if (preset.keeps_face.empty()) return;
-  const std::size_t before = faces.size();
-  std::erase_if(faces, [&](std::uint32_t t) { return preset.keeps_face[t] == 0; });
-  draft.say(formatted("knob: the most visible %.4g %% of the triangles, %zu of %zu are not drawn",
-                      100 * preset.triangle_fraction, before - faces.size(), before));
-}
-
 /// Of coincident faces the lower index must win, so both kinds of them are drawn in one bucket.
 /// `faces` are sorted spatially.
 void draw_coincident_faces_alike(const TriangleSoup& soup, std::span<const std::uint32_t> faces,
@@ -64,10 +55,7 @@ void draw_coincident_faces_alike(const TriangleSoup& soup, std::span<const std::
 constexpr std::size_t least_faces_between_pixels = 16384;
 
 void plan_faces_between_pixels(PlanDraft& draft, const DeviceLimits& limits) {
-  // Multisampling has other samples than the centres.
-  const bool one_sample =
-      !draft.preferences.preset || draft.preferences.preset->alpha_to_coverage == 0;
-  if (!limits.software || !one_sample || draft.plan.faces.size() < least_faces_between_pixels ||
+  if (!limits.software || draft.plan.faces.size() < least_faces_between_pixels ||
       !draft.may(LeaveOut::faces_between_pixels))
     return;
   draft.plan.drops_faces_between_pixels = true;
@@ -83,7 +71,6 @@ void plan_faces(PlanDraft& draft, const DeviceLimits& limits) {
   const TriangleSoup& soup = draft.soup;
   RenderPlan& plan = draft.plan;
   std::vector<std::uint32_t> faces = drawable_faces(draft);
-  if (draft.preferences.preset) drop_faces(draft, *draft.preferences.preset, faces);
 
   std::vector<FaceAlpha> alpha(soup.triangles.size(), FaceAlpha::cut_out);
   if (draft.preferences.specialise) alpha = classify_alpha(soup);

@@ -4,7 +4,6 @@
 #include "runtime/lattice_traits.hpp"
 #include "runtime/plan_draft.hpp"
 #include "soup/lattice.hpp"
-#include "soup/preset_data.hpp"
 
 namespace tureen {
 
@@ -64,15 +63,13 @@ namespace {
 /// At last, when levels are known. Faces that share cells are counted each.
 void choose_alpha_storage(PlanDraft& draft, const LatticeTexture& texture) {
   RenderPlan& plan = draft.plan;
-  const int bits = plan.lattice.texel_bits;
-  if (plan.opaque_count == plan.faces.size() || plan.flat_colors || (bits != 8 && bits != 32))
-    return;
+  if (plan.opaque_count == plan.faces.size() || plan.flat_colors) return;
   std::uint64_t cells = 0;
   for (std::size_t i = 0; i < plan.faces.size(); ++i)
     cells +=
         lattice::cell_count(plan.lattice.levels.empty() ? int(texture.patches[plan.faces[i]].level)
                                                         : int(plan.lattice.levels[i]));
-  const std::uint64_t bytes = cells * std::uint64_t(bits) / 2;
+  const std::uint64_t bytes = cells * std::uint64_t(texture.is_float() ? 16 : 4);
   if (bytes <= draft.preferences.most_alpha_cell_bytes) return;
   plan.lattice.alpha_by_cell = false;
   draft.say(
@@ -84,8 +81,6 @@ void choose_alpha_storage(PlanDraft& draft, const LatticeTexture& texture) {
 void plan_lattice(PlanDraft& draft, const LatticeTexture& texture) {
   RenderPlan& plan = draft.plan;
   plan.color_mlp = texture.mlp.has_value();
-  plan.lattice.texel_bits = stored_texel_bits(
-      texture, draft.preferences.preset ? draft.preferences.preset->texel_bits : 32);
   if (!draft.preferences.specialise) {
     if (plan.color_mlp) plan_network(draft, *texture.mlp, {});
     return;
@@ -97,15 +92,13 @@ void plan_lattice(PlanDraft& draft, const LatticeTexture& texture) {
   if (plan.faces.empty()) return;
 
   const bool opaque = plan.opaque_count == plan.faces.size();
-  // What is said of features below holds for no more than them.
-  const bool features_alone = !texture.harmonics;
-  if (features_alone && !plan.color_mlp && traits.constant_faces == plan.faces.size() && opaque &&
+  if (!plan.color_mlp && traits.constant_faces == plan.faces.size() && opaque &&
       draft.may(LeaveOut::constant_lattices)) {
     plan.flat_colors = true;
     draft.leave_out(LeaveOut::constant_lattices, "the lattice, every face has one colour (exact)");
     return;
   }
-  if (features_alone && draft.may(LeaveOut::affine_texels))
+  if (draft.may(LeaveOut::affine_texels))
     leave_out_affine_texels(draft, texture, traits,
                             plan.color_mlp ? color_gain(*texture.mlp, traits.ranges) : 1.0);
   const bool one_level = traits.lowest_level == traits.highest_level;

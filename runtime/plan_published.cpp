@@ -2,7 +2,6 @@
 #include "runtime/face_alpha.hpp"
 #include "runtime/plan_draft.hpp"
 #include "soup/error.hpp"
-#include "soup/preset_data.hpp"
 
 namespace tureen {
 
@@ -24,7 +23,6 @@ void plan_published(PlanDraft& draft) {
     if (drawable(soup, t)) plan.faces.push_back(t);
   plan.color_mlp = true;
   plan.lattice.uniform_level = int(level);
-  plan.lattice.texel_bits = stored_texel_bits(*texture, 32);
   draft.say(
       "published pipeline: two RGBA8 feature targets, every fragment samples all eight channels, "
       "faces in file order, the network on every pixel with its weights in uniforms");

@@ -21,12 +21,8 @@ PreparedSoup prepare_soup(const TriangleSoup& soup, glm::dvec3 origin, const Dev
 
 PreparedSoup prepare_soup(const TriangleSoup& soup, glm::dvec3 origin, const DeviceLimits& device,
                           const RenderOptions& options) {
-  PlannedSoup planned = plan_soup(soup, device, options);
-  const TriangleSoup& drawn = planned.turned ? *planned.turned : soup;
-  PreparedSoup prepared =
-      prepare_soup(drawn, origin, options.limits.value_or(device), std::move(planned.plan));
-  prepared.turned = std::move(planned.turned);
-  return prepared;
+  const DeviceLimits limits = options.limits.value_or(device);
+  return prepare_soup(soup, origin, limits, make_plan(soup, limits, options.plan));
 }
 
 }  // namespace tureen

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <memory>
 
 #include "runtime/appearance_source.hpp"
 #include "runtime/geometry_source.hpp"
@@ -22,11 +21,9 @@ struct PreparedSoup {
   glm::dvec3 origin{0.0};
   AppearanceSource appearance;
   GeometrySource geometry;
-  /// The soup that a preset's knobs have made, where the sources read that one.
-  std::shared_ptr<const TriangleSoup> turned;
 };
 
-/// Turns the knobs of options.plan.preset and plans for the device's limits, or for options.limits.
+/// Plans for the device's limits, or for options.limits.
 /// The sources read the soup, which must stay where it is until they have been used. The soup must
 /// have no defect(); the pipeline must be ours. Throws UsageError and DeviceLimitError as Renderer
 /// does.

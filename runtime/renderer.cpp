@@ -30,8 +30,6 @@ DeviceLimits device_limits(const gl::Capabilities& capabilities) {
   return {.max_texture_size = capabilities.max_texture_size,
           .max_array_layers = capabilities.max_array_layers,
           .clip_control = capabilities.clip_control,
-          .half_float_targets = capabilities.half_float_targets,
-          .sample_counts = capabilities.sample_counts,
           .compute_shaders = capabilities.compute_shaders,
           .software = capabilities.software};
 }
@@ -41,10 +39,11 @@ namespace {
 std::unique_ptr<Pipeline> resampled(std::unique_ptr<Pipeline> pipeline, const RenderPlan& plan,
                                     const gl::Capabilities& capabilities) {
   const PictureLimit limit{capabilities.api, capabilities.max_picture_side};
-  if (plan.supersampling > 1)
-    pipeline = make_supersampled(std::move(pipeline), plan.supersampling, limit);
-  if (plan.resolution_scale < 1)
-    pipeline = make_upscaled(std::move(pipeline), plan.resolution_scale, limit);
+  const Quality& quality = plan.quality;
+  if (quality.supersampling > 1)
+    pipeline = make_supersampled(std::move(pipeline), quality.supersampling, limit);
+  if (quality.resolution_scale < 1)
+    pipeline = make_upscaled(std::move(pipeline), quality.resolution_scale, limit);
   return pipeline;
 }
 
@@ -52,9 +51,8 @@ std::unique_ptr<Pipeline> resampled(std::unique_ptr<Pipeline> pipeline, const Re
 
 Renderer::Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
                    const RenderOptions& options) {
-  PlannedSoup planned = plan_soup(soup, device_limits(context.capabilities()), options);
-  *this = Renderer(context, planned.turned ? *planned.turned : soup, origin,
-                   std::move(planned.plan), options);
+  const DeviceLimits limits = options.limits.value_or(device_limits(context.capabilities()));
+  *this = Renderer(context, soup, origin, make_plan(soup, limits, options.plan), options);
 }
 
 Renderer::Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,

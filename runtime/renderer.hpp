@@ -36,9 +36,8 @@ DeviceLimits device_limits(const gl::Capabilities& capabilities);
 
 class Renderer {
  public:
-  /// Turns the knobs of options.plan.preset, plans and uploads; the soup is not needed afterwards.
-  /// It must have no defect(). Throws DeviceLimitError with a forecast when it does not fit,
-  /// UsageError as make_plan does.
+  /// Plans and uploads; the soup is not needed afterwards. It must have no defect(). Throws
+  /// DeviceLimitError with a forecast when it does not fit, UsageError as make_plan does.
   Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
            const RenderOptions& options = {});
   /// The same with a plan that make_plan made of this soup, for limits that the device has:
@@ -76,12 +75,12 @@ class Renderer {
   glm::ivec2 sample_size() const;
 
   /// The face that each sample of the last frame shows, sample_size() of them, row 0 on top,
-  /// no_face where none does. Empty when the plan shades forward or stores features.
+  /// no_face where none does. Empty when the plan shades forward.
   std::vector<std::uint32_t> read_faces() const;
 
   /// The point, in world coordinates, that the last frame shows at a place of its picture, from the
-  /// top left corner in pixels; nothing where it shows the background, and where depth cannot be
-  /// read: alpha to coverage, the published pipeline. As exact as the depth buffer. Waits for the
+  /// top left corner in pixels; nothing where it shows the background, and of the published
+  /// pipeline, whose depth cannot be read. As exact as the depth buffer. Waits for the
   /// device.
   std::optional<glm::dvec3> point_at(glm::dvec2 place);
 

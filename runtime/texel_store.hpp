@@ -43,9 +43,6 @@ struct TexelFormat {
 namespace texel_formats {
 inline constexpr TexelFormat r8{GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1};
 inline constexpr TexelFormat rgba8{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
-inline constexpr TexelFormat rgba4{GL_RGBA4, GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4, 2};
-inline constexpr TexelFormat rgba8_signed{GL_RGBA8_SNORM, GL_RGBA, GL_BYTE, 4};
-inline constexpr TexelFormat rgba16f{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
 inline constexpr TexelFormat r32f{GL_R32F, GL_RED, GL_FLOAT, 4};
 inline constexpr TexelFormat rg32f{GL_RG32F, GL_RG, GL_FLOAT, 8};
 inline constexpr TexelFormat rgb32f{GL_RGB32F, GL_RGB, GL_FLOAT, 12};

@@ -1,10 +1,9 @@
-// Our frame: a geometry pass that stores the winning fragment of each pixel, its name or its
-// features, then a shading pass over the covered pixels; or colour at once.
+// Our frame: a geometry pass that stores which face each pixel shows, then a shading pass over the
+// covered pixels; or colour at once.
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "runtime/coverage_target.hpp"
 #include "runtime/covered_faces.hpp"
 #include "runtime/device_appearance.hpp"
 #include "runtime/fragment_store.hpp"
@@ -33,16 +32,13 @@ class TureenPipeline final : public Pipeline {
       covered_vertices_ = gl::Buffer::create();
       glGetIntegerv(GL_SUBPIXEL_BITS, &subpixel_bits_);
     }
-    const char* fragment = plan.site == ShadingSite::forward ? "forward.frag"
-                           : plan.site == ShadingSite::deferred
-                               ? FragmentStore::geometry_shader(plan.feature_storage)
-                               : "nothing.frag";
+    const char* fragment = plan.site == ShadingSite::forward    ? "forward.frag"
+                           : plan.site == ShadingSite::deferred ? "visibility.frag"
+                                                                : "nothing.frag";
     const std::size_t cut_out = plan.faces.size() - plan.opaque_count;
     if (plan.opaque_count > 0) opaque_ = program(fragment, {{"ALPHA_TEST", "0"}});
     if (cut_out > 0) cut_out_ = program(fragment, {{"ALPHA_TEST", "1"}});
     if (plan.site == ShadingSite::deferred) shading_.emplace(plan, shading_sources());
-    if (plan.site == ShadingSite::forward && plan.coverage_samples > 0)
-      coverage_.emplace(capabilities.api);
     gl::check("TureenPipeline");
   }
 
@@ -53,15 +49,9 @@ class TureenPipeline final : public Pipeline {
     color_ = plan_.shading_stage == ShadingStage::fragment
                  ? make_target(target_formats::rgba8, width, height)
                  : make_image_target(target_formats::rgba8, width, height);
-    if (coverage_) {
-      coverage_->resize({width, height, plan_.coverage_samples, depth.internal_format});
-      color_framebuffer_ = make_framebuffer({color_.id()}, 0);
-      return;
-    }
     depth_ = make_target(depth, width, height);
     color_framebuffer_ = make_framebuffer({color_.id()}, depth_.id());
-    if (plan_.site == ShadingSite::deferred)
-      store_ = FragmentStore(plan_.feature_storage, width, height, depth_.id());
+    if (plan_.site == ShadingSite::deferred) store_ = FragmentStore(width, height, depth_.id());
     gl::check("resize");
   }
 
@@ -92,13 +82,12 @@ class TureenPipeline final : public Pipeline {
     if (shading_) shading_->leave_context();
     color_framebuffer_ = {};
     store_ = {};
-    if (coverage_) coverage_->leave_context();
   }
   GLuint color_framebuffer() const override { return color_framebuffer_.id(); }
   GLuint color_texture() const override { return color_.id(); }
   GLuint depth_texture() const override { return depth_.id(); }
   glm::ivec2 sample_size() const override { return {width_, height_}; }
-  GLuint visibility_framebuffer() const override { return store_.visibility_framebuffer(); }
+  GLuint visibility_framebuffer() const override { return store_.framebuffer(); }
   std::size_t device_bytes() const override {
     return appearance_.device_bytes() + geometry_.device_bytes() +
            (covered_ ? covered_->bytes() : 0);
@@ -106,12 +95,8 @@ class TureenPipeline final : public Pipeline {
   std::size_t target_bytes() const override {
     const std::size_t color = bytes_of(target_formats::rgba8, sample_size()),
                       depth = bytes_of(depth_format(), sample_size());
-    if (coverage_)  // its samples, what they are resolved to, and the picture
-      return static_cast<std::size_t>(plan_.coverage_samples) * (color + depth) + 2 * color;
     return color + depth +
-           (plan_.site == ShadingSite::deferred
-                ? FragmentStore::bytes(plan_.feature_storage, sample_size())
-                : 0);
+           (plan_.site == ShadingSite::deferred ? FragmentStore::bytes(sample_size()) : 0);
   }
 
  private:
@@ -130,9 +115,7 @@ class TureenPipeline final : public Pipeline {
   std::string with_appearance(const char* file, const Constants& constants) const {
     ShaderSource source{.file = file,
                         .constants = appearance_.constants,
-                        .generated = {{"appearance.glsl", appearance_.glsl},
-                                      {"network.glsl", appearance_.mlp.text}}};
-    source.constants["ALPHA_TO_COVERAGE"] = plan_.coverage_samples > 0 ? "1" : "0";
+                        .generated = {{"appearance.glsl", appearance_.glsl}}};
     source.constants.insert(constants.begin(), constants.end());
     return assemble(source, device_.api);
   }
@@ -148,8 +131,7 @@ class TureenPipeline final : public Pipeline {
     if (plan_.shading_stage == ShadingStage::compute)
       sources.compute = with_appearance("shading.comp", constants);
     else
-      sources.fragment =
-          with_appearance(FragmentStore::shading_shader(plan_.feature_storage), constants);
+      sources.fragment = with_appearance("shading.frag", constants);
     return sources;
   }
 
@@ -160,9 +142,7 @@ class TureenPipeline final : public Pipeline {
   }
 
   void draw_store(const FrameCamera& frame) {
-    const gl::TimedPass pass(
-        timer_, plan_.feature_storage == RenderPreset::FeatureStorage::visibility ? "visibility"
-                                                                                  : "features");
+    const gl::TimedPass pass(timer_, "visibility");
     store_.begin();
     clear_depth();
     draw_geometry(frame);
@@ -171,13 +151,6 @@ class TureenPipeline final : public Pipeline {
   /// The only pass, also of ShadingSite::nowhere, which leaves the background's colour.
   void draw_forward(const FrameCamera& frame, const glm::vec4& background) {
     const gl::TimedPass pass(timer_, "forward");
-    if (coverage_) {
-      coverage_->begin(background);
-      clear_depth();
-      draw_geometry(frame);
-      coverage_->resolve_to(color_framebuffer_.id(), background);
-      return;
-    }
     glBindFramebuffer(GL_FRAMEBUFFER, color_framebuffer_.id());
     glClearBufferfv(GL_COLOR, 0, &background[0]);
     if (plan_.site == ShadingSite::nowhere) glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
@@ -251,9 +224,8 @@ class TureenPipeline final : public Pipeline {
   int width_ = 0, height_ = 0;
   gl::Texture depth_, color_;
   gl::Framebuffer color_framebuffer_;
-  std::optional<ShadingPass> shading_;      // where the plan is deferred
-  FragmentStore store_;                     // there, too
-  std::optional<CoverageTarget> coverage_;  // where it asks for alpha to coverage
+  std::optional<ShadingPass> shading_;  // where the plan is deferred
+  FragmentStore store_;                 // there, too
 };
 
 }  // namespace

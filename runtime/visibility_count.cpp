@@ -98,12 +98,4 @@ TriangleSoup keep_most_visible(const TriangleSoup& soup, std::span<const std::ui
   return keep_faces(soup, most_visible(pixels, fraction));
 }
 
-void set_triangle_fraction(RenderPreset& preset, std::span<const std::uint64_t> pixels,
-                           double fraction) {
-  // A soup without faces has no part of them.
-  preset.triangle_fraction = pixels.empty() ? 1 : fraction;
-  preset.keeps_face.clear();
-  if (preset.triangle_fraction < 1) preset.keeps_face = most_visible(pixels, fraction);
-}
-
 }  // namespace tureen

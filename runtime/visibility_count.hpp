@@ -9,7 +9,6 @@
 
 #include "runtime/gl/context.hpp"
 #include "soup/camera.hpp"
-#include "soup/render_preset.hpp"
 #include "soup/triangle_soup.hpp"
 
 namespace tureen {
@@ -45,9 +44,5 @@ std::vector<std::uint8_t> most_visible(std::span<const std::uint64_t> pixels, do
 /// The soup of these faces alone, in their order.
 TriangleSoup keep_most_visible(const TriangleSoup& soup, std::span<const std::uint64_t> pixels,
                                double fraction);
-
-/// Sets triangle_fraction, and keeps_face to agree with it.
-void set_triangle_fraction(RenderPreset& preset, std::span<const std::uint64_t> pixels,
-                           double fraction);
 
 }  // namespace tureen

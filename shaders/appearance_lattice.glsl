@@ -18,14 +18,6 @@ uniform sampler2DArray alpha_texels;  // or of each texel, where memory is short
 uniform usampler2DArray patches;  // first texel, level, first cell
 #endif
 
-// Where the network was baked: LATTICE_HARMONICS is the degree, and each lattice texel has three
-// texels of `bands` for every four coefficients above the constant one, which is features 0..2.
-// Needs harmonics.glsl before it, which is not included here: a file is included once, whatever #if
-// it stands in.
-#if LATTICE_HARMONICS > 0
-uniform sampler2DArray bands;
-#endif
-
 struct FacePatch {
   uint first_texel;
   int level;
@@ -65,42 +57,11 @@ float fragment_alpha(uint face, vec2 b) {
 
 bool fragment_exists(uint face, vec2 b) { return fragment_alpha(face, b) >= ALPHA_THRESHOLD; }
 
-float alpha_margin(uint face, vec2 b) { return fragment_alpha(face, b) - ALPHA_THRESHOLD; }
-
 vec4 lattice_sample(sampler2DArray store, LatticeFootprint at) {
   return at.weights.x * texelFetch(store, texel_position(at.texels.x), 0) +
          at.weights.y * texelFetch(store, texel_position(at.texels.y), 0) +
          at.weights.z * texelFetch(store, texel_position(at.texels.z), 0);
 }
-
-#if LATTICE_HARMONICS > 0
-vec4 band_sample(uvec3 texels, vec3 weights, uint part) {
-  uvec3 at = texels * uint(3 * LATTICE_HARMONICS) + part;
-  return weights.x * texelFetch(bands, texel_position(at.x), 0) +
-         weights.y * texelFetch(bands, texel_position(at.y), 0) +
-         weights.z * texelFetch(bands, texel_position(at.z), 0);
-}
-
-// The sum of the four coefficients of one group, times `y`.
-vec3 band_group(LatticeFootprint at, uint group, vec4 y) {
-  vec4 a = band_sample(at.texels, at.weights, 3u * group);
-  vec4 b = band_sample(at.texels, at.weights, 3u * group + 1u);
-  vec4 c = band_sample(at.texels, at.weights, 3u * group + 2u);
-  return y.x * a.rgb + y.y * vec3(a.a, b.rg) + y.z * vec3(b.ba, c.r) + y.w * c.gba;
-}
-
-vec3 baked_color(vec3 constant, LatticeFootprint at, vec3 to_eye) {
-  float basis[HARMONICS_COUNT];
-  harmonics_basis(VIEW_SIGN * to_eye, basis);
-#if LATTICE_HARMONICS > 1
-  vec3 sum = band_group(at, 0u, vec4(basis[1], basis[2], basis[3], basis[4])) +
-             band_group(at, 1u, vec4(basis[5], basis[6], basis[7], basis[8]));
-#else
-  vec3 sum = band_group(at, 0u, vec4(basis[1], basis[2], basis[3], 0.0));
-#endif
-  return clamp(constant + BAND_SCALE * sum, 0.0, 1.0);
-}
-#endif
 
 #if COLOR_MLP
 vec3 color_mlp(vec4 features0, vec4 features1, vec3 to_eye);
@@ -113,30 +74,13 @@ LatticeFootprint footprint_on(uint face, vec2 b) {
   return at;
 }
 
-#if COLOR_MLP
-void fragment_features(uint face, vec2 b, out vec4 first, out vec4 second) {
-  LatticeFootprint at = footprint_on(face, b);
-  first = lattice_sample(features0, at);
-#if LATENT_FEATURES
-  second = lattice_sample(features1, at);
-#else
-  second = vec4(0.0);
-#endif
-}
-#endif
-
 vec3 fragment_color(uint face, vec2 b, vec3 to_eye) {
-#if COLOR_MLP
-  vec4 first, second;
-  fragment_features(face, b, first, second);
-  return color_mlp(first, second, to_eye);
-#else
   LatticeFootprint at = footprint_on(face, b);
-  vec3 color = lattice_sample(features0, at).rgb;
-#if LATTICE_HARMONICS > 0
-  return baked_color(color, at, to_eye);
+#if !COLOR_MLP
+  return lattice_sample(features0, at).rgb;
+#elif LATENT_FEATURES
+  return color_mlp(lattice_sample(features0, at), lattice_sample(features1, at), to_eye);
 #else
-  return color;
-#endif
+  return color_mlp(lattice_sample(features0, at), vec4(0.0), to_eye);
 #endif
 }

@@ -106,29 +106,15 @@ bool fragment_exists(uint face, vec2 b) {
   return mask_value(material, face, b) >= material.mask_threshold;
 }
 
-float alpha_margin(uint face, vec2 b) {
-  Material material = material_of(face);
-  return mask_value(material, face, b) - material.mask_threshold;
-}
-
-#if COLOR_MLP
-void fragment_features(uint face, vec2 b, out vec4 first, out vec4 second) {
-  Material material = material_of(face);
-  first = first_sample(material, face, b);
-#if LATENT_FEATURES
-  second = image_sample(texels1, material.image, corner_mix(coordinates, face, b).xy);
-#else
-  second = vec4(0.0);
-#endif
-}
-#endif
-
 vec3 fragment_color(uint face, vec2 b, vec3 to_eye) {
-#if COLOR_MLP
-  vec4 first, second;
-  fragment_features(face, b, first, second);
-  return color_mlp(first, second, to_eye);
+  Material material = material_of(face);
+  vec4 first = first_sample(material, face, b);
+#if !COLOR_MLP
+  return min(first.rgb, 1.0);
+#elif LATENT_FEATURES
+  return color_mlp(first, image_sample(texels1, material.image, corner_mix(coordinates, face, b).xy),
+                   to_eye);
 #else
-  return min(first_sample(material_of(face), face, b).rgb, 1.0);
+  return color_mlp(first, vec4(0.0), to_eye);
 #endif
 }

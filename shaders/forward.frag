@@ -1,6 +1,5 @@
 // Colour at once, for appearances so cheap that a second pass would cost more.
 #include "appearance.glsl"
-#include "coverage.glsl"
 #include "simplex.glsl"
 #include "view_direction.glsl"
 
@@ -11,12 +10,8 @@ layout(location = 0) out vec4 color;
 
 void main() {
   vec2 b = clamped_to_simplex(barycentrics);
-  float coverage = 1.0;
-#if ALPHA_TEST && ALPHA_TO_COVERAGE
-  coverage = coverage_at(alpha_margin(face, b));
-  if (coverage <= 0.0) discard;
-#elif ALPHA_TEST
+#if ALPHA_TEST
   if (!fragment_exists(face, b)) discard;
 #endif
-  color = vec4(fragment_color(face, b, direction_to_eye(gl_FragCoord.xy)), coverage);
+  color = vec4(fragment_color(face, b, direction_to_eye(gl_FragCoord.xy)), 1.0);
 }

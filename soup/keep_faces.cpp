@@ -64,16 +64,6 @@ struct Kept {
         [&](const auto& values) { result.texels = texels.of(values, LatticeTexture::channels); },
         a.texels);
     result.mlp = a.mlp;
-    if (a.harmonics) {
-      result.harmonics = LatticeHarmonics{.degree = a.harmonics->degree,
-                                          .view = a.harmonics->view,
-                                          .coefficients = {},
-                                          .scale = a.harmonics->scale};
-      const auto each = std::size_t(a.harmonics->values_per_texel());
-      std::visit(
-          [&](const auto& values) { result.harmonics->coefficients = texels.of(values, each); },
-          a.harmonics->coefficients);
-    }
     return result;
   }
   Appearance operator()(const UvTextures& a) const {

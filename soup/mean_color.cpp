@@ -6,69 +6,17 @@
 #include <cstddef>
 
 #include "soup/lattice.hpp"
-#include "soup/mlp_over_directions.hpp"
+#include "soup/mean_mlp.hpp"
 #include "soup/spherical_harmonics.hpp"
 
 namespace tureen {
 
 namespace {
 
-struct Direction {
-  glm::vec3 d;
-  float weight;  // the weights sum to 1
-};
-
-/// V. I. Lebedev's 26-point rule on the sphere, exact for polynomials up to degree 7: the axes,
-/// the edge midpoints and the corners of a cube.
-std::array<Direction, 26> lebedev26() {
-  constexpr float axis = 1.0f / 21.0f, edge = 4.0f / 105.0f, corner = 9.0f / 280.0f;
-  std::array<Direction, 26> rule{};
-  std::size_t next = 0;
-  for (int x = -1; x <= 1; ++x)
-    for (int y = -1; y <= 1; ++y)
-      for (int z = -1; z <= 1; ++z) {
-        const int nonzero = std::abs(x) + std::abs(y) + std::abs(z);
-        if (nonzero == 0) continue;
-        const glm::vec3 d = glm::vec3(x, y, z) / std::sqrt(float(nonzero));
-        rule[next++] = {d, nonzero == 1 ? axis : nonzero == 2 ? edge : corner};
-      }
-  return rule;
-}
-
 glm::vec3 clamped(const glm::vec3& c) {
   const auto clamp = [](float v) { return v > 0.0f ? std::min(v, 1.0f) : 0.0f; };  // NaN: 0
   return {clamp(c.x), clamp(c.y), clamp(c.z)};
 }
-
-/// The color MLP averaged over the 26 directions, in float.
-class MeanMlp {
- public:
-  explicit MeanMlp(const ColorMlp& mlp) : mlp_(mlp), over_(mlp, directions(mlp)) {}
-
-  glm::vec3 operator()(const std::array<float, 8>& features) const {
-    std::array<glm::vec3, 26> colors;
-    over_.predict(features, colors);
-    glm::vec3 sum(0.0f);
-    for (int i = 0; i < over_.count(); ++i)
-      sum += (over_.count() == 1 ? 1.0f : rule_[i].weight) * colors[i];
-    if (!mlp_.blend_channel) return sum;
-    const float blend = features[*mlp_.blend_channel];
-    return (1.0f - blend) * glm::vec3(features[0], features[1], features[2]) + blend * sum;
-  }
-
- private:
-  static std::vector<glm::vec3> directions(const ColorMlp& mlp) {
-    std::vector<glm::vec3> result;
-    for (const Direction& direction : lebedev26()) result.push_back(direction.d);
-    // Without a direction every direction gives the same.
-    if (mlp.encoding == DirectionEncoding::none) result.resize(1);
-    return result;
-  }
-
-  const ColorMlp& mlp_;
-  MlpOverDirections over_;
-  std::array<Direction, 26> rule_ = lebedev26();
-};
 
 /// Barycentrics of the centroids of the 16 congruent triangles that a face is cut into.
 std::vector<glm::vec3> subdivision_centroids() {
@@ -133,7 +81,7 @@ struct MeanColors {
 
   Colors operator()(const Harmonics& sh) const {
     const int count = harmonics::count(sh.degree);
-    std::array<Direction, 26> rule = lebedev26();
+    std::array<WeightedDirection, 26> rule = lebedev26();
     std::array<std::array<float, 25>, 26> bases;
     for (std::size_t i = 0; i < rule.size(); ++i) bases[i] = harmonics::basis(rule[i].d);
     const std::size_t directions = sh.degree == 0 ? 1 : rule.size();

@@ -51,6 +51,8 @@ constexpr std::array<const char*, Remark::kinds> kind_names{
     "shapes_missing",
     "shapes_untextured",
     "preset_dropped",
+    "preset_applied",
+    "preset_keys_ignored",
     "text_ignored",
     "bytes_ignored",
     "content_misnamed",
@@ -72,6 +74,13 @@ std::string shapes(const std::vector<std::uint64_t>& counts) {
   for (std::size_t i = 0; i < listed; ++i)
     text += (i == 0 ? "" : i + 1 < listed ? ", " : " and ") + std::to_string(counts[i]);
   return text + " of " + std::to_string(counts.back()) + " ";
+}
+
+/// "site, color".
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
 }
 
 /// "50", "0.01": by a format of printf with one place.
@@ -183,6 +192,10 @@ std::string describe(const Remark& remark) {
     case Kind::preset_dropped:
       return "the preset chooses among soft triangles, some of which are not drawn: it is left "
              "out";
+    case Kind::preset_applied:
+      return "the file's preset is applied to the data: " + names[0];
+    case Kind::preset_keys_ignored:
+      return "settings of the file's preset that no longer exist are ignored: " + listed(names);
     case Kind::text_ignored:
       return "Text after the last face, from line " + std::to_string(counts[0]) +
              " on, is ignored.";

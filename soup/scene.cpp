@@ -13,10 +13,6 @@ TriangleSoup& opaque_soup(Scene& scene) {
     OpaqueResult result = to_opaque(std::move(*soft));
     for (Remark& remark : result.remarks) scene.info.remarks.push_back(std::move(remark));
     scene.primitives = std::move(result.soup);
-    if (scene.preset && defect(*scene.preset, std::get<TriangleSoup>(scene.primitives))) {
-      scene.preset.reset();
-      scene.info.remarks.push_back({Remark::Kind::preset_dropped});
-    }
   }
   return std::get<TriangleSoup>(scene.primitives);
 }

@@ -2,14 +2,13 @@
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "soup/camera.hpp"
+#include "soup/quality.hpp"
 #include "soup/remark.hpp"
-#include "soup/render_preset.hpp"
 #include "soup/soft_triangles.hpp"
 #include "soup/triangle_soup.hpp"
 
@@ -34,7 +33,7 @@ struct Scene {
   std::vector<Camera> cameras;
   glm::dvec3 origin{0.0};  // world = origin + position
   SceneInfo info;
-  std::optional<RenderPreset> preset = {};  // without a defect(); nothing: draw faithfully
+  Quality quality = {};  // without a defect()
 };
 
 /// The soup to draw: the scene's own, or what becomes of its soft triangles (to_opaque), with

@@ -59,17 +59,6 @@ struct FindDefect {
       if (patch.first_texel + std::size_t(lattice::texel_count(int(patch.level))) > texels)
         return "a lattice patch reaches past the last of " + std::to_string(texels) + " texels";
     }
-    if (texture.mlp && texture.harmonics)
-      return std::string("baked harmonics beside a color MLP mean nothing");
-    if (texture.harmonics) {
-      const LatticeHarmonics& sh = *texture.harmonics;
-      if (sh.degree < 1 || sh.degree > 2)
-        return "baked harmonics of degree " + std::to_string(sh.degree);
-      const std::size_t values =
-          std::visit([](const auto& all) { return all.size(); }, sh.coefficients);
-      const std::size_t expected = texels * std::size_t(sh.values_per_texel());
-      if (values != expected) return count_mismatch("baked coefficients", values, expected);
-    }
     if (texture.mlp) return tureen::defect(*texture.mlp, LatticeTexture::features);
     return {};
   }
@@ -120,8 +109,7 @@ struct ByteSize {
   std::size_t operator()(const Harmonics& a) const { return bytes_of(a.coefficients); }
   std::size_t operator()(const LatticeTexture& a) const {
     const auto size = [](const auto& values) { return bytes_of(values); };
-    return bytes_of(a.patches) + std::visit(size, a.texels) +
-           (a.harmonics ? std::visit(size, a.harmonics->coefficients) : 0);
+    return bytes_of(a.patches) + std::visit(size, a.texels);
   }
   std::size_t operator()(const UvTextures& a) const {
     std::size_t total = bytes_of(a.uv) + bytes_of(a.material_of_face) + bytes_of(a.vertex_rgba);
@@ -131,12 +119,6 @@ struct ByteSize {
 };
 
 }  // namespace
-
-double LatticeHarmonics::value(std::size_t index) const {
-  if (const auto* bytes = std::get_if<std::vector<std::int8_t>>(&coefficients))
-    return (*bytes)[index] * double(scale) / 127.0;
-  return std::get<std::vector<float>>(coefficients)[index];
-}
 
 std::size_t LatticeTexture::texel_count() const {
   return std::visit([](const auto& values) { return values.size() / channels; }, texels);
@@ -177,9 +159,7 @@ const char* appearance_name(const Appearance& appearance) {
       return a.domain == Harmonics::Domain::face ? "face harmonics" : "vertex harmonics";
     }
     const char* operator()(const LatticeTexture& a) const {
-      return a.mlp         ? "lattice texture with color MLP"
-             : a.harmonics ? "lattice texture with baked harmonics"
-                           : "lattice texture";
+      return a.mlp ? "lattice texture with color MLP" : "lattice texture";
     }
     const char* operator()(const UvTextures& a) const {
       return a.mlp ? "UV feature textures with color MLP" : "UV textures";

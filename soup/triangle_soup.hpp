@@ -48,24 +48,8 @@ struct LatticePatch {
   std::uint32_t level = 0;  // 0..lattice::max_level
 };
 
-/// How the colour of a lattice changes with the direction where its color MLP has been baked
-/// (soup/baked_color.hpp): the bands above 0 of every texel, interpolated as features are. No file
-/// holds them: they are made for drawing.
-struct LatticeHarmonics {
-  int degree = 1;  // 1 or 2
-  ViewConvention view = ViewConvention::surface_to_eye;
-  /// harmonics::count(degree) - 1 RGB coefficients a texel, texel by texel: bytes stand for
-  /// byte * scale / 127.
-  std::variant<std::vector<std::int8_t>, std::vector<float>> coefficients;
-  float scale = 1.0f;
-
-  int values_per_texel() const { return 3 * (degree * degree + 2 * degree); }
-  double value(std::size_t index) const;
-};
-
 /// A lattice of features and alpha a face (soup/lattice.hpp; DiffSoup, arXiv 2603.27151). With a
-/// color MLP the features are its inputs; without one, features 0..2 are the colour, to which
-/// harmonics add what depends on the direction. Cut out where
+/// color MLP the features are its inputs; without one, features 0..2 are the colour. Cut out where
 /// the interpolated alpha is below alpha_threshold.
 struct LatticeTexture {
   static constexpr int features = 7;
@@ -75,7 +59,6 @@ struct LatticeTexture {
   /// `channels` values a texel, in [0, 1]: bytes stand for byte / 255.
   std::variant<std::vector<std::uint8_t>, std::vector<float>> texels;
   std::optional<ColorMlp> mlp;
-  std::optional<LatticeHarmonics> harmonics = {};  // never with mlp
 
   std::size_t texel_count() const;
   bool is_float() const { return std::holds_alternative<std::vector<float>>(texels); }

@@ -308,9 +308,9 @@ void Application::draw_picture() {
     // A window too large for so many samples a pixel, most likely.
     state_.messages.error("The picture cannot be drawn", error.reason(), state_.now);
     picture_is_current_ = false;
-    if (state_.stage->choice.supersampling == 1 || !worker_.idle()) return;
     DrawingChoice choice = state_.stage->choice;
-    choice.supersampling = 1;
+    if (quality_of(choice, *state_.stage->scene).supersampling == 1 || !worker_.idle()) return;
+    choice.quality = Quality{};
     state_.ask(ChooseDrawing{choice});
   }
 }
@@ -329,7 +329,7 @@ void Application::draw_scene() {
     state_.inspector->show(look.what, look.features);
     state_.inspector->draw(camera);
   } else if (!inspects && (!same || state_.draw_continuously)) {
-    frame_clock_.draw(state_.stage->renderer(), camera);
+    frame_clock_.draw(state_.stage->renderer, camera);
   }
   drawn_look_ = look;
   drawn_camera_ = camera;
@@ -337,7 +337,7 @@ void Application::draw_scene() {
   if (inspects)
     state_.inspector->blit_to(0);
   else
-    state_.stage->renderer().blit_to(0);
+    state_.stage->renderer.blit_to(0);
 }
 
 void Application::save_window_picture(const std::string& name) {

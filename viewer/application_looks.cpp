@@ -13,15 +13,13 @@ void Application::inspect_when_needed() {
     return;
   inspector_asked_ = true;
   const StageSource scene = state_.stage->source();
-  InspectorOptions options{.background = glm::vec4(scene.scene->info.background, 1.0f)};
+  const InspectorOptions options{.background = glm::vec4(scene.scene->info.background, 1.0f)};
   worker_.start({.kind = JobKind::inspection,
                  .what = "preparing to look into " + short_name(scene.path),
                  .work =
-                     [this, scene, options](const Worker::Progress& progress) {
-                       InspectorOptions with = options;
-                       with.progress = progress;
+                     [this, scene, options](const Worker::Progress&) {
                        auto inspector = std::make_shared<Inspector>(window_.context(), scene.soup(),
-                                                                    scene.scene->origin, with);
+                                                                    scene.scene->origin, options);
                        inspector->leave_context();
                        return Worker::Completion([this, inspector, of = scene.scene] {
                          if (!state_.stage || state_.stage->scene != of) return;
@@ -48,7 +46,7 @@ void Application::compare_when_needed() {
   }
   if (comparison.result || comparison.asked) return;
   comparison.asked = true;
-  Renderer& renderer = state_.stage->renderer();
+  Renderer& renderer = state_.stage->renderer;
   try {
     renderer.draw(photograph->camera);
   } catch (const DeviceLimitError& error) {

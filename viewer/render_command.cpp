@@ -16,7 +16,7 @@ namespace {
 /// The shortest text that reads back as the same double.
 std::string list_of(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 
-void add_choice(std::string& command, const DrawingChoice& choice) {
+void add_choice(std::string& command, const DrawingChoice& choice, const Scene& scene) {
   if (choice.plan.pipeline == PipelineKind::published) command += " --pipeline published";
   if (!choice.plan.specialise) command += " --no-specialise";
   std::string kept;
@@ -24,11 +24,10 @@ void add_choice(std::string& command, const DrawingChoice& choice) {
     if (!choice.plan.leave_out.has(entry.what))
       kept += (kept.empty() ? "" : ",") + std::string(entry.name);
   if (choice.plan.specialise && !kept.empty()) command += " --keep " + kept;
-  if (choice.supersampling > 1)
-    command += fmt::format(" --supersample {}", choice.supersampling);
-  else if (choice.resolution_scale < 1)
-    command += fmt::format(" --scale {}", choice.resolution_scale);
-  if (!choice.obey_preset) command += " --preset faithful";
+  const Quality quality = quality_of(choice, scene);
+  if (quality == scene.quality) return;
+  command += quality.resolution_scale < 1 ? fmt::format(" --scale {}", quality.resolution_scale)
+                                          : fmt::format(" --supersample {}", quality.supersampling);
 }
 
 /// "depth"; "features:0" and "features:4-6" for a choice of them.
@@ -82,7 +81,7 @@ std::string render_command(const StageSource& scene, const DrawingChoice& choice
   }
   command += fmt::format(" --size {}x{}", camera.width, camera.height);
   if (look.what == Inspection::color)
-    add_choice(command, choice);
+    add_choice(command, choice, *scene.scene);
   else
     command += " --show " + shown(look);
   return command + " -o picture.png";

@@ -24,27 +24,22 @@ constexpr double reading_share = 0.9;
 
 }  // namespace
 
+Quality quality_of(const DrawingChoice& choice, const Scene& scene) {
+  return choice.quality.value_or(scene.quality);
+}
+
 RenderOptions render_options(const DrawingChoice& choice, const Scene& scene) {
   RenderOptions options;
   options.plan = choice.plan;
   options.background = glm::vec4(scene.info.background, 1.0f);
-  if (choice.resolution_scale < 1 || choice.supersampling > 1) {
-    RenderPreset knobs = choice.plan.preset.value_or(RenderPreset{});
-    knobs.resolution_scale = choice.supersampling > 1 ? 1.0 : choice.resolution_scale;
-    knobs.supersampling = choice.supersampling;
-    options.plan.preset = knobs;
-  }
+  options.plan.quality = quality_of(choice, scene);
   return options;
 }
 
-CheckedRenderer prepare_renderer(const StageSource& source, const StageRequest& request) {
+Renderer prepare_renderer(const StageSource& source, const StageRequest& request) {
   const Scene& scene = *source.scene;
-  const ScenePreset preset = request.choice.obey_preset && scene.preset
-                                 ? ScenePreset{scene.preset, preset_views(scene)}
-                                 : ScenePreset{};
-  RenderOptions options = render_options(request.choice, scene);
-  options.progress = request.progress;
-  return checked_renderer(request.context, source.soup(), scene.origin, options, preset);
+  return Renderer(request.context, source.soup(), scene.origin,
+                  render_options(request.choice, scene));
 }
 
 std::unique_ptr<Stage> read_stage(const std::filesystem::path& path, const StageRequest& request) {
@@ -69,10 +64,10 @@ std::unique_ptr<Stage> read_stage(const std::filesystem::path& path, const Stage
 
 std::unique_ptr<Stage> prepare_stage(const StageSource& source, const StageRequest& request) {
   const Stopwatch preparing;
-  CheckedRenderer drawn = prepare_renderer(source, request);
-  drawn.renderer.leave_context();
+  Renderer renderer = prepare_renderer(source, request);
+  renderer.leave_context();
   return std::make_unique<Stage>(
-      Stage{{source}, request.choice, std::move(drawn), preparing.seconds()});
+      Stage{{source}, request.choice, std::move(renderer), preparing.seconds()});
 }
 
 }  // namespace tureen::viewer

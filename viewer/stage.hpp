@@ -5,22 +5,23 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "runtime/navigation.hpp"
-#include "runtime/preset_check.hpp"
+#include "runtime/renderer.hpp"
 #include "runtime/up_axis.hpp"
 #include "soup/scene.hpp"
 #include "viewer/file_watch.hpp"
 
 namespace tureen::viewer {
 
-/// How a person wants it drawn: what a plan may leave out, and the knobs that the window offers.
+/// How a person wants it drawn: what a plan may leave out, and how finely.
 struct DrawingChoice {
   PlanPreferences plan = {};
-  double resolution_scale = 1;  // RenderPreset::resolution_scale; 1 where supersampling is more
-  int supersampling = 1;        // RenderPreset::supersampling
-  bool obey_preset = true;      // of the scene, where it has one
+  std::optional<Quality> quality = {};  // the scene's own unless it is chosen
 };
+
+Quality quality_of(const DrawingChoice& choice, const Scene& scene);
 
 /// The choice as the runtime takes it.
 RenderOptions render_options(const DrawingChoice& choice, const Scene& scene);
@@ -38,12 +39,11 @@ struct StageSource {
 };
 
 struct Stage : StageSource {
-  DrawingChoice choice;  // what `drawn` was made with
-  CheckedRenderer drawn;
+  DrawingChoice choice;  // what `renderer` was made with
+  Renderer renderer;
   double prepare_seconds = 0;
 
   const StageSource& source() const { return *this; }
-  Renderer& renderer() { return drawn.renderer; }
 };
 
 /// What takes part in preparing; `context` describes the device, and one that shares with it is
@@ -56,7 +56,7 @@ struct StageRequest {
 
 /// What draws a scene by a choice, in the context that is current. Throws DeviceLimitError,
 /// UsageError.
-CheckedRenderer prepare_renderer(const StageSource& scene, const StageRequest& request);
+Renderer prepare_renderer(const StageSource& scene, const StageRequest& request);
 
 /// Reads a scene and prepares it. What was prepared has left the context: the thread that draws
 /// takes over. Throws InputError, DeviceLimitError, UsageError.

@@ -24,11 +24,6 @@ constexpr double preparing_share = 0.05;
 /// An hour at 240 frames a second is less: more is a slip in a number.
 constexpr int most_frames = 1000000;
 
-Renderer renderer_for(const StageSource& scene, const StageRequest& request) {
-  const auto progress = [&](double done) { request.progress(preparing_share * done); };
-  return prepare_renderer(scene, {request.context, request.choice, progress}).renderer;
-}
-
 /// Writes what `draw` hands to its sink.
 void write_rows(const PictureJob& job, const std::function<void(const BandSink&)>& draw) {
   Output output(job.path);
@@ -43,7 +38,7 @@ void draw_frames(const FilmJob& job, const StageRequest& request,
                  const std::function<void(const Image8&, std::size_t)>& take) {
   if (frame_count(job.path, job.rate.frames_per_second) > most_frames)
     throw UsageError("the film would have more than " + std::to_string(most_frames) + " frames");
-  Renderer renderer = renderer_for(job.scene, request);
+  Renderer renderer = prepare_renderer(job.scene, request);
   const std::vector<Camera> cameras = frames(job.path, job.rate);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     renderer.draw(cameras[i]);
@@ -69,9 +64,9 @@ void write_picture(const PictureJob& job, const StageRequest& request) {
     write_rows(job, [&](const BandSink& sink) { draw_in_bands(job.camera, tiles, sink); });
     return;
   }
-  Renderer renderer = renderer_for(job.scene, request);
+  Renderer renderer = prepare_renderer(job.scene, request);
   renderer.set_background(background);
-  if (renderer.plan().resolution_scale < 1) {
+  if (renderer.plan().quality.resolution_scale < 1) {
     // Tiles that are drawn coarser would not meet; what the device draws at once is enough there.
     renderer.draw(job.camera);
     write_rows(job, [&](const BandSink& sink) { sink(renderer.read_color()); });

@@ -44,25 +44,6 @@ bool contains(const std::string& text, const char* part) {
   return text.find(part) != std::string::npos;
 }
 
-/// Drivers round a number of samples up to one that they have: llvmpipe makes 4 of 2. Only a buffer
-/// tells.
-std::vector<int> query_sample_counts() {
-  std::vector<int> counts;
-  GLuint buffer = 0;
-  glGenRenderbuffers(1, &buffer);
-  glBindRenderbuffer(GL_RENDERBUFFER, buffer);
-  const int most = integer_of(GL_MAX_SAMPLES);
-  for (const int asked : {2, 4, 8}) {
-    if (asked > most) break;
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, asked, GL_RGBA8, 1, 1);
-    GLint given = 0;
-    glGetRenderbufferParameteriv(GL_RENDERBUFFER, GL_RENDERBUFFER_SAMPLES, &given);
-    if (given > 1 && (counts.empty() || given > counts.back())) counts.push_back(given);
-  }
-  glDeleteRenderbuffers(1, &buffer);
-  return counts;
-}
-
 #if !defined NDEBUG && !defined __EMSCRIPTEN__
 void GLAD_API_PTR report(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message,
                          const void*) {
@@ -154,11 +135,7 @@ Capabilities query_capabilities(Api api) {
   result.max_picture_side = std::min(
       {result.max_texture_size, integer_of(GL_MAX_RENDERBUFFER_SIZE), viewport[0], viewport[1]});
   result.max_array_layers = integer_of(GL_MAX_ARRAY_TEXTURE_LAYERS);
-  result.half_float_targets = desktop || version >= 32 ||
-                              has_extension("GL_EXT_color_buffer_half_float") ||
-                              has_extension("GL_EXT_color_buffer_float");
   result.compute_shaders = has_compute_shaders(api, version);
-  result.sample_counts = query_sample_counts();
   return result;
 }
 

@@ -35,11 +35,7 @@ struct Capabilities {
   int max_texture_size = 0;
   int max_picture_side = 0;  // the widest and highest frame that can be drawn
   int max_array_layers = 0;
-  bool half_float_targets = false;  // RGBA16F can be drawn into
-  bool compute_shaders = false;     // with images that they write: OpenGL 4.3, ES 3.1
-  /// Samples a pixel that a multisampled colour buffer really has when 2, 4 or 8 are asked for;
-  /// rising, each once. Neither API promises more than 4.
-  std::vector<int> sample_counts;
+  bool compute_shaders = false;  // with images that they write: OpenGL 4.3, ES 3.1
 };
 
 /// Whether the processor draws where GL_RENDERER is this: llvmpipe, SwiftShader and their like.

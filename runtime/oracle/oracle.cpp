@@ -25,10 +25,6 @@ OracleImage render_oracle(const TriangleSoup& soup, glm::dvec3 origin, const Cam
   const Camera fine = n == 1 ? camera : resized(camera, camera.width * n, camera.height * n);
   const oracle::Rays rays(soup, origin, fine, options.rays);
   const glm::dvec3 eye = camera.eye() - origin;
-  const ColorMlp* network = oracle::network_of(soup);
-  std::optional<EmulatedMlp> emulated;
-  if (network && options.mlp_precision != MlpPrecision::exact)
-    emulated.emplace(*network, options.mlp_precision);
   const std::size_t stride = fine.width;
 
   OracleImage result;
@@ -58,8 +54,7 @@ OracleImage render_oracle(const TriangleSoup& soup, glm::dvec3 origin, const Cam
           result.face[y * stride + x] = hit.face;
           result.depth[y * stride + x] = hit.depth;
           if (hit.face == OracleImage::no_face) continue;
-          sum += oracle::color(soup, {hit.face, hit.b0, hit.b1}, rays.to_eye(x, y), eye,
-                               emulated ? &*emulated : nullptr);
+          sum += oracle::color(soup, {hit.face, hit.b0, hit.b1}, rays.to_eye(x, y), eye);
           ++covered;
         }
         const double coverage = double(covered) / (n * n);

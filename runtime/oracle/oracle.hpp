@@ -12,7 +12,6 @@
 #include "runtime/oracle/hits.hpp"
 #include "soup/camera.hpp"
 #include "soup/image.hpp"
-#include "soup/mlp_precision.hpp"
 #include "soup/triangle_soup.hpp"
 
 namespace tureen {
@@ -22,8 +21,6 @@ struct OracleOptions {
   oracle::RayOptions rays = {};
   /// Rays a pixel and axis: the pixel is the mean of supersampling^2 rays on a regular grid.
   int supersampling = 1;
-  /// How the color MLP computes: with fewer bits its error is told, and nothing else changes.
-  MlpPrecision mlp_precision = MlpPrecision::exact;
   /// Shows where nothing is hit. Without one such pixels are transparent: the colour is that of the
   /// covered part alone and alpha is the coverage.
   std::optional<glm::vec3> background = glm::vec3(0.0f);

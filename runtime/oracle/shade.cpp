@@ -54,21 +54,6 @@ double sampled(const LatticeTexture& texture, const LatticePatch& patch,
   return lattice::interpolated(at.weights, v[0], v[1], v[2]);
 }
 
-/// What baked harmonics add for this direction.
-glm::dvec3 banded(const LatticeHarmonics& sh, const LatticePatch& patch,
-                  const lattice::Footprint<double>& at, glm::dvec3 to_eye) {
-  const auto basis = harmonics::basis(sh.view == ViewConvention::surface_to_eye ? to_eye : -to_eye);
-  glm::dvec3 sum(0.0);
-  for (int k = 0; k < 3; ++k) {
-    const std::size_t texel = patch.first_texel + std::size_t(at.texels[k]);
-    for (int i = 1; i < harmonics::count(sh.degree); ++i)
-      for (int c = 0; c < 3; ++c)
-        sum[c] += at.weights[k] * basis[i] *
-                  sh.value(texel * std::size_t(sh.values_per_texel()) + 3 * std::size_t(i - 1) + c);
-  }
-  return sum;
-}
-
 // -- harmonics ---------------------------------------------------------------------------------
 
 glm::dvec3 harmonics_color(const Harmonics& sh, std::size_t element, glm::dvec3 eye_to_element) {
@@ -125,7 +110,6 @@ struct ColorOf {
   const SurfacePoint& p;
   glm::dvec3 to_eye;
   glm::dvec3 eye;
-  const EmulatedMlp* emulated;
 
   glm::dvec3 operator()(const FaceColors& a) const { return glm::dvec3(a.rgba[p.face]); }
   glm::dvec3 operator()(const VertexColors& a) const {
@@ -144,9 +128,8 @@ struct ColorOf {
     const auto at = footprint_at(patch, p);
     std::array<double, LatticeTexture::features> features;
     for (int c = 0; c < LatticeTexture::features; ++c) features[c] = sampled(a, patch, at, c);
-    if (a.mlp) return network(*a.mlp, features);
-    const glm::dvec3 constant(features[0], features[1], features[2]);
-    return a.harmonics ? constant + banded(*a.harmonics, patch, at, to_eye) : constant;
+    if (a.mlp) return evaluate(*a.mlp, features, to_eye);
+    return {features[0], features[1], features[2]};
   }
   glm::dvec3 operator()(const UvTextures& a) const {
     const UvMaterial& material = a.materials[a.material_of_face[p.face]];
@@ -157,11 +140,7 @@ struct ColorOf {
     if (!a.mlp) return glm::dvec3(values[0] * IsVisible::tint(soup, a, material, p));
     std::array<double, 8> features;
     for (int c = 0; c < 8; ++c) features[c] = values[c / 4][c % 4];
-    return network(*a.mlp, features);
-  }
-
-  glm::dvec3 network(const ColorMlp& mlp, std::span<const double> features) const {
-    return emulated ? (*emulated)(features, to_eye) : evaluate(mlp, features, to_eye);
+    return evaluate(*a.mlp, features, to_eye);
   }
 };
 
@@ -171,16 +150,9 @@ bool is_visible(const TriangleSoup& soup, const SurfacePoint& point) {
   return std::visit(IsVisible{soup, point}, soup.appearance);
 }
 
-const ColorMlp* network_of(const TriangleSoup& soup) {
-  const std::optional<ColorMlp>* mlp = nullptr;
-  if (const auto* texture = std::get_if<LatticeTexture>(&soup.appearance)) mlp = &texture->mlp;
-  if (const auto* textures = std::get_if<UvTextures>(&soup.appearance)) mlp = &textures->mlp;
-  return mlp && *mlp ? &**mlp : nullptr;
-}
-
 glm::dvec3 color(const TriangleSoup& soup, const SurfacePoint& point, glm::dvec3 to_eye,
-                 glm::dvec3 eye, const EmulatedMlp* emulated) {
-  glm::dvec3 value = std::visit(ColorOf{soup, point, to_eye, eye, emulated}, soup.appearance);
+                 glm::dvec3 eye) {
+  glm::dvec3 value = std::visit(ColorOf{soup, point, to_eye, eye}, soup.appearance);
   // The order of the arguments makes NaN come out as 0.
   for (int c = 0; c < 3; ++c) value[c] = std::min(std::max(0.0, value[c]), 1.0);
   return value;

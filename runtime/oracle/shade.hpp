@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "soup/mlp_precision.hpp"
 #include "soup/triangle_soup.hpp"
 
 namespace tureen::oracle {
@@ -25,11 +24,7 @@ bool is_visible(const TriangleSoup& soup, const SurfacePoint& point);
 /// is the unit direction from the point to the eye, which color MLPs see; `eye` is the eye relative
 /// to the soup's origin, from which harmonics take the directions of centroids and vertices. A
 /// centroid or vertex at the eye itself is seen along (0, 0, 1) (docs/numerics.md, V5).
-/// With `emulated`, made of the appearance's own network, that one is evaluated instead.
 glm::dvec3 color(const TriangleSoup& soup, const SurfacePoint& point, glm::dvec3 to_eye,
-                 glm::dvec3 eye, const EmulatedMlp* emulated = nullptr);
-
-/// The network of the soup's appearance; null where it has none.
-const ColorMlp* network_of(const TriangleSoup& soup);
+                 glm::dvec3 eye);
 
 }  // namespace tureen::oracle

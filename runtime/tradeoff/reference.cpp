@@ -32,14 +32,6 @@ void set_coverage(OracleImage& image, int supersampling) {
 
 }  // namespace
 
-std::optional<std::string> too_fine(const RenderPreset& preset) {
-  constexpr int own = antialiased_samples * antialiased_samples;
-  const int samples = preset.supersampling * preset.supersampling * preset.alpha_to_coverage;
-  if (preset.supersampling == 1 || samples < own) return {};
-  return "the reference has " + std::to_string(own) + " samples a pixel, and cannot judge " +
-         std::to_string(samples);
-}
-
 int device_subpixel_bits() {
   GLint bits = 0;
   glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
@@ -57,7 +49,6 @@ ImageF reference_picture(const TriangleSoup& soup, glm::dvec3 origin, const Came
   OracleOptions oracle;
   oracle.supersampling = n;
   oracle.background = options.background;
-  oracle.mlp_precision = options.mlp_precision;
   if (options.samples == Samples::device) {
     oracle.rays.coverage = oracle::Coverage::snapped;
     oracle.rays.subpixel_bits = options.subpixel_bits;

@@ -3,11 +3,8 @@
 
 #include <functional>
 #include <glm/vec3.hpp>
-#include <optional>
-#include <string>
 
 #include "runtime/oracle/oracle.hpp"
-#include "soup/render_preset.hpp"
 
 namespace tureen::tradeoff {
 
@@ -27,10 +24,6 @@ enum class Samples {
 /// same points: how it differs from the reference is rounding and says nothing of antialiasing.
 inline constexpr int antialiased_samples = 8;
 
-/// Why Samples::antialiased is no judge of supersampling and alpha to coverage together: they have
-/// as many samples a pixel as it has, or more. Nothing where it is, and for each of them alone.
-std::optional<std::string> too_fine(const RenderPreset& preset);
-
 /// GL_SUBPIXEL_BITS of the context that is current: how finely its device rounds vertices within a
 /// pixel. 8, which nearly all have, where it tells nothing that the oracle could do (1 .. 16).
 int device_subpixel_bits();
@@ -39,8 +32,6 @@ struct ReferenceOptions {
   Samples samples = Samples::device;
   int subpixel_bits = 8;  // of the device, for Samples::device: device_subpixel_bits()
   glm::vec3 background{0.0f};
-  /// Emulates a network of fewer bits: then the picture is no reference, but what is measured.
-  MlpPrecision mlp_precision = MlpPrecision::exact;
   /// Called with the fraction done, 0..1; may throw to abandon the picture.
   std::function<void(double)> progress = {};
 };

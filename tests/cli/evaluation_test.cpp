@@ -48,9 +48,8 @@ TEST(Evaluate, GivesEachViewItsNumbersAndTheirMean) {
   const std::vector<Photograph> photographs{photograph("same", {100, 100, 100, 255}),
                                             photograph("brighter", {151, 151, 151, 255}),
                                             photograph("clear", {0, 0, 0, 0})};
-  const Evaluation result =
-      evaluate(grey_wall({100, 100, 100, 255}), glm::dvec3(0), photographs,
-               {.drawing = {.backend = gl::Backend::osmesa}, .background = glm::vec3(1)});
+  const Evaluation result = evaluate(grey_wall({100, 100, 100, 255}), glm::dvec3(0), photographs,
+                                     {.backend = gl::Backend::osmesa, .background = glm::vec3(1)});
   ASSERT_EQ(result.views.size(), 3u);
   EXPECT_EQ(result.views[0].name, "same");
   EXPECT_EQ(result.views[0].psnr_db, 100);
@@ -70,7 +69,7 @@ TEST(Evaluate, GivesEachViewItsNumbersAndTheirMean) {
 
 TEST(Evaluate, EndsWhereItsProgressThrows) {
   std::vector<Photograph> photographs(20, photograph("grey", {100, 100, 100, 255}));
-  EvaluationOptions options{.drawing = {.backend = gl::Backend::osmesa}};
+  EvaluationOptions options{.backend = gl::Backend::osmesa};
   options.progress = [](double fraction) {
     if (fraction > 0.5) throw UsageError("enough");
   };
@@ -84,7 +83,7 @@ TEST(Evaluate, RefusesViewsThatTheWindowDoesNotFitInto) {
   small.image = Image8(8, 8);
   const std::vector<Photograph> photographs{small};
   EXPECT_THROW(evaluate(grey_wall({100, 100, 100, 255}), glm::dvec3(0), photographs,
-                        {.drawing = {.backend = gl::Backend::osmesa}}),
+                        {.backend = gl::Backend::osmesa}),
                UsageError);
 }
 

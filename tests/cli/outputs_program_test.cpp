@@ -187,7 +187,7 @@ TEST_F(Outputs, ThatCannotBeWrittenAreToldBeforeAnythingIsRead) {
   expect({"eval", "bad.off", "photographs", "-o", "file/views"}, 5, "file/views");
   expect({"bench", "bad.off", "-o", "file/b"}, 5, "file/b");
   expect({"tradeoff", "bad.off", "-o", "file/t"}, 5, "file/t");
-  expect({"tradeoff", "bad.off", "--write-preset", "nowhere/t.glb"}, 5, "nowhere");
+  expect({"tradeoff", "bad.off", "--write", "nowhere/t.glb"}, 5, "nowhere");
 }
 
 TEST_F(Outputs, ProbesLeaveNothing) {

@@ -8,7 +8,7 @@
 namespace tureen::test {
 
 /// Of the scene lego: drawing has, in this order, defaults, published pipeline, lattice level 2,
-/// shaded once a fragment, generic defaults and an emulated MLP; antialiasing defaults and half the
+/// shaded once a fragment, generic defaults and baked colour; antialiasing defaults and half the
 /// resolution.
 inline nlohmann::json lego() {
   std::ifstream stream(std::string(TUREEN_SOURCE_DIR) + "/tests/cli/tradeoff.json");

@@ -15,7 +15,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-void nothing(RenderPreset&) {}
+void nothing(tradeoff::Applied&) {}
 
 Outcome outcome(tradeoff::Configuration configuration, const std::string& name, double ms,
                 double psnr) {
@@ -76,10 +76,9 @@ TradeoffReport report() {
     each.exact = ExactError{each.error.psnr_db - 10, 0.25};
   result.study.published = 5;
   result.study.antialiasing = panel();
-  result.study.antialiasing.skipped = {{"alpha to coverage", "this device has none"}};
+  result.study.antialiasing.skipped = {{"half the resolution", "this device has none"}};
   result.study.grid.view_psnr_db = {50};
   result.study.choice = 3;
-  result.promised_psnr_db = 51;
   return result;
 }
 
@@ -97,18 +96,8 @@ TEST(TradeoffReport, SaysWhatWasMeasured) {
   EXPECT_EQ(configurations[2]["e_render_exact"], (Json{{"psnr_db", 30.0}, {"coverage", 0.25}}));
   EXPECT_EQ(json["antialiasing"]["configurations"][2]["e_render_exact"], nullptr);
   EXPECT_EQ(json["choice"]["psnr_db"], 50);
-  EXPECT_EQ(json["choice"]["promised_psnr_db"], 51);
   EXPECT_EQ(json["r0"], 5);
   EXPECT_EQ(json["protocol"]["clock"], "sundial");
-}
-
-TEST(TradeoffReport, AnEmulationHasAnErrorAndNoTime) {
-  TradeoffReport made = report();
-  made.study.drawing.outcomes[4].method = Method::emulated;
-  const Json json = to_json(made)["drawing"]["configurations"][4];
-  for (const char* key : {"ms", "ms_median", "ms_p95", "ms_spread", "mib"})
-    EXPECT_EQ(json[key], nullptr) << key;
-  EXPECT_EQ(json["e_render"]["psnr_db"], 39);
 }
 
 TEST(TradeoffReport, TimesOfABusyMachineAreWarnedOf) {
@@ -126,7 +115,7 @@ TEST(TradeoffReport, TheChoiceIsASentence) {
 
 TEST(TradeoffCandidates, AreWhatCanBeChosen) {
   TradeoffReport made = report();
-  made.study.drawing.outcomes[4].method = Method::emulated;
+  made.study.drawing.outcomes[4].method = Method::published;
   made.study.drawing.aa_spread = 0.01;
   const Candidates all = candidates(made.study.drawing);
   EXPECT_THAT(all.index, ElementsAre(0, 2, 3));
@@ -136,8 +125,8 @@ TEST(TradeoffCandidates, AreWhatCanBeChosen) {
 
 Panel supersampled() {
   Panel result;
-  result.knobs = tradeoff::antialiasing_knobs(8, {});
-  const std::vector<tradeoff::Configuration> star{{0, 0, 0}, {0, 1, 0}, {0, 2, 0}, {0, 3, 0}};
+  result.knobs = tradeoff::antialiasing_knobs(8);
+  const std::vector<tradeoff::Configuration> star{{0, 0}, {0, 1}, {0, 2}, {0, 3}};
   double ms = 5, psnr = 30;
   for (const tradeoff::Configuration& each : star)
     result.outcomes.push_back(
@@ -157,17 +146,6 @@ TEST(TradeoffCandidates, TheReferencesOwnSamplesAreOnNoFront) {
   without.outcomes.pop_back();
   find_front(without);
   EXPECT_EQ(made.hypervolume, without.hypervolume);
-}
-
-TEST(WhyNotEmulated, CountsThePixelsThatTheOracleWouldDraw) {
-  Panel made = panel();
-  std::vector<Photograph> photographs(2);
-  for (Photograph& each : photographs) each.camera.width = 100, each.camera.height = 50;
-  EXPECT_EQ(why_not_emulated(made, photographs, 0), std::nullopt) << "nothing is emulated";
-  made.outcomes[3].method = made.outcomes[4].method = Method::emulated;
-  EXPECT_EQ(why_not_emulated(made, photographs, 20000), std::nullopt);
-  EXPECT_THAT(why_not_emulated(made, photographs, 19999).value_or(""),
-              HasSubstr("20,000 pixels of photographs, more than the 19,999 samples"));
 }
 
 TEST(SpreadOut, TakesPhotographsEvenly) {

@@ -145,6 +145,7 @@ class RandomScene {
                    .up = {0.0f, 0.6f, 0.8f},
                    .background = {real(), real(), -0.0f},
                    .source = "test",
+                   .remarks = {},
                    .notes = {"first", "second\nline"}};
     for (const char* name : {"one", ""}) {
       Camera camera = look_at({real(), real(), 3}, {0, 0, 0}, {0, 1, 0}, 0.7, 640, 480);
@@ -240,16 +241,6 @@ struct SamePrimitives {
   }
 };
 
-inline bool same(const std::optional<RenderPreset>& a, const std::optional<RenderPreset>& b) {
-  if (!a || !b) return !a && !b;
-  return a->lattice_level == b->lattice_level && a->texel_bits == b->texel_bits &&
-         a->color == b->color && a->harmonics_degree == b->harmonics_degree &&
-         a->triangle_fraction == b->triangle_fraction && a->keeps_face == b->keeps_face &&
-         a->feature_storage == b->feature_storage && a->site == b->site &&
-         a->resolution_scale == b->resolution_scale && a->supersampling == b->supersampling &&
-         a->alpha_to_coverage == b->alpha_to_coverage && a->promised_psnr_db == b->promised_psnr_db;
-}
-
 inline bool same(const Camera& a, const Camera& b) {
   return a.name == b.name && a.width == b.width && a.height == b.height && same_bits(a.fx, b.fx) &&
          same_bits(a.fy, b.fy) && same_bits(a.cx, b.cx) && same_bits(a.cy, b.cy) &&
@@ -264,7 +255,7 @@ inline std::string difference(const Scene& a, const Scene& b) {
   if (a.info.notes != b.info.notes) return "notes";
   if (!same_bits(a.info.up, b.info.up)) return "up";
   if (!same_bits(a.info.background, b.info.background)) return "background";
-  if (!same(a.preset, b.preset)) return "preset";
+  if (a.quality != b.quality) return "quality";
   if (a.cameras.size() != b.cameras.size()) return "number of cameras";
   for (std::size_t i = 0; i < a.cameras.size(); ++i)
     if (!same(a.cameras[i], b.cameras[i])) return "camera " + std::to_string(i);

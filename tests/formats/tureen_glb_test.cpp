@@ -10,8 +10,10 @@
 #include <limits>
 #include <set>
 
+#include "formats/memory_budget.hpp"
 #include "formats/truncation.hpp"
 #include "formats/tureen_glb_kinds.hpp"
+#include "soup/edits.hpp"
 #include "soup/mean_color.hpp"
 #include "soup/srgb.hpp"
 #include "support/errors.hpp"
@@ -196,47 +198,48 @@ TEST(TureenGlbFile, RefusesWhatItCannotHoldOrKnow) {
   EXPECT_FALSE(std::filesystem::exists(testing::temporary_glb("never")));
 }
 
-// -- presets --------------------------------------------------------------------------------------
+// -- quality, and what files of earlier versions say of their data --------------------------------
 
-using Preset = RenderPreset;
+constexpr Quality qualities[] = {{}, {.resolution_scale = 0.3}, {.supersampling = 3}};
 
-const Preset presets[] = {
-    {},
-    {.lattice_level = 0,
-     .texel_bits = 4,
-     .color = Preset::Color::harmonics,
-     .harmonics_degree = 1,
-     .triangle_fraction = 1.0 / 3.0,
-     .keeps_face = {1, 0, 0},
-     .resolution_scale = 0.3,
-     .promised_psnr_db = 43.21},
-    {.texel_bits = 16,
-     .color = Preset::Color::base,
-     .feature_storage = Preset::FeatureStorage::rgba8,
-     .site = Preset::Site::deferred,
-     .supersampling = 3},
-    {.feature_storage = Preset::FeatureStorage::rgba16f},
-    {.site = Preset::Site::forward, .alpha_to_coverage = 8},
-};
-
-Scene scene_with(const Preset& preset) {
+/// Three faces of levels 0, 2 and 3. Their levels, which the file has as an accessor of a byte a
+/// face, may stand for a choice of faces: all but the first.
+Scene scene_of_levels() {
   RandomScene random(13);
   Scene scene = random.scene();
-  fill_soup(scene, random.geometry(3, false), random.lattice_texture(3, 1, false));
-  scene.preset = preset;
+  LatticeTexture texture = random.lattice_texture(3, 3, false);
+  texture.patches[0].level = 0;
+  texture.patches[1].level = 2;
+  texture.mlp = random.diffsoup_mlp();
+  fill_soup(scene, random.geometry(3, false), std::move(texture));
   return scene;
 }
 
-TEST(TureenGlbPreset, ComesBack) {
-  for (const Preset& preset : presets) {
-    SCOPED_TRACE(describe(preset));
-    const Scene scene = scene_with(preset);
-    EXPECT_EQ(testing::difference(scene, read_back(testing::glb_bytes(scene, "preset"))), "");
+/// The bytes of this scene with a preset in its JSON.
+std::vector<std::byte> with_preset(const Scene& scene, const nlohmann::json& preset) {
+  const auto bytes = testing::glb_bytes(scene, "preset");
+  auto json = testing::glb_json(bytes);
+  auto& extension = json["extensions"][tureen_extension];
+  extension["preset"] = preset;
+  if (preset.contains("keeps_face"))
+    extension["preset"]["keeps_face"] = extension["appearance"]["levels"];
+  return testing::with_glb_json(bytes, json);
+}
+
+const nlohmann::json earlier_preset = {{"lattice_level", 2},    {"color", "harmonics"},
+                                       {"harmonics_degree", 0}, {"triangle_fraction", 0.7},
+                                       {"keeps_face", nullptr}, {"supersampling", 2}};
+
+TEST(TureenGlbQuality, ComesBack) {
+  for (const Quality& quality : qualities) {
+    SCOPED_TRACE(describe(quality));
+    Scene scene = scene_of_levels();
+    scene.quality = quality;
+    const auto bytes = testing::glb_bytes(scene, "quality");
+    EXPECT_EQ(testing::difference(scene, read_back(bytes)), "");
+    const auto extension = testing::glb_json(bytes)["extensions"][tureen_extension];
+    EXPECT_EQ(extension.contains("preset"), quality != Quality{});
   }
-  Scene none = scene_with({});
-  none.preset.reset();
-  EXPECT_FALSE(testing::glb_json(testing::glb_bytes(none, "preset"))["extensions"][tureen_extension]
-                   .contains("preset"));
 }
 
 /// Every name that stands in a "properties" of the schema.
@@ -254,73 +257,117 @@ void expect_names(const nlohmann::json& written, const std::set<std::string>& na
   }
 }
 
-TEST(TureenGlbPreset, TheSchemaNamesEveryKeyThatIsWritten) {
+TEST(TureenGlbQuality, TheSchemaNamesEveryKeyThatIsWritten) {
   std::ifstream file(TUREEN_SOURCE_DIR "/docs/TUREEN_triangle_soup.schema.json");
   std::set<std::string> names;
   collect_names(nlohmann::json::parse(file), names);
-  for (const Preset& preset : presets)
-    expect_names(testing::glb_json(testing::glb_bytes(scene_with(preset),
-                                                      "preset"))["extensions"][tureen_extension],
-                 names);
+  for (const Quality& quality : qualities) {
+    Scene scene = scene_of_levels();
+    scene.quality = quality;
+    expect_names(
+        testing::glb_json(testing::glb_bytes(scene, "quality"))["extensions"][tureen_extension],
+        names);
+  }
 }
 
-TEST(TureenGlbPreset, WhatIsUnknownIsIgnored) {
-  const Scene scene = scene_with(presets[1]);
-  const auto bytes = testing::glb_bytes(scene, "preset");
-  auto json = testing::glb_json(bytes);
-  json["extensions"][tureen_extension]["preset"]["colour_of_the_frame"] = {"red", 1};
-  EXPECT_EQ(testing::difference(scene, read_back(testing::with_glb_json(bytes, json))), "");
-}
-
-TEST(TureenGlbPreset, BadValuesAreRefusedWithTheirPlace) {
-  const auto bytes = testing::glb_bytes(scene_with(presets[1]), "preset");
-  const auto refusal = [&](const char* key, const nlohmann::json& value) {
-    auto json = testing::glb_json(bytes);
-    auto& preset = json["extensions"][tureen_extension]["preset"];
-    if (key)
-      preset[key] = value;
-    else
-      preset = value;
-    return error_of([&] { read_back(testing::with_glb_json(bytes, json)); });
-  };
-  EXPECT_THAT(refusal("lattice_level", 8), ErrorIn("memory.glb", "preset.lattice_level", 8, 7));
-  EXPECT_THAT(refusal("lattice_level", "low"), ErrorIn("memory.glb", "preset.lattice_level"));
-  EXPECT_THAT(refusal("texel_bits", 12), ErrorIn("memory.glb", 12, 4, 8, 16));
-  EXPECT_THAT(refusal("color", "plaid"), ErrorIn("memory.glb", "preset.color", "plaid"));
-  EXPECT_THAT(refusal("harmonics_degree", 3), ErrorIn("memory.glb", "harmonics_degree", 3, 2));
-  EXPECT_THAT(refusal("triangle_fraction", 0), ErrorIn("memory.glb", 0));
-  EXPECT_THAT(refusal("triangle_fraction", 1), ErrorIn("memory.glb"));
-  EXPECT_THAT(refusal("keeps_face", 999999), ErrorIn("memory.glb", "accessors"));
-  EXPECT_THAT(refusal("keeps_face", 0), ErrorIn("memory.glb", "SCALAR"));
-  EXPECT_THAT(refusal("feature_storage", 1), ErrorIn("memory.glb", "preset.feature_storage"));
-  EXPECT_THAT(refusal("site", "garden"), ErrorIn("memory.glb", "garden"));
-  EXPECT_THAT(refusal("resolution_scale", 2), ErrorIn("memory.glb", "0.25", 1));
-  EXPECT_THAT(refusal("supersampling", 0), ErrorIn("memory.glb", 1, 8));
-  EXPECT_THAT(refusal("alpha_to_coverage", 5), ErrorIn("memory.glb", 0, 2, 4, 8));
-  EXPECT_THAT(refusal("promised_psnr_db", 101), ErrorIn("memory.glb", 0, 100));
-  EXPECT_THAT(refusal(nullptr, 7), ErrorIn("memory.glb", "preset"));
-}
-
-TEST(TureenGlbPreset, WhatIsNotReadIsNotWritten) {
-  Scene scene = scene_with({.texel_bits = 5});
-  EXPECT_THROW(write_tureen_glb(scene, testing::temporary_glb("never")), UsageError);
-  scene = scene_with({.triangle_fraction = 0.5, .keeps_face = {1, 0}});
-  EXPECT_THROW(write_tureen_glb(scene, testing::temporary_glb("never")), UsageError);
-  scene = scene_with({});
-  auto& texture = std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance);
-  texture.harmonics =
-      LatticeHarmonics{.degree = 1, .coefficients = std::vector<float>(9 * texture.texel_count())};
+TEST(TureenGlbQuality, WhatCannotBeDrawnIsNotWritten) {
+  Scene scene = scene_of_levels();
+  scene.quality.supersampling = 9;
   EXPECT_THROW(write_tureen_glb(scene, testing::temporary_glb("never")), UsageError);
   EXPECT_FALSE(std::filesystem::exists(testing::temporary_glb("never")));
 }
 
-TEST(TureenGlbPreset, SurvivesTruncationAndDamage) {
-  const auto bytes = testing::glb_bytes(scene_with(presets[1]), "preset");
+TEST(TureenGlbEarlierPreset, IsReadAsAnEdit) {
+  const Scene scene = scene_of_levels();
+  const Scene back = read_back(with_preset(scene, earlier_preset));
+  const TriangleSoup expected =
+      edited(std::get<TriangleSoup>(scene.primitives),
+             {.keeps_face = {0, 1, 1}, .lattice_level = 2, .color = Edits::Color::baked});
+  const auto& soup = std::get<TriangleSoup>(back.primitives);
+  EXPECT_EQ(soup.positions, expected.positions);
+  EXPECT_EQ(soup.triangles, expected.triangles);
+  const auto& texture = std::get<LatticeTexture>(soup.appearance);
+  EXPECT_EQ(texture.texels, std::get<LatticeTexture>(expected.appearance).texels);
+  EXPECT_FALSE(texture.mlp);
+  EXPECT_EQ(back.quality, (Quality{.supersampling = 2}));
+  ASSERT_EQ(back.info.remarks.size(), 1u);
+  EXPECT_EQ(back.info.remarks[0].kind, Remark::Kind::preset_applied);
+}
+
+TEST(TureenGlbEarlierPreset, SettingsThatAreGoneAreIgnoredWithANote) {
+  const Scene scene = scene_of_levels();
+  const Scene back = read_back(with_preset(scene, {{"texel_bits", 4},
+                                                   {"color", "harmonics"},
+                                                   {"feature_storage", "rgba8"},
+                                                   {"site", "forward"},
+                                                   {"alpha_to_coverage", 4},
+                                                   {"promised_psnr_db", 51.5},
+                                                   {"supersampling", 3}}));
+  EXPECT_EQ(back.quality, (Quality{.supersampling = 3}));
+  ASSERT_EQ(back.info.remarks.size(), 1u);
+  EXPECT_EQ(back.info.remarks[0].kind, Remark::Kind::preset_keys_ignored);
+  EXPECT_EQ(back.info.remarks[0].names,
+            (std::vector<std::string>{"texel_bits", "color", "feature_storage", "site",
+                                      "alpha_to_coverage", "promised_psnr_db"}));
+  EXPECT_EQ(std::get<LatticeTexture>(std::get<TriangleSoup>(back.primitives).appearance).texels,
+            std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance).texels);
+}
+
+TEST(TureenGlbEarlierPreset, WhatNoVersionHadIsIgnored) {
+  const Scene scene = scene_of_levels();
+  const auto bytes = with_preset(scene, {{"colour_of_the_frame", {"red", 1}}});
+  EXPECT_EQ(testing::difference(scene, read_back(bytes)), "");
+}
+
+TEST(TureenGlbEarlierPreset, BadValuesAreRefusedWithTheirPlace) {
+  const Scene scene = scene_of_levels();
+  const auto refusal = [&](const nlohmann::json& preset) {
+    return error_of([&] { read_back(with_preset(scene, preset)); });
+  };
+  EXPECT_THAT(refusal({{"lattice_level", 8}}), ErrorIn("memory.glb", "preset.lattice_level", 8, 7));
+  EXPECT_THAT(refusal({{"lattice_level", "low"}}), ErrorIn("memory.glb", "preset.lattice_level"));
+  EXPECT_THAT(refusal({{"texel_bits", 12}}), ErrorIn("memory.glb", "preset.texel_bits", 4, 8, 16));
+  EXPECT_THAT(refusal({{"color", "plaid"}}), ErrorIn("memory.glb", "preset.color", "plaid"));
+  EXPECT_THAT(refusal({{"harmonics_degree", 3}}),
+              ErrorIn("memory.glb", "preset.harmonics_degree", 3, 2));
+  EXPECT_THAT(refusal({{"resolution_scale", 2}}), ErrorIn("memory.glb", "preset", "0.25", 1));
+  EXPECT_THAT(refusal({{"supersampling", 0}}), ErrorIn("memory.glb", "preset", 1, 8));
+  EXPECT_THAT(refusal(7), ErrorIn("memory.glb", "preset"));
+  // An accessor of another kind, and one that is not there.
+  const auto bytes = testing::glb_bytes(scene, "preset");
+  for (const int accessor : {0, 999999}) {
+    auto json = testing::glb_json(bytes);
+    json["extensions"][tureen_extension]["preset"]["keeps_face"] = accessor;
+    EXPECT_THROW(read_back(testing::with_glb_json(bytes, json)), InputError) << accessor;
+  }
+}
+
+// A few bytes that ask for gigabytes: faces that share texels in part have none in common at a
+// lower level.
+TEST(TureenGlbEarlierPreset, WhatItMakesOfTheTexelsIsCountedBefore) {
+  RandomScene random(14);
+  Scene scene = random.scene();
+  constexpr std::size_t faces = 4000;
+  LatticeTexture texture = random.lattice_texture(1, 7, false);
+  const auto& bytes = std::get<std::vector<std::uint8_t>>(texture.texels);
+  std::vector<std::uint8_t> longer(bytes.size() + faces * LatticeTexture::channels, 200);
+  texture.texels = longer;
+  texture.patches.clear();
+  for (std::uint32_t t = 0; t < faces; ++t) texture.patches.push_back({t, 7});
+  fill_soup(scene, random.geometry(faces, false), std::move(texture));
+  const auto file = with_preset(scene, {{"lattice_level", 6}});
+  const std::uint64_t before = max_memory();
+  set_max_memory(16 << 20);  // of 4,000 * 2,145 * 8 bytes
+  EXPECT_THROW(read_back(file), InputError);
+  set_max_memory(before);
+}
+
+TEST(TureenGlbEarlierPreset, SurvivesTruncationAndDamage) {
+  const auto bytes = with_preset(scene_of_levels(), earlier_preset);
   const auto read = [](std::span<const std::byte> damaged) {
     const Scene back = read_back(damaged);
-    if (back.preset) {
-      EXPECT_FALSE(defect(*back.preset, std::get<TriangleSoup>(back.primitives)));
-    }
+    EXPECT_FALSE(defect(std::get<TriangleSoup>(back.primitives)));
+    EXPECT_FALSE(defect(back.quality));
   };
   EXPECT_EQ(testing::survive_truncation(bytes, read).read, 0u);
   // Every byte of the preset's own JSON.

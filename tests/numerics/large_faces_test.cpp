@@ -27,7 +27,7 @@ class NamedByDevice {
                            .constants = {{"ALPHA_TEST", "0"}},
                            .generated = {{"appearance.glsl", ""}}},
                           api())),
-        store_(FragmentStore::FeatureStorage::visibility, 1, 1, 0) {}
+        store_(1, 1, 0) {}
 
   std::uint32_t name_of(std::uint32_t face) const {
     Camera camera = straight_camera(1, 1, 1);
@@ -41,7 +41,7 @@ class NamedByDevice {
     glBindVertexArray(nothing_.id());
     glDrawArrays(GL_POINTS, int(3 * face), 1);
     glFinish();
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, store_.visibility_framebuffer());
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, store_.framebuffer());
     std::uint32_t fragment[4] = {};
     glReadPixels(0, 0, 1, 1, GL_RGBA_INTEGER, GL_UNSIGNED_INT, fragment);
     return fragment[0];

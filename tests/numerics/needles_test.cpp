@@ -109,23 +109,19 @@ double beyond_all_texels(double channel) {
                                 : std::numeric_limits<double>::infinity();
 }
 
-/// The same of the centres of the pixels that faces cover, where nothing is clamped: the pixels
-/// that one of samples^2 points within them belongs to.
-double beyond_without_clamp(const TriangleSoup& soup, const Camera& camera, int samples) {
-  Camera finer = camera;
-  finer.width *= samples, finer.height *= samples;
-  finer.fx *= samples, finer.fy *= samples, finer.cx *= samples, finer.cy *= samples;
+/// The same of the centres of the pixels that faces cover, where nothing is clamped.
+double beyond_without_clamp(const TriangleSoup& soup, const Camera& camera) {
   const auto& texture = std::get<LatticeTexture>(soup.appearance);
   double most = 0;
-  const oracle::Rays rays(soup, glm::dvec3(0), finer, {.coverage = oracle::Coverage::snapped});
-  rays.visit_faces(0, finer.height, [&](int column, int row, const oracle::Hit& hit) {
+  const oracle::Rays rays(soup, glm::dvec3(0), camera, {.coverage = oracle::Coverage::snapped});
+  rays.visit_faces(0, camera.height, [&](int column, int row, const oracle::Hit& hit) {
     // All of a face is at one depth: barycentrics are affine in pixels.
     const auto pixel = [&](std::size_t k) {
       const glm::dvec3 p(soup.positions[3 * std::size_t(hit.face) + k]);
       return glm::dvec2(camera.cx - camera.fx * p.x / p.z, camera.cy + camera.fy * p.y / p.z);
     };
     const glm::dvec2 c = pixel(2), a = pixel(0) - c, b = pixel(1) - c;
-    const glm::dvec2 centre = glm::dvec2(glm::ivec2(column / samples, row / samples)) + 0.5 - c;
+    const glm::dvec2 centre = glm::dvec2(column, row) + 0.5 - c;
     const double area = a.x * b.y - a.y * b.x;
     const double b0 = (centre.x * b.y - centre.y * b.x) / area;
     const double b1 = (a.x * centre.y - a.y * centre.x) / area;
@@ -139,18 +135,12 @@ double beyond_without_clamp(const TriangleSoup& soup, const Camera& camera, int 
 }
 
 TEST(Numerics, T1b_NeedlesShowNothingBeyondTheirTexels) {
-  using Preset = RenderPreset;
   struct Path {
     std::string what;
     ShadingSite site;
-    Preset preset;
-    int samples;  // of a pixel, along an axis of the grid that they lie on
   };
-  const std::vector<Path> paths = {{"forward.frag, 4 samples with alpha to coverage",
-                                    ShadingSite::forward, Preset{.alpha_to_coverage = 4}, 16},
-                                   {"visibility.frag", ShadingSite::deferred, Preset{}, 1},
-                                   {"features.frag, half floats", ShadingSite::deferred,
-                                    Preset{.feature_storage = Preset::FeatureStorage::rgba16f}, 1}};
+  const std::vector<Path> paths = {{"forward.frag", ShadingSite::forward},
+                                   {"visibility.frag", ShadingSite::deferred}};
   const Camera camera = straight_camera(side, side, side);
   for (const Path& path : paths) {
     Recorder recorder({.stressed = "needles whose barycentrics are extrapolated: " + path.what,
@@ -164,11 +154,9 @@ TEST(Numerics, T1b_NeedlesShowNothingBeyondTheirTexels) {
       double ours = 0;
       for (const bool specialise : {true, false}) {
         // Grey is within the range: what a needle covers a part of may show it, too.
-        const RenderOptions options{
-            .plan = {.specialise = specialise, .site = path.site, .preset = path.preset},
-            .background = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f),
-            .limits = {},
-            .progress = {}};
+        const RenderOptions options{.plan = {.specialise = specialise, .site = path.site},
+                                    .background = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f),
+                                    .limits = {}};
         shared_context().make_current();
         Renderer renderer(shared_context(), soup, glm::dvec3(0), options);
         renderer.draw(camera);
@@ -181,32 +169,24 @@ TEST(Numerics, T1b_NeedlesShowNothingBeyondTheirTexels) {
             for (int c = 0; c < 3; ++c) ours = worse(ours, beyond_all_texels(pixel[c] / 255.0));
             // Right of the large face, whatever is not grey.
             by_needles += x > 75 && std::abs(pixel.r - 127.5) > 2;
-            // With several samples, where the neighbours show the large face as well: all of the
-            // pixel does.
-            const auto at = [&](int u, int v) {
-              return expected.faces[std::size_t(std::clamp(v, 0, side - 1)) * side +
-                                    std::size_t(std::clamp(u, 0, side - 1))];
-            };
-            const std::uint32_t face = at(x, y);
-            const bool all_of_it = face == 0 && at(x - 1, y) == 0 && at(x + 1, y) == 0 &&
-                                   at(x, y - 1) == 0 && at(x, y + 1) == 0;
             const std::size_t i = std::size_t(y) * side + std::size_t(x);
-            if (path.samples > 1 ? !all_of_it : face == no_face || face != faces[i]) continue;
-            compared += face != 0 || path.samples > 1;
+            const std::uint32_t face = expected.faces[i];
+            if (face == no_face || face != faces[i]) continue;
+            compared += face != 0;
             for (int c = 0; c < 3; ++c)
               off = worse(off, std::abs(pixel[c] / 255.0 - expected.colors[i][c]));
           }
         EXPECT_GT(by_needles, 20) << path.what << ' ' << width;
         EXPECT_GT(compared, 20);
-        // Half a step of 8 bits; one of the half floats that features may be; and the rounding of
-        // a plane of barycentrics, which rises by 1 over the width of a needle, at the far side of
-        // the picture.
-        const double tolerance = 0.5 / 255 + 0x1p-11 + (high - low) * side / width * epsilon;
+        // Half a step of 8 bits; two barycentrics of 16 bits, which the visibility buffer has; and
+        // the rounding of a plane of barycentrics, which rises by 1 over the width of a needle, at
+        // the far side of the picture.
+        const double tolerance = 0.5 / 255 + (high - low) * (0x1p-16 + side / width * epsilon);
         EXPECT_LE(off, tolerance) << path.what << ' ' << width;
       }
-      // Half a step of 8 bits when a sample is stored, and half of one when their mean is.
+      // Half a step of 8 bits, and as much for the rounding of weights.
       recorder.add({.at = width,
-                    .naive = beyond_without_clamp(soup, camera, path.samples),
+                    .naive = beyond_without_clamp(soup, camera),
                     .ours = ours,
                     .tolerance = 1.0 / 255});
     }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "formats/png.hpp"
+#include "numerics/half_network.hpp"
 #include "numerics/recorder.hpp"
 #include "numerics/scenes.hpp"
 #include "runtime/color_mlp_source.hpp"
@@ -32,7 +33,7 @@ namespace {
 /// A number that is rounded to a half after every operation.
 struct Half {
   float value;
-  Half(float v) : value(float_from_half(half_from_float(v))) {}
+  Half(float v) : value(rounded_to_half(v)) {}
   friend Half operator+(Half a, Half b) { return a.value + b.value; }
   friend Half operator/(Half a, Half b) { return a.value / b.value; }
   friend Half operator-(Half a) { return -a.value; }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "numerics/half_network.hpp"
 #include "numerics/recorder.hpp"
 #include "numerics/scenes.hpp"
 #include "runtime/color_mlp_source.hpp"
@@ -16,7 +17,6 @@
 #include "runtime/render_options.hpp"
 #include "runtime/shader_source.hpp"
 #include "soup/lattice.hpp"
-#include "soup/mlp_precision.hpp"
 #include "soup/quantise.hpp"
 #include "soup/spherical_harmonics.hpp"
 #include "support/agreement.hpp"
@@ -153,7 +153,6 @@ TEST(Numerics, M1_NetworksOfLargeWeights) {
   const std::vector<Sample> samples = random_samples(random, 1000);
   for (const double gain : {1.0, 4.0, 16.0, 64.0, 250.0, 1000.0}) {
     const ColorMlp mlp = scaled_network(gain);
-    const EmulatedMlp half(mlp, MlpPrecision::half);
     double ours = 0, tolerance = 1, naive = 0;
     for (const MlpWeights kind : {MlpWeights::constants, MlpWeights::uniforms}) {
       const std::vector<glm::vec4> shown = on_device(mlp, kind, samples);
@@ -165,7 +164,9 @@ TEST(Numerics, M1_NetworksOfLargeWeights) {
           ours = error;
           tolerance = bound;
         }
-        naive = worse(naive, difference(half(samples[i].features, samples[i].to_eye), truth));
+        naive = worse(
+            naive,
+            difference(evaluate_in_halves(mlp, samples[i].features, samples[i].to_eye), truth));
       }
     }
     recorder.add({.at = gain, .naive = naive, .ours = ours, .tolerance = tolerance});
@@ -189,14 +190,13 @@ std::vector<std::string> shaders_with_a_network(bool specialise, gl::Api to) {
       prepare_soup(soup, glm::dvec3(0), DeviceLimits{}, {.plan = {.specialise = specialise}})
           .appearance;
   std::vector<std::string> shaders;
-  for (const char* file : {"forward.frag", "visibility.frag", "shading.frag", "shading.comp",
-                           "features.frag", "feature_shading.frag", "inspection.frag"}) {
+  for (const char* file :
+       {"forward.frag", "visibility.frag", "shading.frag", "shading.comp", "inspection.frag"}) {
     // Which constants they have else changes nothing: what #if leaves out is in the text, too.
     ShaderSource source{
         .file = file,
         .constants = appearance.constants,
         .generated = {{"appearance.glsl", appearance.glsl},
-                      {"network.glsl", appearance.mlp.text},
                       {"inspected_appearance.glsl", "#include \"inspection_lattice.glsl\"\n"}}};
     shaders.push_back(assemble(source, to));
   }
@@ -224,12 +224,13 @@ TEST(Numerics, M3_AMediumPrecisionWouldShow) {
   const std::vector<Sample> samples = random_samples(random, 1000);
   for (const double gain : {0.5, 1.0, 2.0, 4.0, 8.0}) {
     const ColorMlp mlp = scaled_network(gain);
-    const EmulatedMlp half(mlp, MlpPrecision::half);
     double ours = 0, naive = 0;
     const std::vector<glm::vec4> shown = on_device(mlp, MlpWeights::constants, samples);
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const glm::dvec3 truth = evaluate(mlp, samples[i].features, samples[i].to_eye);
-      naive = worse(naive, difference(half(samples[i].features, samples[i].to_eye), truth));
+      naive =
+          worse(naive,
+                difference(evaluate_in_halves(mlp, samples[i].features, samples[i].to_eye), truth));
       ours = worse(ours, difference(glm::dvec3(shown[i]), truth));
     }
     // Half a step of 8 bits: what is below it cannot be told from rounding.

@@ -210,13 +210,12 @@ TEST(CoveredFaces, AreFoundAmongThePixelsThatAreDrawn) {
   const TriangleSoup soup =
       random_soup(seed, {.kind = Kind::face_colors, .faces = 30000, .size = 0.01});
   Random random(seed);
-  for (const RenderPreset& preset :
-       {RenderPreset{.resolution_scale = 0.6}, RenderPreset{.supersampling = 3}}) {
+  for (const Quality& quality : {Quality{.resolution_scale = 0.6}, Quality{.supersampling = 3}}) {
     const LeaveOutSet all = LeaveOutSet::all();
-    Renderer with(context, soup, glm::dvec3(0), {.plan = {.leave_out = all, .preset = preset}});
+    Renderer with(context, soup, glm::dvec3(0), {.plan = {.leave_out = all, .quality = quality}});
     Renderer without(
         context, soup, glm::dvec3(0),
-        {.plan = {.leave_out = all.without(LeaveOut::faces_between_pixels), .preset = preset}});
+        {.plan = {.leave_out = all.without(LeaveOut::faces_between_pixels), .quality = quality}});
     ASSERT_TRUE(with.plan().drops_faces_between_pixels);
     ASSERT_FALSE(without.plan().drops_faces_between_pixels);
     const Camera camera = random_camera(random, 211, 150);

@@ -53,20 +53,6 @@ TEST(Golden, ReversedDepth) {
   expect_golden(draw_golden(osmesa, Kind::lattice_mlp, {}), "reversed_depth");
 }
 
-// Edges of triangles and of cut-outs in quarters, over a background that shows whether it bleeds
-// in. It would catch samples in the wrong places, a face seen through its own edge, and coverage
-// that is darkened or doubled where faces meet.
-TEST(Golden, AlphaToCoverage) {
-  for (const NamedContext& context : every_context) {
-    RenderOptions options;
-    options.plan.reversed_depth = false;
-    options.plan.preset = {.alpha_to_coverage = 4};
-    const bool is_reference = context.request.backend == gl::Backend::osmesa;
-    expect_golden(draw_golden(context.request, Kind::uv_textures, options), "alpha_to_coverage",
-                  is_reference ? "" : context.name);
-  }
-}
-
 // What the reader, the conventions of axes and view direction, and the network make of a real
 // scene: upside down, mirrored or dull would agree with an oracle that shares the mistake.
 TEST(Golden, Example) {

@@ -140,7 +140,7 @@ TEST_P(DrawnInTiles, RandomSoupsLookAsTheyDoWhole) {
       const TriangleSoup soup =
           random_soup(seed, {.kind = kind, .faces = 300, .size = 0.2, .degenerate = true});
       RenderOptions options{.background = glm::vec4(0.0f)};
-      options.plan.preset = {.supersampling = supersampling};
+      options.plan.quality.supersampling = supersampling;
       Renderer renderer(context, soup, {}, options);
       Random random(seed);
       const Camera camera = random_camera(random, 333, 257);
@@ -208,7 +208,7 @@ TEST(PictureTiles, APictureBeyondTheDeviceShowsWhatTheOracleSees) {
 TEST(PictureTiles, AResolutionScaleIsRefused) {
   const gl::Context context = gl::Context::create(osmesa);
   RenderOptions options;
-  options.plan.preset = {.resolution_scale = 0.5};
+  options.plan.quality.resolution_scale = 0.5;
   Renderer renderer(context, random_soup(9, {.kind = Kind::lattice}), {}, options);
   try {
     tiles_of(renderer, context.capabilities());

@@ -171,27 +171,21 @@ TEST(Renderer, StateThatSomebodyElseLeftChangesNothing) {
 // What it makes anew in the context that draws next; the window's tests move between two contexts.
 TEST(Renderer, DrawsTheSameAfterItLeftTheContext) {
   const gl::Context context = gl::Context::create(osmesa);
-  RenderPreset supersampled, coverage;
-  supersampled.supersampling = 2;
-  coverage.alpha_to_coverage = 4;
-  coverage.site = RenderPreset::Site::forward;
-  for (const std::optional<RenderPreset>& preset :
-       {std::optional<RenderPreset>(), std::optional(supersampled), std::optional(coverage)})
-    for (const PipelineKind pipeline : {PipelineKind::tureen, PipelineKind::published}) {
-      if (pipeline == PipelineKind::published && preset) continue;
-      const TriangleSoup soup = random_soup(11, {.kind = Kind::lattice_mlp, .level = 2});
-      Random random(11);
-      const Camera camera = random_camera(random, 64, 48);
-      RenderOptions options;
-      options.plan.pipeline = pipeline;
-      options.plan.preset = preset;
-      Renderer renderer(context, soup, {}, options);
-      renderer.draw(camera);
-      const Image8 expected = renderer.read_color();
-      renderer.leave_context();
-      renderer.draw(camera);
-      EXPECT_EQ(renderer.read_color().pixels, expected.pixels);
-    }
+  const std::vector<PlanPreferences> plans = {{},
+                                              {.site = ShadingSite::forward},
+                                              {.quality = {.supersampling = 2}},
+                                              {.pipeline = PipelineKind::published}};
+  for (const PlanPreferences& plan : plans) {
+    const TriangleSoup soup = random_soup(11, {.kind = Kind::lattice_mlp, .level = 2});
+    Random random(11);
+    const Camera camera = random_camera(random, 64, 48);
+    Renderer renderer(context, soup, {}, {.plan = plan});
+    renderer.draw(camera);
+    const Image8 expected = renderer.read_color();
+    renderer.leave_context();
+    renderer.draw(camera);
+    EXPECT_EQ(renderer.read_color().pixels, expected.pixels);
+  }
 }
 
 TEST(Renderer, NamesTheSameFacesOnEs) {
@@ -222,7 +216,7 @@ TEST(Renderer, TellsThePointThatAPixelShows) {
       SCOPED_TRACE(named.name);
       const gl::Context context = gl::Context::create(named.request);
       RenderOptions options;
-      options.plan.preset = RenderPreset{.resolution_scale = scale};
+      options.plan.quality.resolution_scale = scale;
       Renderer renderer(context, soup, origin, options);
       renderer.draw(camera);
       EXPECT_EQ(renderer.point_at({1, 1}), std::nullopt) << "background";
@@ -266,16 +260,12 @@ TEST(Renderer, TellsWhatItsTargetsTake) {
   const gl::Context context = gl::Context::create(osmesa);
   const TriangleSoup soup = random_soup(78, {.kind = Kind::lattice_mlp, .faces = 100, .level = 2});
   constexpr int width = 160, height = 120;
-  using Storage = RenderPreset::FeatureStorage;
   // A pixel has 4 bytes of colour, 4 of depth, and what is drawn on the way to it.
   const std::pair<PlanPreferences, double> bytes_a_pixel[] = {
       {{.site = ShadingSite::forward}, 4 + 4},
       {{.site = ShadingSite::deferred}, 4 + 4 + 8},
-      {{.preset = RenderPreset{.feature_storage = Storage::rgba8}}, 4 + 4 + 2 * 4},
-      {{.preset = RenderPreset{.feature_storage = Storage::rgba16f}}, 4 + 4 + 2 * 8},
-      {{.site = ShadingSite::deferred, .preset = RenderPreset{.supersampling = 3}}, 9 * 16 + 4},
-      {{.site = ShadingSite::deferred, .preset = RenderPreset{.resolution_scale = 0.5}}, 4 + 4},
-      {{.preset = RenderPreset{.alpha_to_coverage = 4}}, 4 * (4 + 4) + 4 + 4},
+      {{.site = ShadingSite::deferred, .quality = {.supersampling = 3}}, 9 * 16 + 4},
+      {{.site = ShadingSite::deferred, .quality = {.resolution_scale = 0.5}}, 4 + 4},
       {{.pipeline = PipelineKind::published}, 4 + 3 * 4},
   };
   for (const auto& [plan, each] : bytes_a_pixel) {

@@ -1,11 +1,11 @@
-// That supersampling and resolution scale filter as they say, with every other knob.
+// That supersampling and resolution scale filter as they say, with every shading site and pipeline.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
-#include "runtime/knob_drawing.hpp"
+#include "runtime/quality_drawing.hpp"
 #include "runtime/resampled_pipeline.hpp"
 #include "soup/error.hpp"
 #include "support/contexts.hpp"
@@ -14,7 +14,6 @@ namespace tureen::test {
 namespace {
 
 using testing::HasSubstr;
-using FeatureStorage = RenderPreset::FeatureStorage;
 
 /// The weighted mean of samples as the shaders should take it: colours count as much as they are
 /// opaque, and as they are where nothing is.
@@ -44,31 +43,26 @@ void expect_filtered(const Image8& drawn, const std::function<glm::dvec4(int, in
 
 struct Variant {
   const char* name;
-  RenderPreset preset;
-  PipelineKind pipeline = PipelineKind::tureen;
+  PlanPreferences plan;
 };
 
 const Variant variants[] = {
-    {"faithful", {}},
-    {"rgba16f", {.feature_storage = FeatureStorage::rgba16f}},
-    {"rgba8", {.feature_storage = FeatureStorage::rgba8}},
-    {"forward", {.site = RenderPreset::Site::forward}},
-    {"coverage", {.alpha_to_coverage = 4}},
-    {"published", {}, PipelineKind::published},
+    {"deferred", {.site = ShadingSite::deferred}},
+    {"forward", {.site = ShadingSite::forward}},
+    {"published", {.pipeline = PipelineKind::published}},
 };
 
 class Resampling : public testing::TestWithParam<NamedContext> {
  protected:
   static RenderOptions options(const Variant& variant, float background_alpha) {
-    RenderOptions result = options_with(variant.preset);
-    result.plan.pipeline = variant.pipeline;
+    RenderOptions result{.plan = variant.plan, .limits = {}};
     result.background = glm::vec4(0.9f, 0.2f, 0.5f, background_alpha);
     return result;
   }
   const TriangleSoup soup = random_soup(22, {.kind = Kind::lattice_mlp, .size = 0.3, .level = 2});
 };
 
-// With every other knob, a supersampled picture is the mean of the same picture n times as large.
+// A supersampled picture is the mean of the same picture n times as large.
 TEST_P(Resampling, SupersamplingIsTheMeanOfALargerPicture) {
   const gl::Context context = gl::Context::create(GetParam().request);
   const Camera camera = camera_of(61, 43);
@@ -77,7 +71,7 @@ TEST_P(Resampling, SupersamplingIsTheMeanOfALargerPicture) {
       SCOPED_TRACE(std::string(variant.name) + " " + std::to_string(n));
       RenderOptions all = options(variant, n == 3 ? 0.0f : 1.0f);
       const Image8 large = draw(context, soup, resampled(camera, 61 * n, 43 * n), all);
-      all.plan.preset->supersampling = n;
+      all.plan.quality.supersampling = n;
       expect_filtered(draw(context, soup, camera, all), [&](int x, int y) {
         WeightedMean mean;
         for (int i = 0; i < n * n; ++i)
@@ -96,7 +90,7 @@ TEST_P(Resampling, ScaleInterpolatesASmallerPicture) {
       RenderOptions all = options(variant, scale == 0.5 ? 0.0f : 1.0f);
       const auto width = int(std::lround(61 * scale)), height = int(std::lround(43 * scale));
       const Image8 small = draw(context, soup, resampled(camera, width, height), all);
-      all.plan.preset->resolution_scale = scale;
+      all.plan.quality.resolution_scale = scale;
       expect_filtered(draw(context, soup, camera, all), [&](int x, int y) {
         const double u = std::clamp((x + 0.5) * width / 61.0 - 0.5, 0.0, width - 1.0);
         const double v = std::clamp((y + 0.5) * height / 43.0 - 0.5, 0.0, height - 1.0);
@@ -115,7 +109,7 @@ TEST_P(Resampling, ScaleInterpolatesASmallerPicture) {
 INSTANTIATE_TEST_SUITE_P(Everywhere, Resampling, testing::ValuesIn(every_context),
                          [](const auto& i) { return i.param.name; });
 
-TEST(DrawingKnobs, MoreSamplesThanTheDeviceDrawsAreRefusedAndTheNextFrameIsDrawn) {
+TEST(ResamplingLimits, MoreSamplesThanTheDeviceDrawsAreRefusedAndTheNextFrameIsDrawn) {
   const gl::Context context = gl::Context::create(osmesa);
   const TriangleSoup soup = soup_of(Kind::face_colors);
   Renderer renderer(context, soup, {}, options_with({.supersampling = 8}));

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "runtime/knob_drawing.hpp"
+#include "runtime/quality_drawing.hpp"
 #include "soup/error.hpp"
 #include "support/contexts.hpp"
 
@@ -73,17 +73,12 @@ TEST_P(ShadingStages, ShowTheSameOverEveryBackground) {
   expect_same(nothing, camera, {.plan = deferred({}), .background = backgrounds[0]}, "no face");
 }
 
-TEST_P(ShadingStages, ShowTheSameWithEveryKnob) {
-  const RenderPreset presets[] = {
-      {.supersampling = 3},
-      {.resolution_scale = 0.5},
-      {.feature_storage = RenderPreset::FeatureStorage::rgba8},
-      {.feature_storage = RenderPreset::FeatureStorage::rgba16f, .supersampling = 2},
-      {.site = RenderPreset::Site::forward},
-      {.alpha_to_coverage = 4}};
+TEST_P(ShadingStages, ShowTheSameWithEveryQuality) {
   const std::vector<Camera> camera{camera_of(61, 47)};
-  for (const RenderPreset& preset : presets)
-    expect_same(soup_of(Kind::lattice_mlp), camera, options_with(preset), describe(preset));
+  for (const Quality& quality : {Quality{.supersampling = 3}, Quality{.resolution_scale = 0.5}})
+    expect_same(soup_of(Kind::lattice_mlp), camera, options_with(quality), describe(quality));
+  expect_same(soup_of(Kind::lattice_mlp), camera, {.plan = {.site = ShadingSite::forward}},
+              "forward");
 }
 
 TEST_P(ShadingStages, TakeTurnsWithoutATrace) {
@@ -123,17 +118,12 @@ TEST(ShadingStagePlan, IsTheFragmentStageUnlessComputeIsAskedFor) {
 TEST(ShadingStagePlan, SaysWhyNothingIsShadedAsCompute) {
   const DeviceLimits limits{.compute_shaders = true};
   const TriangleSoup soup = soup_of(Kind::lattice_mlp);
-  const auto plan_of = [&](const RenderPreset& preset) {
-    PlanPreferences preferences = with(preset);
+  const auto plan_of = [&](PlanPreferences preferences) {
     preferences.shading_stage = ShadingStage::compute;
     const RenderPlan plan = make_plan(soup, limits, preferences);
     return std::pair(plan.shading_stage, plan.sentences);
   };
-  const auto [stored, stored_says] =
-      plan_of({.feature_storage = RenderPreset::FeatureStorage::rgba8});
-  EXPECT_EQ(stored, ShadingStage::fragment);
-  EXPECT_THAT(stored_says, Contains(HasSubstr("are shaded in the fragment stage, not as compute")));
-  const auto [forward, forward_says] = plan_of({.site = RenderPreset::Site::forward});
+  const auto [forward, forward_says] = plan_of({.site = ShadingSite::forward});
   EXPECT_EQ(forward, ShadingStage::fragment);
   EXPECT_THAT(forward_says, Contains(HasSubstr("nothing is shaded as compute")));
   const auto [asked, asked_says] = plan_of({});

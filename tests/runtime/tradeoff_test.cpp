@@ -10,7 +10,6 @@
 #include "runtime/tradeoff/experiment.hpp"
 #include "runtime/tradeoff/knobs.hpp"
 #include "runtime/tradeoff/pareto.hpp"
-#include "runtime/tradeoff/reference.hpp"
 #include "support/random.hpp"
 
 namespace tureen::tradeoff {
@@ -291,32 +290,15 @@ TEST(Factorial, SaysOnceWhatCannotBeDrawnTogetherAndDoesNotCountIt) {
   EXPECT_THAT(fewer.notes[0], HasSubstr("are 3 configurations, more than the limit of 2"));
 }
 
-RenderPreset samples_of(int supersampling, int alpha_to_coverage) {
-  RenderPreset preset;
-  preset.supersampling = supersampling;
-  preset.alpha_to_coverage = alpha_to_coverage;
-  return preset;
-}
-
-TEST(AntialiasedReference, JudgesCombinationsOfFewerSamplesThanItsOwn) {
-  ASSERT_EQ(antialiased_samples, 8);
-  for (const auto& [n, coverage] : std::vector<std::pair<int, int>>{{2, 8}, {4, 2}, {1, 8}, {8, 0}})
-    EXPECT_EQ(too_fine(samples_of(n, coverage)), std::nullopt) << n << ' ' << coverage;
-  EXPECT_EQ(too_fine(samples_of(4, 4)),
-            "the reference has 64 samples a pixel, and cannot judge 64");
-  EXPECT_THAT(too_fine(samples_of(4, 8)).value_or(""), HasSubstr("cannot judge 128"));
-  EXPECT_TRUE(too_fine(samples_of(8, 2)));
-}
-
 // The knob must not be called otherwise where its outcomes are looked for.
 TEST(AntialiasingKnobs, OfThemOneIsSupersampling) {
-  const std::vector<Knob> knobs = antialiasing_knobs(8, {});
+  const std::vector<Knob> knobs = antialiasing_knobs(8);
   const auto found = std::find_if(knobs.begin(), knobs.end(),
                                   [](const Knob& each) { return each.key == supersampling_key; });
   ASSERT_NE(found, knobs.end());
-  RenderPreset preset;
-  found->settings.back().apply(preset);
-  EXPECT_EQ(preset.supersampling, 8);
+  Applied applied;
+  found->settings.back().apply(applied);
+  EXPECT_EQ(applied.quality.supersampling, 8);
   EXPECT_EQ(found->settings.back().value, "8");
 }
 

@@ -1,6 +1,6 @@
 // make_golden_scenes EXAMPLE OUT: writes the scenes of support/golden_scenes.hpp into the folder
 // OUT, for who draws them with another program: NAME.glb for tests/golden/NAME.png,
-// alpha_to_coverage.glb with its preset, inspections.glb, and one soup as a DiffSoup export, in the
+// inspections.glb, and one soup as a DiffSoup export, in the
 // folder diffsoup.
 #include <cstdio>
 #include <exception>
@@ -15,10 +15,6 @@ namespace {
 void write_all(const std::filesystem::path& example, const std::filesystem::path& folder) {
   for (const Kind kind : all_kinds)
     write_scene(golden_scene(kind), folder / (to_string(kind) + ".glb"));
-
-  Scene coverage = golden_scene(Kind::uv_textures);
-  coverage.preset = {.alpha_to_coverage = 4};
-  write_scene(coverage, folder / "alpha_to_coverage.glb");
 
   write_scene(golden_inspection_scene(read_scene(example)), folder / "inspections.glb");
 

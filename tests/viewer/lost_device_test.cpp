@@ -171,7 +171,7 @@ class SmallDevice : public testing::Test {
 
 TEST_F(SmallDevice, DrawsOneSampleAPixelWhereMoreDoNotFit) {
   ApplicationOptions supersampled = options({400, 300});
-  supersampled.drawing.supersampling = 2;
+  supersampled.drawing.quality = Quality{.supersampling = 2};
   look("small");
   add(Resized{600, 450});
   look("large");

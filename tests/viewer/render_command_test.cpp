@@ -91,13 +91,18 @@ TEST(RenderCommand, SaysWhatIsLookedAt) {
 TEST(RenderCommand, SaysHowItIsDrawn) {
   const Camera camera = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.8, 400, 300);
   DrawingChoice choice;
-  choice.supersampling = 3;
+  choice.quality = Quality{.supersampling = 3};
   choice.plan.leave_out = LeaveOutSet::all().without(LeaveOut::alpha_test);
-  choice.obey_preset = false;
   const std::string command = render_command(source("a.glb"), choice, {}, camera, "");
   EXPECT_THAT(command, HasSubstr("--supersample 3"));
   EXPECT_THAT(command, HasSubstr("--keep alpha-test"));
-  EXPECT_THAT(command, HasSubstr("--preset"));
+  StageSource fine = source("a.glb");
+  Scene scene = *fine.scene;
+  scene.quality.supersampling = 3;
+  fine.scene = std::make_shared<const Scene>(scene);
+  EXPECT_THAT(render_command(fine, choice, {}, camera, ""), Not(HasSubstr("--supersample")));
+  choice.quality = Quality{};
+  EXPECT_THAT(render_command(fine, choice, {}, camera, ""), HasSubstr("--supersample 1"));
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ const drawing = ({ visit }, body) => () => visit('drawing.html', async (page) =>
 const appearances = ['FaceColors', 'VertexColors', 'FaceHarmonics', 'VertexHarmonics',
                      'Lattice', 'LatticeMlp', 'UvTextures', 'UvTexturesMlp'];
 
-for (const name of [...appearances, 'alpha_to_coverage']) {
+for (const name of appearances) {
   test(`${name} on llvmpipe`, drawing(llvmpipe, async ({ load, picture }) => {
     await load(scenes, [`${name}.glb`]);
     assertSame(name, golden(name), await picture({ from: 0, width: 320, height: 240 }));

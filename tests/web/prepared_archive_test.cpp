@@ -86,54 +86,14 @@ TEST_P(PreparedArchive, NorWithNothingLeftOut) {
 
 TEST_P(PreparedArchive, NorAtAnotherResolution) {
   RenderOptions options;
-  options.plan.preset = RenderPreset{.resolution_scale = 0.5};
+  options.plan.quality = {.resolution_scale = 0.5};
   expect_same(test::random_soup(85, {.kind = GetParam(), .faces = 100, .degree = 2}), options);
-  options.plan.preset = RenderPreset{.supersampling = 2};
+  options.plan.quality = {.supersampling = 2};
   expect_same(test::random_soup(85, {.kind = GetParam(), .faces = 100, .degree = 2}), options);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, PreparedArchive, testing::ValuesIn(test::all_kinds),
                          [](const auto& each) { return test::to_string(each.param); });
-
-TEST(PreparedArchiveOfTurnedKnobs, KeepsTheSoupThatThePresetMade) {
-  const gl::Context context = gl::Context::create(test::osmesa);
-  const TriangleSoup soup =
-      test::random_soup(83, {.kind = test::Kind::lattice_mlp, .faces = 200, .level = 3});
-  RenderOptions options;
-  options.plan.preset = RenderPreset{.lattice_level = 1};
-  const PreparedSoup prepared =
-      prepare_soup(soup, glm::dvec3(0.0), device_limits(context.capabilities()), options);
-  ASSERT_NE(prepared.turned, nullptr);
-  Renderer renderer(context, soup, glm::dvec3(0.0), options);
-  std::uint64_t bytes = 0;
-  for (std::size_t blob = 0; blob < blob_count(prepared); ++blob)
-    bytes += blob_size(prepared, blob);
-  // Rows of textures are filled up; a level more would be four times as much.
-  EXPECT_NEAR(double(bytes), double(renderer.device_bytes()), 0.5 * double(bytes));
-}
-
-TEST(PreparedArchiveOfTurnedKnobs, KeepsWhereFeaturesAreStoredAndWhatIsCovered) {
-  const gl::Context context = gl::Context::create(test::osmesa);
-  const TriangleSoup soup =
-      test::random_soup(86, {.kind = test::Kind::lattice_mlp, .faces = 50, .level = 2});
-  const auto travelled = [&](const RenderPreset& preset) {
-    RenderOptions options;
-    options.plan.preset = preset;
-    const PreparedSoup prepared =
-        prepare_soup(soup, glm::dvec3(0.0), device_limits(context.capabilities()), options);
-    const Blobs blobs = all_blobs(prepared);
-    return unpack(pack_head(prepared),
-                  [&](std::size_t blob, std::uint64_t offset, std::span<std::byte> out) {
-                    std::copy_n(blobs[blob].begin() + std::ptrdiff_t(offset), out.size(),
-                                out.begin());
-                  })
-        .plan;
-  };
-  EXPECT_EQ(travelled({.feature_storage = RenderPreset::FeatureStorage::rgba8}).feature_storage,
-            RenderPreset::FeatureStorage::rgba8);
-  EXPECT_EQ(
-      travelled({.site = RenderPreset::Site::forward, .alpha_to_coverage = 4}).coverage_samples, 4);
-}
 
 }  // namespace
 }  // namespace tureen::web

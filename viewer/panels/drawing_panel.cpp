@@ -7,7 +7,7 @@ namespace tureen::viewer {
 namespace {
 
 /// Returns whether the choice changed.
-bool sampling(DrawingChoice& choice) {
+bool sampling(DrawingChoice& choice, const Scene& scene) {
   static constexpr struct {
     const char* name;
     double scale;
@@ -20,17 +20,16 @@ bool sampling(DrawingChoice& choice) {
                    {"3 x 3 a pixel", 1, 3},
                    {"4 x 4 a pixel", 1, 4},
                    {"8 x 8 a pixel", 1, 8}};
+  const Quality quality = quality_of(choice, scene);
   const char* current = "as asked for";
   for (const auto& each : samplings)
-    if (each.scale == choice.resolution_scale && each.supersampling == choice.supersampling)
-      current = each.name;
+    if (Quality{each.scale, each.supersampling} == quality) current = each.name;
   bool changed = false;
   ImGui::SetNextItemWidth(14 * ImGui::GetFontSize());
   if (!ImGui::BeginCombo("samples", current)) return false;
   for (const auto& each : samplings)
     if (ImGui::Selectable(each.name, each.name == current)) {
-      choice.resolution_scale = each.scale;
-      choice.supersampling = each.supersampling;
+      choice.quality = Quality{each.scale, each.supersampling};
       changed = true;
     }
   ImGui::EndCombo();
@@ -59,28 +58,24 @@ bool left_out(DrawingChoice& choice, const RenderPlan& plan) {
 void drawing_panel(State& state) {
   Stage& stage = *state.stage;
   DrawingChoice choice = state.wanted;
-  bool changed = sampling(choice);
+  bool changed = sampling(choice, *stage.scene);
   bool published = choice.plan.pipeline == PipelineKind::published;
   if (ImGui::Checkbox("the published pipeline", &published)) {
     choice.plan.pipeline = published ? PipelineKind::published : PipelineKind::tureen;
     changed = true;
   }
   tip("A likeness of the viewer that was published with DiffSoup: the baseline");
-  if (stage.scene->preset) {
-    changed |= ImGui::Checkbox("the scene's preset", &choice.obey_preset);
-    if (!stage.drawn.sentence.empty()) aside(stage.drawn.sentence);
-  }
   if (!published) {
     changed |= ImGui::Checkbox("leave out what the scene does not need", &choice.plan.specialise);
     if (choice.plan.specialise) {
       ImGui::Indent();
-      changed |= left_out(choice, stage.renderer().plan());
+      changed |= left_out(choice, stage.renderer.plan());
       ImGui::Unindent();
     }
   }
   if (changed) state.ask(ChooseDrawing{choice});
   ImGui::Separator();
-  for (const std::string& sentence : stage.renderer().plan().sentences) aside(sentence);
+  for (const std::string& sentence : stage.renderer.plan().sentences) aside(sentence);
 }
 
 }  // namespace tureen::viewer

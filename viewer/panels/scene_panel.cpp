@@ -27,7 +27,7 @@ void scene_panel(State& state) {
   const TriangleSoup& soup = stage.soup();
   paragraph(
       fmt::format("{} triangles, {}", soup.triangles.size(), appearance_name(soup.appearance)));
-  text("{:.1f} MiB on the device", double(stage.renderer().device_bytes()) / (1 << 20));
+  text("{:.1f} MiB on the device", double(stage.renderer.device_bytes()) / (1 << 20));
   tip(fmt::format("read in {:.2f} s, prepared in {:.2f} s", stage.read_seconds,
                   stage.prepare_seconds));
   if (!scene.info.source.empty()) aside("from " + scene.info.source);

@@ -154,10 +154,10 @@ export class BenchEngine {
     return added!;
   }
 
-  private unpack({ description, faithful, level, readMs, prepareMs }: PreparedScene): AddedScene {
-    this.engine.setBuffer(new Uint8Array(faithful.head));
-    this.engine.call('take_head', { preset: false });
-    this.engine.setBlobs(faithful.blobs);
+  private unpack({ description, parcel, level, readMs, prepareMs }: PreparedScene): AddedScene {
+    this.engine.setBuffer(new Uint8Array(parcel.head));
+    this.engine.call('take_head');
+    this.engine.setBlobs(parcel.blobs);
     try {
       const facts = this.engine.call<Omit<Pipeline, 'plan_ms'>>('bench_add_scene', { scene: description });
       return { description, level, readMs, pipeline: { ...facts, plan_ms: prepareMs } };

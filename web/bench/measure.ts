@@ -150,7 +150,6 @@ export class Measuring {
     return distinct(added.flatMap(({ description, level }) => [
       ...description.notes,
       ...(level === null ? [] : [lowerLevelSentence(level)]),
-      ...(description.promise ? ['Its preset is not obeyed: frames are drawn faithfully.'] : []),
     ]));
   }
 

@@ -72,7 +72,7 @@ Json clear(const Json&) {
 Json add_scene(const Json& arguments) {
   const Json& scene = arguments.at("scene");
   const double start = milliseconds();
-  Renderer renderer = unpacked(page_view().context(), taken_heads().faithful);
+  Renderer renderer = unpacked(page_view().context());
   renderer.set_background(glm::vec4(vector_of(scene.at("background")), 1.0f));
   const Json result = facts(renderer, start);
   auto added = std::make_unique<BenchScene>(
@@ -88,6 +88,7 @@ Json add_published(const Json& arguments) {
   Scene scene = read_scene(scene_path(arguments));
   RenderOptions options{.background = glm::vec4(scene.info.background, 1.0f)};
   options.plan.pipeline = PipelineKind::published;
+  options.plan.quality = scene.quality;
   const TriangleSoup& soup = opaque_soup(scene);
   const double start = milliseconds();
   RenderPlan plan = make_plan(soup, device_limits(page_view().capabilities()), options.plan);

@@ -5,8 +5,9 @@
 #include "formats/scene_file.hpp"
 #include "formats/tureen_glb_preview.hpp"
 #include "runtime/inspection.hpp"
-#include "runtime/preset_check.hpp"
+#include "runtime/render_options.hpp"
 #include "runtime/up_axis.hpp"
+#include "soup/edits.hpp"
 #include "web/engine/commands.hpp"
 #include "web/engine/prepared_archive.hpp"
 #include "web/engine/scene_path.hpp"
@@ -21,7 +22,8 @@ constexpr std::uint64_t most_alpha_cell_bytes = 16 << 20;
 
 struct Loader {
   std::optional<Scene> scene;
-  std::optional<PreparedSoup> prepared;  // reads the scene's soup
+  std::optional<TriangleSoup> reduced;   // for want of memory
+  std::optional<PreparedSoup> prepared;  // reads the scene's soup, or the reduced one
 
   const TriangleSoup& soup() const { return std::get<TriangleSoup>(scene->primitives); }
 };
@@ -41,17 +43,6 @@ Json looks_of(const TriangleSoup& soup) {
                      {"missing", reason ? Json(*reason) : Json()}});
   }
   return looks;
-}
-
-/// What the preset promises, for the instance that can look whether it holds.
-Json promise_of(const Scene& scene) {
-  if (!scene.preset || is_faithful(*scene.preset)) return nullptr;
-  Json views = Json::array();
-  for (const Camera& view : preset_views(scene)) views.push_back(to_json(view));
-  const PresetPromise promise = promise_of_preset(*scene.preset);
-  return {{"knobs", promise.knobs},
-          {"psnr_db", promise.psnr_db ? Json(*promise.psnr_db) : Json()},
-          {"views", views}};
 }
 
 /// Without the options of the program that would read otherwise: a page has none.
@@ -78,12 +69,12 @@ Json describe(const Scene& scene) {
           {"subject", to_json(subject)},
           {"up_reason", describe(up)},
           {"looks", looks_of(soup)},
-          {"feature_count", feature_count(soup)},
-          {"promise", promise_of(scene)}};
+          {"feature_count", feature_count(soup)}};
 }
 
 Json take(Scene scene) {
   loader().prepared.reset();
+  loader().reduced.reset();
   loader().scene = std::move(scene);
   opaque_soup(*loader().scene);
   return describe(*loader().scene);
@@ -109,22 +100,19 @@ Json preview(const Json& arguments) {
   return scene ? take(std::move(*scene)) : Json();
 }
 
-/// {"limits", "preset": whether the scene's is obeyed, "level"?: no lattice above it}. The head is
-/// then in the buffer.
+/// {"limits", "level"?: no lattice above it}. The head is then in the buffer.
 Json prepare(const Json& arguments) {
-  RenderOptions options;
-  options.progress = report_progress;
-  options.plan.most_alpha_cell_bytes = most_alpha_cell_bytes;
   const Scene& scene = loader().scene.value();
-  if (arguments.at("preset").get<bool>()) options.plan.preset = scene.preset;
-  if (const auto level = arguments.find("level"); level != arguments.end()) {
-    RenderPreset preset = options.plan.preset.value_or(RenderPreset());
-    preset.lattice_level = std::min(preset.lattice_level, level->get<int>());
-    options.plan.preset = preset;
-  }
-  PreparedSoup prepared =
-      prepare_soup(loader().soup(), scene.origin, limits_of(arguments.at("limits")), options);
-  loader().prepared = std::move(prepared);
+  loader().prepared.reset();
+  loader().reduced.reset();
+  if (const auto level = arguments.find("level"); level != arguments.end())
+    loader().reduced =
+        edited(loader().soup(), {.lattice_level = level->get<int>()}, report_progress);
+  RenderOptions options;
+  options.plan.most_alpha_cell_bytes = most_alpha_cell_bytes;
+  options.plan.quality = scene.quality;
+  loader().prepared = prepare_soup(loader().reduced ? *loader().reduced : loader().soup(),
+                                   scene.origin, limits_of(arguments.at("limits")), options);
   buffer() = pack_head(*loader().prepared);
   Json blobs = Json::array();
   for (std::size_t i = 0; i < blob_count(*loader().prepared); ++i)

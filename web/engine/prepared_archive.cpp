@@ -14,9 +14,9 @@ void archive_plan(Archive& archive, Plan& plan) {
           plan.clusters, plan.drops_faces_between_pixels, plan.flat_colors, plan.color_mlp,
           plan.mlp_weights, plan.view_direction, plan.latent_features,
           plan.depth_rejects_background, plan.harmonics_degree, plan.feature_ranges,
-          plan.lattice.uniform_level, plan.lattice.levels, plan.lattice.texel_bits,
-          plan.lattice.alpha_by_cell, plan.left_out, plan.feature_storage, plan.shading_stage,
-          plan.coverage_samples, plan.resolution_scale, plan.supersampling, plan.sentences);
+          plan.lattice.uniform_level, plan.lattice.levels, plan.lattice.alpha_by_cell,
+          plan.left_out, plan.shading_stage, plan.quality.resolution_scale,
+          plan.quality.supersampling, plan.sentences);
 }
 
 template <class Archive, class Network>

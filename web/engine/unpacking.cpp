@@ -8,28 +8,20 @@ namespace tureen::web {
 
 namespace {
 
-Heads& heads() {
-  static Heads both;
-  return both;
+std::vector<std::byte>& taken_head() {
+  static std::vector<std::byte> head;
+  return head;
 }
 
 }  // namespace
 
-Json take_head(const Json& arguments) {
-  (arguments.at("preset").get<bool>() ? heads().quick : heads().faithful) = std::move(buffer());
-  buffer() = {};
+Json take_head(const Json&) {
+  taken_head() = std::exchange(buffer(), {});
   return nullptr;
 }
 
-Heads taken_heads() { return std::exchange(heads(), {}); }
-
-Renderer unpacked(const gl::Context& context, const std::vector<std::byte>& head,
-                  std::size_t first_blob) {
-  const BlobReader read = [first_blob](std::size_t blob, std::uint64_t offset,
-                                       std::span<std::byte> out) {
-    pull_block(first_blob + blob, offset, out);
-  };
-  return Renderer(context, unpack(head, read));
+Renderer unpacked(const gl::Context& context) {
+  return Renderer(context, unpack(std::exchange(taken_head(), {}), pull_block));
 }
 
 }  // namespace tureen::web

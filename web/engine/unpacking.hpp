@@ -1,4 +1,5 @@
-// Scenes that arrive at the instance of the page: heads in the buffer, blobs in Module.blobs.
+// A scene that arrives at the instance of the page: its head in the buffer, its blobs in
+// Module.blobs.
 #pragma once
 
 #include "runtime/renderer.hpp"
@@ -6,21 +7,10 @@
 
 namespace tureen::web {
 
-/// Heads that wait to be unpacked: without the scene's preset, and with it where that must be
-/// compared.
-struct Heads {
-  std::vector<std::byte> faithful, quick;
-};
-
-/// {"preset"}: the buffer is a head.
+/// The buffer is a head, which waits to be unpacked.
 Json take_head(const Json& arguments);
 
-/// Those that were taken, which are forgotten.
-Heads taken_heads();
-
-/// Its blobs begin at `first_blob`: those of the scene with the preset follow those of the one
-/// without.
-Renderer unpacked(const gl::Context& context, const std::vector<std::byte>& head,
-                  std::size_t first_blob = 0);
+/// The scene of the head that was taken, which is forgotten.
+Renderer unpacked(const gl::Context& context);
 
 }  // namespace tureen::web

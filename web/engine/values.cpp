@@ -35,8 +35,6 @@ Json to_json(const DeviceLimits& limits) {
   return {{"max_texture_size", limits.max_texture_size},
           {"max_array_layers", limits.max_array_layers},
           {"clip_control", limits.clip_control},
-          {"half_float_targets", limits.half_float_targets},
-          {"sample_counts", limits.sample_counts},
           {"compute_shaders", limits.compute_shaders},
           {"software", limits.software}};
 }
@@ -45,8 +43,6 @@ DeviceLimits limits_of(const Json& value) {
   return {.max_texture_size = value.at("max_texture_size"),
           .max_array_layers = value.at("max_array_layers"),
           .clip_control = value.at("clip_control"),
-          .half_float_targets = value.at("half_float_targets"),
-          .sample_counts = value.at("sample_counts").get<std::vector<int>>(),
           .compute_shaders = value.at("compute_shaders"),
           .software = value.at("software")};
 }

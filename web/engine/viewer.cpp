@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "formats/scene_file.hpp"
-#include "runtime/preset_check.hpp"
 #include "runtime/view_state.hpp"
 #include "soup/error.hpp"
 #include "web/engine/commands.hpp"
@@ -38,42 +37,22 @@ ShownScene scene_of(const Json& scene) {
   return shown;
 }
 
-Json facts(const std::string& preset) {
+Json facts() {
   return {{"plan", view().renderer().plan().sentences},
-          {"preset", preset},
           {"drawn", view().renderer().plan().faces.size()},
           {"device_bytes", view().renderer().device_bytes()}};
 }
 
-PresetPromise promise_of(const Json& promise) {
-  PresetPromise result{.knobs = promise.at("knobs").get<std::string>()};
-  if (!promise.at("psnr_db").is_null()) result.psnr_db = promise.at("psnr_db").get<double>();
-  for (const Json& view : promise.at("views")) result.views.push_back(camera_of(view));
-  return result;
-}
-
-/// {"scene": what "read" said, "role": "preview" or "scene", "quick_blobs"?: where the blobs with
-/// the preset begin}
+/// {"scene": what "read" said, "role": "preview" or "scene"}
 Json show(const Json& arguments) {
-  const Json& scene = arguments.at("scene");
-  const auto quick_blobs = arguments.find("quick_blobs");
-  const Heads taken = taken_heads();
-  const auto faithful = [&] { return unpacked(view().context(), taken.faithful); };
+  const ShownScene scene = scene_of(arguments.at("scene"));
   if (arguments.at("role") == "preview") {
-    view().show_preview(faithful(), scene_of(scene));
-    return facts("");
+    view().show_preview(unpacked(view().context()), scene);
+    return facts();
   }
   view().drop_scene();  // or both would have to fit
-  CheckedRenderer checked =
-      quick_blobs == arguments.end()
-          ? CheckedRenderer{faithful(), "", false}
-          : checked_renderer(
-                promise_of(scene.at("promise")),
-                {.with_preset =
-                     [&] { return unpacked(view().context(), taken.quick, *quick_blobs); },
-                 .without = faithful});
-  view().show(std::move(checked.renderer), scene_of(scene));
-  return facts(checked.sentence);
+  view().show(unpacked(view().context()), scene);
+  return facts();
 }
 
 Json clear(const Json&) {

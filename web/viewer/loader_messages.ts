@@ -23,14 +23,11 @@ export interface SceneDescription {
   readonly up_reason: string;
   readonly looks: readonly LookChoice[];
   readonly feature_count: number;
-  readonly promise: { readonly knobs: string } | null;
 }
 
-/** With `quick` where the scene has a preset: then the page looks whether it may be shown. */
 export interface PreparedScene {
   readonly description: SceneDescription;
-  readonly faithful: Parcel;
-  readonly quick: Parcel | null;
+  readonly parcel: Parcel;
   /** Set where it is a lower one than the scene's, for want of memory. */
   readonly level: number | null;
   /** What the loader's processor took: from the file's bytes to the soup, and to what the device gets. */

@@ -54,7 +54,7 @@ class Loader {
       this.tell('download', total === null ? null : prefix.length / total);
       if (prefix.length === total) return;  // a picture of the whole comes as soon
       const description = preview.read(prefix);
-      if (description) post({ kind: 'preview', scene: await this.prepared(description, false) });
+      if (description) post({ kind: 'preview', scene: await this.prepared(description) });
     });
     return oneFile(name, bytes);
   }
@@ -66,24 +66,21 @@ class Loader {
 
   private async send(): Promise<void> {
     this.engine.onProgress = (fraction) => this.tell('prepare', fraction);
-    const scene = await this.prepared(this.description!, this.description!.promise !== null);
+    const scene = await this.prepared(this.description!);
     this.tell('upload', 0);
     post({ kind: 'scene', scene });
   }
 
-  private async prepared(description: SceneDescription, quick: boolean): Promise<PreparedScene> {
+  private async prepared(description: SceneDescription): Promise<PreparedScene> {
     const limits = await this.limits, begin = performance.now();
-    const faithful = this.packed(limits, false), prepareMs = performance.now() - begin;
-    return {
-      description, level: this.level, readMs: this.readMs, prepareMs,
-      faithful, quick: quick ? this.packed(limits, true) : null,
-    };
+    const parcel = this.packed(limits), prepareMs = performance.now() - begin;
+    return { description, parcel, level: this.level, readMs: this.readMs, prepareMs };
   }
 
   /** The engine's memory grows while it prepares, so its buffer is looked at anew for each block. */
-  private packed(limits: unknown, preset: boolean): Parcel {
+  private packed(limits: unknown): Parcel {
     const level = this.level === null ? {} : { level: this.level };
-    const blobs = this.engine.call<{ size: number; grain: number }[]>('prepare', { limits, preset, ...level });
+    const blobs = this.engine.call<{ size: number; grain: number }[]>('prepare', { limits, ...level });
     const head = this.engine.buffer().slice().buffer;
     return { head, blobs: blobs.map(({ size, grain }, blob) => this.blob(blob, size, grain)) };
   }
@@ -110,9 +107,10 @@ class Loader {
 
 function post(message: FromLoader): void {
   const transferred: Transferable[] = [];
-  if (message.kind === 'scene' || message.kind === 'preview')
-    for (const parcel of [message.scene.faithful, message.scene.quick])
-      if (parcel) transferred.push(parcel.head, ...parcel.blobs);
+  if (message.kind === 'scene' || message.kind === 'preview') {
+    const { head, blobs } = message.scene.parcel;
+    transferred.push(head, ...blobs);
+  }
   self.postMessage(message, { transfer: transferred });
 }
 

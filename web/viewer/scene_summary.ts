@@ -6,8 +6,6 @@ import type { SceneSummary } from './types.js';
 /** What showing a scene has told: web/engine/viewer.cpp. */
 export interface ShownFacts {
   readonly plan: readonly string[];
-  /** What became of the preset; empty where there is none. */
-  readonly preset: string;
   /** So many triangles. */
   readonly drawn: number;
   readonly device_bytes: number;
@@ -22,7 +20,7 @@ export function sceneSummary({ description }: PreparedScene, facts: ShownFacts):
   const { name, source, notes, triangles, appearance, cameras, background, subject, looks } = description;
   return {
     name, source, triangles, appearance, background,
-    notes: [...notes, ...(facts.preset ? [facts.preset] : []), ...(facts.drawn ? [] : [nothingDrawn])],
+    notes: [...notes, ...(facts.drawn ? [] : [nothingDrawn])],
     plan: facts.plan,
     cameras: cameras.map(({ name, width, height }) => ({ name, width, height })),
     up: subject.up,

@@ -31,7 +31,7 @@ export interface SceneSummary {
   readonly name: string;
   /** The method or format that it came from, for people; may be empty. */
   readonly source: string;
-  /** What reading it assumed or lost, and what became of its preset: a sentence each. */
+  /** What reading it assumed or lost: a sentence each. */
   readonly notes: readonly string[];
   readonly triangles: number;
   /** "lattice texture", "face colours", .. */

@@ -227,19 +227,13 @@ class CanvasViewer implements Viewer {
   }
 
   private unpack(scene: PreparedScene, role: 'preview' | 'scene'): ShownFacts {
-    const { description, faithful, quick } = scene;
-    const take = (head: ArrayBuffer, preset: boolean) => {
-      this.engine.setBuffer(new Uint8Array(head));
-      this.engine.call('take_head', { preset });
-    };
-    take(faithful.head, false);
-    if (quick) take(quick.head, true);
-    this.engine.setBlobs([...faithful.blobs, ...(quick?.blobs ?? [])]);
+    const { description, parcel } = scene;
+    this.engine.setBuffer(new Uint8Array(parcel.head));
+    this.engine.call('take_head');
+    this.engine.setBlobs(parcel.blobs);
     if (role === 'preview' || !this.previewed) this.background = description.background;
     try {
-      return this.engine.call<ShownFacts>('show', {
-        scene: description, role, ...(quick && { quick_blobs: faithful.blobs.length }),
-      });
+      return this.engine.call<ShownFacts>('show', { scene: description, role });
     } finally {
       this.engine.setBlobs([]);
       this.engine.call('gliding', this.gliding_);

@@ -1,14 +1,12 @@
-// Counting what is seen, and whether presets keep their promises.
-#include "runtime/preset_check.hpp"
+// Counting what is seen.
+#include "runtime/visibility_count.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <map>
 #include <numeric>
 
-#include "runtime/visibility_count.hpp"
 #include "soup/lattice.hpp"
 #include "soup/metrics.hpp"
 #include "support/agreement.hpp"
@@ -16,8 +14,6 @@
 
 namespace tureen {
 namespace {
-
-using ::testing::HasSubstr;
 
 gl::Context& context() {
   static gl::Context shared = gl::Context::create({});
@@ -31,8 +27,6 @@ std::vector<Camera> cameras(std::uint64_t seed, int count) {
   for (int i = 0; i < count; ++i) result.push_back(test::random_camera(random, 160, 120));
   return result;
 }
-
-// -- visibility -----------------------------------------------------------------------------------
 
 TEST(VisibilityCount, IsThePixelsThatTheOracleNames) {
   SCOPED_TRACE("seed 801");
@@ -132,15 +126,6 @@ TEST(VisibilityCount, TheMostVisibleAreKeptStably) {
   EXPECT_EQ(most_visible(pixels, 0.01), Keeps({0, 0, 1, 0, 0, 0}));
   EXPECT_EQ(most_visible(pixels, 0.84), Keeps({1, 1, 1, 1, 1, 0}));
   EXPECT_EQ(most_visible({}, 0.5), Keeps());
-
-  RenderPreset preset;
-  set_triangle_fraction(preset, pixels, 0.5);
-  EXPECT_EQ(defect(preset), std::nullopt);
-  EXPECT_EQ(preset.keeps_face, most_visible(pixels, 0.5));
-  set_triangle_fraction(preset, pixels, 1.0);
-  EXPECT_TRUE(is_faithful(preset));
-  set_triangle_fraction(preset, {}, 0.5);
-  EXPECT_EQ(defect(preset), std::nullopt);
 }
 
 // What no view shows changes no view.
@@ -160,100 +145,6 @@ TEST(VisibilityCount, LeavingOutWhatIsNotSeenChangesNothing) {
     // Other clusters, the same pictures.
     EXPECT_TRUE(all.color.pixels == some.color.pixels);
   }
-}
-
-// -- promises -------------------------------------------------------------------------------------
-
-Scene scene_of(std::uint64_t seed) {
-  Scene scene;
-  scene.primitives = test::random_soup(seed, {.kind = test::Kind::lattice_mlp, .level = 4});
-  return scene;
-}
-
-CheckedRenderer checked(const Scene& scene, const RenderPreset& preset,
-                        PipelineKind pipeline = PipelineKind::tureen) {
-  return checked_renderer(context(), std::get<TriangleSoup>(scene.primitives), scene.origin,
-                          {.plan = {.pipeline = pipeline}}, {preset, preset_views(scene)});
-}
-
-TEST(PresetCheck, HasFourViewsOfTheScene) {
-  Scene scene = scene_of(810);
-  EXPECT_EQ(preset_views(scene).size(), 4u);
-  scene.cameras = cameras(810, 5);
-  const auto views = preset_views(scene);
-  ASSERT_EQ(views.size(), 4u);
-  EXPECT_EQ(views[0].view_from_world, scene.cameras[0].view_from_world);
-  EXPECT_EQ(views[1].view_from_world, scene.cameras[2].view_from_world);
-  EXPECT_EQ(views[0].width, 64);  // 160 / 4 is less than the least
-  auto& soup = std::get<TriangleSoup>(scene.primitives);
-  for (const Camera& view : views) {
-    Renderer renderer(context(), soup, scene.origin, {.plan = {.site = ShadingSite::deferred}});
-    renderer.draw(view);
-    std::size_t covered = 0;
-    for (const std::uint32_t face : renderer.read_faces()) covered += face != no_face ? 1 : 0;
-    EXPECT_GT(covered, 20u);
-  }
-}
-
-TEST(PresetCheck, APromiseThatIsKeptIsObeyed) {
-  SCOPED_TRACE("seed 811");
-  const Scene scene = scene_of(811);
-  RenderPreset preset{.lattice_level = 3};
-  const double psnr = measured_promise(context(), scene, preset);
-  EXPECT_GT(psnr, 10);
-  EXPECT_LT(psnr, 60);
-  preset.promised_psnr_db = psnr;
-  const CheckedRenderer kept = checked(scene, preset);
-  EXPECT_TRUE(kept.obeys_preset);
-  EXPECT_THAT(kept.sentence, HasSubstr("is obeyed"));
-  EXPECT_THAT(kept.sentence, HasSubstr("lattice level at most 3"));
-  EXPECT_THAT(kept.renderer.plan().sentences[1], HasSubstr("knob: no lattice above level 3"));
-}
-
-TEST(PresetCheck, APromiseThatIsBrokenIsNot) {
-  SCOPED_TRACE("seed 811");
-  const Scene scene = scene_of(811);
-  RenderPreset preset{.lattice_level = 0};
-  preset.promised_psnr_db = measured_promise(context(), scene, preset) + 1;
-  CheckedRenderer broken = checked(scene, preset);
-  EXPECT_FALSE(broken.obeys_preset);
-  EXPECT_THAT(broken.sentence, HasSubstr("is not obeyed"));
-  EXPECT_THAT(broken.sentence, HasSubstr("on four views"));
-  Renderer faithful(context(), std::get<TriangleSoup>(scene.primitives), scene.origin,
-                    RenderOptions{});
-  EXPECT_EQ(psnr_between(faithful, broken.renderer, preset_views(scene)), 100);
-}
-
-// What the caller asks for is drawn whether or not the scene's preset is, and is no part of what
-// the preset is held against.
-TEST(PresetCheck, WhatIsAskedForIsObeyedInAnyCase) {
-  SCOPED_TRACE("seed 813");
-  const Scene scene = scene_of(813);
-  const auto asked = [&](RenderPreset preset) {
-    return checked_renderer(context(), std::get<TriangleSoup>(scene.primitives), scene.origin,
-                            {.plan = {.preset = RenderPreset{.supersampling = 2}}},
-                            {preset, preset_views(scene)});
-  };
-  RenderPreset harmless{.texel_bits = 16, .resolution_scale = 0.5, .promised_psnr_db = 30.0};
-  CheckedRenderer kept = asked(harmless);
-  EXPECT_TRUE(kept.obeys_preset) << kept.sentence;
-  EXPECT_EQ(kept.renderer.plan().supersampling, 2);
-  EXPECT_EQ(kept.renderer.plan().resolution_scale, 1);
-  const CheckedRenderer broken = asked({.lattice_level = 0, .promised_psnr_db = 99.0});
-  EXPECT_FALSE(broken.obeys_preset);
-  EXPECT_EQ(broken.renderer.plan().supersampling, 2);
-}
-
-TEST(PresetCheck, WhatCannotBeObeyedIsSaid) {
-  const Scene scene = scene_of(812);
-  EXPECT_THAT(checked(scene, {.lattice_level = 2}, PipelineKind::published).sentence,
-              HasSubstr("not obeyed: the published pipeline draws in one way"));
-  EXPECT_THAT(checked(scene, {.triangle_fraction = 0.5, .keeps_face = {1}}).sentence,
-              HasSubstr("not obeyed: the preset chooses among 1 triangles"));
-  const CheckedRenderer unpromised = checked(scene, {.lattice_level = 2});
-  EXPECT_TRUE(unpromised.obeys_preset);
-  EXPECT_THAT(unpromised.sentence, HasSubstr("promises nothing"));
-  EXPECT_EQ(checked(scene, {}).sentence, "");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What tests of the drawing knobs share: pictures drawn with a preset.
+// What tests of quality settings share: images drawn with one.
 #pragma once
 
 #include "runtime/renderer.hpp"
@@ -6,10 +6,10 @@
 
 namespace tureen::test {
 
-inline PlanPreferences with(const RenderPreset& preset) { return {.site = {}, .preset = preset}; }
+inline PlanPreferences with(const Quality& quality) { return {.site = {}, .quality = quality}; }
 
-inline RenderOptions options_with(const RenderPreset& preset) {
-  return {.plan = with(preset), .limits = {}};
+inline RenderOptions options_with(const Quality& quality) {
+  return {.plan = with(quality), .limits = {}};
 }
 
 inline TriangleSoup soup_of(Kind kind) {

@@ -1,0 +1,27 @@
+#include "cli/edit_options.hpp"
+
+#include "cli/choice.hpp"
+#include "cli/number_range.hpp"
+
+namespace tureen::cli {
+
+void add_edit_options(CLI::App& command, Edits& edits) {
+  command
+      .add_option("--lattice-level", edits.lattice_level,
+                  "no lattice texture above level L, 0 to 7: finer ones are projected")
+      ->check(between(0, lattice::max_level))
+      ->option_text("L");
+  add_choice<Edits::Color>(command, "--color", edits.color,
+                           {{"network", Edits::Color::network},
+                            {"baked", Edits::Color::baked},
+                            {"base", Edits::Color::base}},
+                           "what turns texels into colour: network (default, the color MLP where "
+                           "there is one), baked (its mean over all directions) or base (features "
+                           "0 to 2 alone)")
+      ->option_text("NAME");
+  add_choice<bool>(command, "--texel-bits", edits.byte_texels, {{"32", false}, {"8", true}},
+                   "bits of a texel's channel at most: 32 (default, as stored) or 8")
+      ->option_text("N");
+}
+
+}  // namespace tureen::cli
