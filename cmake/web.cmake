@@ -13,5 +13,5 @@ add_compile_options(-fwasm-exceptions)
 add_link_options(-fwasm-exceptions)
 
 # For size: a page is waited for. What a frame costs is the device's, and reading a scene is zlib's and
-# ours in loops that -Os leaves as they are (docs/web.md has the figures).
+# ours in loops that -Os leaves as they are.
 set(CMAKE_CXX_FLAGS_RELEASE "-Os -DNDEBUG")

@@ -15,8 +15,8 @@ enum class FaceAlpha : std::uint8_t {
 };
 
 /// One a face, decided from the data. Interpolated alpha stays between the values that it is
-/// interpolated from, so the smallest and the largest decide, exactly (docs/leaving-out.md, O1 and
-/// O2).
+/// interpolated from, so the smallest and the largest decide, exactly (docs/leaving-out.md,
+/// alpha-test and transparent-faces).
 std::vector<FaceAlpha> classify_alpha(const TriangleSoup& soup);
 
 /// False for a face that no rasteriser can draw: a corner that is not finite, or an area of nothing

@@ -1,6 +1,6 @@
-// The entries of LeaveOut that decide by a bound on what a color MLP makes of them (L1, M1 and
-// M3 of docs/leaving-out.md), at that bound: networks made to attain it show that it is neither too
-// lax nor too strict, random ones that it always holds.
+// The entries of LeaveOut that decide by a bound on what a color MLP makes of them (affine-texels,
+// color-mlp and view-direction), at that bound: networks made to attain it show that it is neither
+// too lax nor too strict, random ones that it always holds.
 #include <gtest/gtest.h>
 
 #include <array>
