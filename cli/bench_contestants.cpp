@@ -131,8 +131,8 @@ Setting setting_of(const std::string& name, PlanPreferences plan) {
     return {plan, options};
   }
   std::string kept;
-  for (const LeaveOutName& known : leave_out_names())
-    if (!plan.leave_out.has(known.what))
+  for (const SpecialisationName& known : specialisation_names())
+    if (!plan.specialisations.has(known.what))
       kept += (kept.empty() ? "" : ",") + std::string(known.name);
   if (!kept.empty()) options.insert(options.end(), {"--keep", kept});
   return {plan, options};
@@ -194,7 +194,7 @@ Contestants make_contestants(const ContestantOptions& options, const gl::Context
   Contestants result;
   const std::vector<std::string> names = names_of(options);
   for (const std::string& name : names) {
-    const auto leave_out = [&](const Error& error) {
+    const auto note = [&](const Error& error) {
       // Where it was asked for by name, or alone, there is nothing to go on with.
       if (!options.only.empty() || names.size() == 1) throw;
       result.notes.push_back(name + " is left out: " + error.reason());
@@ -202,9 +202,9 @@ Contestants make_contestants(const ContestantOptions& options, const gl::Context
     try {
       result.list.push_back(make_contestant(name, options, context, scene));
     } catch (const UsageError& error) {
-      leave_out(error);
+      note(error);
     } catch (const DeviceLimitError& error) {
-      leave_out(error);
+      note(error);
     }
     if (result.list.size() == 1 && result.peak_mib == 0) result.peak_mib = peak_mib();
   }

@@ -10,15 +10,15 @@ namespace tureen::cli {
 
 namespace {
 
-LeaveOut named(const std::string& name) {
-  if (const auto known = leave_out_named(name)) return *known;
+Specialisation named(const std::string& name) {
+  if (const auto known = specialisation_named(name)) return *known;
   constexpr std::array removed{"transparent-rims", "base-color", "texel-table"};
   if (std::find(removed.begin(), removed.end(), name) != removed.end())
     throw UsageError("--keep no longer takes '" + name + "', a specialisation that was removed",
                      "delete the name");
   std::vector<std::string> names;
   std::string list;
-  for (const LeaveOutName& known : leave_out_names()) {
+  for (const SpecialisationName& known : specialisation_names()) {
     list += (names.empty() ? "" : ", ") + std::string(known.name);
     names.emplace_back(known.name);
   }
@@ -47,7 +47,7 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
           "--keep",
           [&options](const std::vector<std::string>& names) {
             for (const std::string& name : names)
-              options.plan.leave_out = options.plan.leave_out.without(named(name));
+              options.plan.specialisations = options.plan.specialisations.without(named(name));
           },
           "do not leave these out, whether the scene needs them or not: names from "
           "docs/leaving-out.md with commas between, as alpha-test,background")

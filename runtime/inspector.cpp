@@ -25,11 +25,11 @@ namespace {
 /// A plan that keeps all there is to see. Only how the same is computed may be chosen.
 RenderPlan make_inspection_plan(const TriangleSoup& soup, const DeviceLimits& limits,
                                 const InspectorOptions& options) {
-  LeaveOutSet leave_out;
-  leave_out.add(LeaveOut::weight_uniforms);
-  leave_out.add(LeaveOut::dead_neurons);
+  SpecialisationSet wanted;
+  wanted.add(Specialisation::weight_uniforms);
+  wanted.add(Specialisation::dead_neurons);
   RenderPlan plan = make_plan(soup, limits,
-                              {.leave_out = leave_out,
+                              {.specialisations = wanted,
                                .reversed_depth = options.reversed_depth,
                                .site = ShadingSite::deferred});
   plan.latent_features = feature_count(soup) > 4;

@@ -15,17 +15,17 @@ void choose_site(PlanDraft& draft) {
                      std::holds_alternative<VertexColors>(draft.soup.appearance) ||
                      (std::holds_alternative<UvTextures>(draft.soup.appearance) && !plan.color_mlp);
   const bool forward =
-      cheap && (draft.may(LeaveOut::shading_pass) || !draft.preferences.specialise);
+      cheap && (draft.may(Specialisation::shading_pass) || !draft.preferences.specialise);
   const std::optional<ShadingSite> wanted = draft.preferences.site;
   plan.site = wanted.value_or(forward ? ShadingSite::forward : ShadingSite::deferred);
   plan.depth_rejects_background =
-      draft.may(LeaveOut::background) && plan.site == ShadingSite::deferred;
+      draft.may(Specialisation::background) && plan.site == ShadingSite::deferred;
   if (plan.depth_rejects_background)
-    draft.leave_out(LeaveOut::background,
-                    "shading of background pixels, the depth test rejects them (exact)");
+    draft.apply(Specialisation::background,
+                "shading of background pixels, the depth test rejects them (exact)");
   if (draft.preferences.specialise && !wanted && plan.site == ShadingSite::forward)
-    draft.leave_out(
-        LeaveOut::shading_pass,
+    draft.apply(
+        Specialisation::shading_pass,
         "the shading pass, colours are cheap enough to write at once (exact but for rounding)");
 }
 
@@ -72,14 +72,14 @@ void plan_appearance(PlanDraft& draft, const FaceColors&) { draft.plan.flat_colo
 
 void plan_appearance(PlanDraft& draft, const VertexColors& colors) {
   RenderPlan& plan = draft.plan;
-  if (!draft.may(LeaveOut::interpolation) || plan.opaque_count < plan.faces.size()) return;
+  if (!draft.may(Specialisation::interpolation) || plan.opaque_count < plan.faces.size()) return;
   for (const std::uint32_t t : plan.faces) {
     const glm::uvec3& v = draft.soup.triangles[t];
     if (colors.rgba[v.x] != colors.rgba[v.y] || colors.rgba[v.x] != colors.rgba[v.z]) return;
   }
   plan.flat_colors = true;
-  draft.leave_out(LeaveOut::interpolation,
-                  "interpolation, the three vertex colours of every face are equal (exact)");
+  draft.apply(Specialisation::interpolation,
+              "interpolation, the three vertex colours of every face are equal (exact)");
 }
 
 void plan_appearance(PlanDraft& draft, const UvTextures& textures) {

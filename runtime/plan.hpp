@@ -10,7 +10,7 @@
 
 #include "runtime/color_mlp_source.hpp"
 #include "runtime/draw_order.hpp"
-#include "runtime/leave_out.hpp"
+#include "runtime/specialisation.hpp"
 #include "soup/quality.hpp"
 #include "soup/triangle_soup.hpp"
 
@@ -50,7 +50,7 @@ struct PlanPreferences {
   /// weights are uniforms.
   bool specialise = true;
   /// What may be left out, where `specialise` is set.
-  LeaveOutSet leave_out = LeaveOutSet::all();
+  SpecialisationSet specialisations = SpecialisationSet::all();
   bool reversed_depth = true;            // where the device can
   std::optional<ShadingSite> site = {};  // the plan's own choice when absent
   /// Measured on software OpenGL alone (docs/benchmarks.md, "Shading as compute"): compute is equal
@@ -101,8 +101,8 @@ struct RenderPlan {
   FeatureRanges feature_ranges;  // of what the network sees, for constant weights
   LatticePlan lattice;
 
-  /// What of LeaveOut this plan leaves out.
-  LeaveOutSet left_out;
+  /// What of Specialisation this plan leaves out.
+  SpecialisationSet left_out;
   /// `fragment` where there is no choice.
   ShadingStage shading_stage = ShadingStage::fragment;
   Quality quality;

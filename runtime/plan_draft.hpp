@@ -27,12 +27,12 @@ struct PlanDraft {
   RenderPlan plan;
 
   /// Whether the caller lets this be left out.
-  bool may(LeaveOut what) const {
-    return preferences.specialise && preferences.leave_out.has(what);
+  bool may(Specialisation what) const {
+    return preferences.specialise && preferences.specialisations.has(what);
   }
   void say(std::string sentence) { plan.sentences.push_back(std::move(sentence)); }
   /// `what` is left out; the sentence says so with the measured margin.
-  void leave_out(LeaveOut what, std::string sentence) {
+  void apply(Specialisation what, std::string sentence) {
     plan.left_out.add(what);
     say("left out: " + std::move(sentence));
   }

@@ -21,8 +21,8 @@ std::vector<std::uint32_t> drawable_faces(PlanDraft& draft) {
 
 /// Of faces with the same corners the lowest index wins wherever it is opaque: those behind one
 /// that is so throughout never show. `faces` are sorted spatially.
-void leave_out_coincident_faces(PlanDraft& draft, const std::vector<FaceAlpha>& alpha,
-                                std::vector<std::uint32_t>& faces) {
+void skip_coincident_faces(PlanDraft& draft, const std::vector<FaceAlpha>& alpha,
+                           std::vector<std::uint32_t>& faces) {
   std::vector<std::uint32_t> kept;
   kept.reserve(faces.size());
   for (const std::uint32_t face : faces)
@@ -30,10 +30,9 @@ void leave_out_coincident_faces(PlanDraft& draft, const std::vector<FaceAlpha>& 
         !coincident(draft.soup, kept.back(), face))
       kept.push_back(face);
   if (kept.size() == faces.size()) return;
-  draft.leave_out(
-      LeaveOut::coincident_faces,
-      formatted("%zu of %zu faces lie behind an opaque one with the same corners (exact)",
-                faces.size() - kept.size(), faces.size()));
+  draft.apply(Specialisation::coincident_faces,
+              formatted("%zu of %zu faces lie behind an opaque one with the same corners (exact)",
+                        faces.size() - kept.size(), faces.size()));
   faces = std::move(kept);
 }
 
@@ -56,13 +55,13 @@ constexpr std::size_t least_faces_between_pixels = 16384;
 
 void plan_faces_between_pixels(PlanDraft& draft, const DeviceLimits& limits) {
   if (!limits.software || draft.plan.faces.size() < least_faces_between_pixels ||
-      !draft.may(LeaveOut::faces_between_pixels))
+      !draft.may(Specialisation::faces_between_pixels))
     return;
   draft.plan.drops_faces_between_pixels = true;
-  draft.leave_out(LeaveOut::faces_between_pixels,
-                  formatted("in each frame, faces that cover no pixel's centre (exact; from %zu "
-                            "faces on, and only where the processor draws)",
-                            least_faces_between_pixels));
+  draft.apply(Specialisation::faces_between_pixels,
+              formatted("in each frame, faces that cover no pixel's centre (exact; from %zu "
+                        "faces on, and only where the processor draws)",
+                        least_faces_between_pixels));
 }
 
 }  // namespace
@@ -74,30 +73,31 @@ void plan_faces(PlanDraft& draft, const DeviceLimits& limits) {
 
   std::vector<FaceAlpha> alpha(soup.triangles.size(), FaceAlpha::cut_out);
   if (draft.preferences.specialise) alpha = classify_alpha(soup);
-  if (draft.may(LeaveOut::transparent_faces)) {
+  if (draft.may(Specialisation::transparent_faces)) {
     const std::size_t before = faces.size();
     std::erase_if(faces, [&](std::uint32_t t) { return alpha[t] == FaceAlpha::transparent; });
     if (faces.size() < before)
-      draft.leave_out(LeaveOut::transparent_faces,
-                      formatted("%zu of %zu faces are transparent throughout (exact)",
-                                before - faces.size(), before));
+      draft.apply(Specialisation::transparent_faces,
+                  formatted("%zu of %zu faces are transparent throughout (exact)",
+                            before - faces.size(), before));
   }
 
   sort_spatially(soup, faces);
-  if (draft.may(LeaveOut::coincident_faces)) leave_out_coincident_faces(draft, alpha, faces);
-  if (!draft.may(LeaveOut::alpha_test)) std::fill(alpha.begin(), alpha.end(), FaceAlpha::cut_out);
+  if (draft.may(Specialisation::coincident_faces)) skip_coincident_faces(draft, alpha, faces);
+  if (!draft.may(Specialisation::alpha_test))
+    std::fill(alpha.begin(), alpha.end(), FaceAlpha::cut_out);
   draw_coincident_faces_alike(soup, faces, alpha);
   const auto first_cut_out = std::stable_partition(
       faces.begin(), faces.end(), [&](std::uint32_t t) { return alpha[t] == FaceAlpha::opaque; });
   plan.opaque_count = std::size_t(first_cut_out - faces.begin());
   plan.faces = std::move(faces);
   if (plan.opaque_count == plan.faces.size() && !plan.faces.empty())
-    draft.leave_out(LeaveOut::alpha_test,
-                    "the alpha test, every face is opaque throughout (exact)");
+    draft.apply(Specialisation::alpha_test,
+                "the alpha test, every face is opaque throughout (exact)");
   else if (plan.opaque_count > 0)
-    draft.leave_out(LeaveOut::alpha_test,
-                    formatted("the alpha test of %zu of %zu faces, opaque throughout (exact)",
-                              plan.opaque_count, plan.faces.size()));
+    draft.apply(Specialisation::alpha_test,
+                formatted("the alpha test of %zu of %zu faces, opaque throughout (exact)",
+                          plan.opaque_count, plan.faces.size()));
 
   const auto opaque = std::uint32_t(plan.opaque_count), all = std::uint32_t(plan.faces.size());
   const std::uint32_t size = cluster_size(plan.faces.size());

@@ -36,14 +36,14 @@ std::vector<double> largest_from_band(const Harmonics& sh) {
 void plan_appearance(PlanDraft& draft, const Harmonics& sh) {
   int& degree = draft.plan.harmonics_degree;
   degree = sh.degree;
-  if (!draft.may(LeaveOut::harmonics_bands)) return;
+  if (!draft.may(Specialisation::harmonics_bands)) return;
   const std::vector<double> largest = largest_from_band(sh);
   while (degree > 0 && largest[std::size_t(degree)] < half_step) --degree;
   if (degree < sh.degree)
-    draft.leave_out(LeaveOut::harmonics_bands,
-                    formatted("harmonics above degree %d of %d, they change no colour by more than "
-                              "%.5f (1/510 = 0.00196 allowed)",
-                              degree, sh.degree, largest[std::size_t(degree) + 1]));
+    draft.apply(Specialisation::harmonics_bands,
+                formatted("harmonics above degree %d of %d, they change no colour by more than "
+                          "%.5f (1/510 = 0.00196 allowed)",
+                          degree, sh.degree, largest[std::size_t(degree) + 1]));
 }
 
 }  // namespace tureen

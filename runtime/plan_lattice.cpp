@@ -11,21 +11,21 @@ namespace {
 
 /// Whether the network never blends in; says so.
 bool never_blends_in(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges& ranges) {
-  if (!mlp.blend_channel || !draft.may(LeaveOut::color_mlp)) return false;
+  if (!mlp.blend_channel || !draft.may(Specialisation::color_mlp)) return false;
   const FeatureRange& range = ranges[std::size_t(*mlp.blend_channel)];
   const double moves = double(std::max(range.high, -range.low)) * base_from_network(ranges);
   if (!(moves <= double(half_step))) return false;
-  draft.leave_out(LeaveOut::color_mlp,
-                  formatted("the color MLP, its blend channel moves no colour by more than %.5f "
-                            "(1/510 = 0.00196 allowed)",
-                            moves));
+  draft.apply(Specialisation::color_mlp,
+              formatted("the color MLP, its blend channel moves no colour by more than %.5f "
+                        "(1/510 = 0.00196 allowed)",
+                        moves));
   return true;
 }
 
 /// Which faces are affine, and whether leaving their texels out is worth its while.
 /// `gain`: how much an error of the features may grow on its way to the colour.
-void leave_out_affine_texels(PlanDraft& draft, const LatticeTexture& texture,
-                             const LatticeTraits& traits, double gain) {
+void plan_affine_texels(PlanDraft& draft, const LatticeTexture& texture,
+                        const LatticeTraits& traits, double gain) {
   RenderPlan& plan = draft.plan;
   const std::size_t count = plan.faces.size();
   std::vector<std::uint8_t> levels(count);
@@ -49,11 +49,10 @@ void leave_out_affine_texels(PlanDraft& draft, const LatticeTexture& texture,
   if (kept == texels || !worth_it || traits.shares_texels) return;
   plan.lattice.levels = std::move(levels);
   if (all_affine) plan.lattice.uniform_level = 0;
-  draft.leave_out(
-      LeaveOut::affine_texels,
-      formatted("%zu of %zu texels, %zu faces are affine (%zu constant) and keep their "
-                "corners (no colour changes by more than %.5f, 1/510 = 0.00196 allowed)",
-                texels - kept, texels, affine_faces, traits.constant_faces, largest_error));
+  draft.apply(Specialisation::affine_texels,
+              formatted("%zu of %zu texels, %zu faces are affine (%zu constant) and keep their "
+                        "corners (no colour changes by more than %.5f, 1/510 = 0.00196 allowed)",
+                        texels - kept, texels, affine_faces, traits.constant_faces, largest_error));
 }
 
 }  // namespace
@@ -93,14 +92,15 @@ void plan_lattice(PlanDraft& draft, const LatticeTexture& texture) {
 
   const bool opaque = plan.opaque_count == plan.faces.size();
   if (!plan.color_mlp && traits.constant_faces == plan.faces.size() && opaque &&
-      draft.may(LeaveOut::constant_lattices)) {
+      draft.may(Specialisation::constant_lattices)) {
     plan.flat_colors = true;
-    draft.leave_out(LeaveOut::constant_lattices, "the lattice, every face has one colour (exact)");
+    draft.apply(Specialisation::constant_lattices,
+                "the lattice, every face has one colour (exact)");
     return;
   }
-  if (draft.may(LeaveOut::affine_texels))
-    leave_out_affine_texels(draft, texture, traits,
-                            plan.color_mlp ? color_gain(*texture.mlp, traits.ranges) : 1.0);
+  if (draft.may(Specialisation::affine_texels))
+    plan_affine_texels(draft, texture, traits,
+                       plan.color_mlp ? color_gain(*texture.mlp, traits.ranges) : 1.0);
   const bool one_level = traits.lowest_level == traits.highest_level;
   if (plan.lattice.levels.empty() && one_level && !traits.shares_texels)
     plan.lattice.uniform_level = traits.highest_level;

@@ -16,15 +16,15 @@ double largest_blend(const ColorMlp& mlp, const FeatureRanges& ranges) {
   return std::max(std::abs(double(range.low)), std::abs(double(range.high)));
 }
 
-void leave_out_view_direction(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges& ranges) {
-  if (!draft.may(LeaveOut::view_direction) || mlp.encoding == DirectionEncoding::none) return;
+void plan_view_direction(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges& ranges) {
+  if (!draft.may(Specialisation::view_direction) || mlp.encoding == DirectionEncoding::none) return;
   const double moves = view_dependence(mlp) * largest_blend(mlp, ranges);
   if (moves > double(half_step)) return;
   draft.plan.view_direction = false;
-  draft.leave_out(LeaveOut::view_direction,
-                  formatted("the view direction, it moves no colour by more than %.5f (1/510 = "
-                            "0.00196 allowed)",
-                            moves));
+  draft.apply(Specialisation::view_direction,
+              formatted("the view direction, it moves no colour by more than %.5f (1/510 = "
+                        "0.00196 allowed)",
+                        moves));
 }
 
 /// A range that is a single value makes the network's source use that value: widened where the
@@ -40,27 +40,26 @@ void plan_network(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges& me
   plan.view_direction = mlp.encoding != DirectionEncoding::none;
   plan.latent_features = true;
   plan.feature_ranges = measured;
-  leave_out_view_direction(draft, mlp, measured);
-  if (!draft.may(LeaveOut::weight_uniforms)) return;
+  plan_view_direction(draft, mlp, measured);
+  if (!draft.may(Specialisation::weight_uniforms)) return;
   plan.mlp_weights =
-      draft.may(LeaveOut::dead_neurons) ? MlpWeights::constants : MlpWeights::all_constants;
-  draft.leave_out(LeaveOut::weight_uniforms,
-                  "uniforms, the network's weights are compiled in as constants");
+      draft.may(Specialisation::dead_neurons) ? MlpWeights::constants : MlpWeights::all_constants;
+  draft.apply(Specialisation::weight_uniforms,
+              "uniforms, the network's weights are compiled in as constants");
   if (plan.mlp_weights == MlpWeights::all_constants) return;
-  if (!draft.may(LeaveOut::latent_features))
+  if (!draft.may(Specialisation::latent_features))
     for (std::size_t i = 4; i < plan.feature_ranges.size(); ++i)
       keep_reading(plan.feature_ranges[i]);
   const ColorMlpSource source = color_mlp_source(plan.view_direction ? mlp : without_direction(mlp),
                                                  plan.mlp_weights, plan.feature_ranges);
   if (source.dead_neurons + source.zero_weights > 0)
-    draft.leave_out(
-        LeaveOut::dead_neurons,
-        formatted("%d of %d hidden neurons that never fire and %d weights of zero (exact)",
-                  source.dead_neurons, source.hidden_neurons, source.zero_weights));
-  if (source.reads_features1 || !draft.may(LeaveOut::latent_features)) return;
+    draft.apply(Specialisation::dead_neurons,
+                formatted("%d of %d hidden neurons that never fire and %d weights of zero (exact)",
+                          source.dead_neurons, source.hidden_neurons, source.zero_weights));
+  if (source.reads_features1 || !draft.may(Specialisation::latent_features)) return;
   plan.latent_features = false;
-  draft.leave_out(LeaveOut::latent_features,
-                  "features 4 and above, each is the same everywhere or has no weight (exact)");
+  draft.apply(Specialisation::latent_features,
+              "features 4 and above, each is the same everywhere or has no weight (exact)");
 }
 
 }  // namespace tureen

@@ -26,7 +26,7 @@ void plan_published(PlanDraft& draft) {
   draft.say(
       "published pipeline: two RGBA8 feature targets, every fragment samples all eight channels, "
       "faces in file order, the network on every pixel with its weights in uniforms");
-  if (draft.preferences.leave_out != LeaveOutSet::all())
+  if (draft.preferences.specialisations != SpecialisationSet::all())
     draft.say("what is to be kept changes nothing: the published pipeline leaves nothing out");
 }
 

@@ -20,8 +20,8 @@ void add_choice(std::string& command, const DrawingChoice& choice, const Scene& 
   if (choice.plan.pipeline == PipelineKind::published) command += " --pipeline published";
   if (!choice.plan.specialise) command += " --no-specialise";
   std::string kept;
-  for (const LeaveOutName& entry : leave_out_names())
-    if (!choice.plan.leave_out.has(entry.what))
+  for (const SpecialisationName& entry : specialisation_names())
+    if (!choice.plan.specialisations.has(entry.what))
       kept += (kept.empty() ? "" : ",") + std::string(entry.name);
   if (choice.plan.specialise && !kept.empty()) command += " --keep " + kept;
   const Quality quality = quality_of(choice, scene);

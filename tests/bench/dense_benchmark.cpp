@@ -58,8 +58,8 @@ int run(int argc, char** argv) {
   };
   PlainRenderer plain(soup);
   Renderer ours = with_plan({}), generic = with_plan({.specialise = false});
-  Renderer with_small =
-      with_plan({.leave_out = LeaveOutSet::all().without(LeaveOut::faces_between_pixels)});
+  Renderer with_small = with_plan(
+      {.specialisations = SpecialisationSet::all().without(Specialisation::faces_between_pixels)});
   const auto finish = [] { glFinish(); };
   const Entrant entrants[] = {
       {"plain", [&](const Camera& camera) { plain.draw(camera); }, finish},

@@ -71,13 +71,13 @@ void compare(const gl::Context& context, const Settings& settings, const char* w
   std::fflush(stdout);
 }
 
-bool is_of_the_network(LeaveOut what) {
+bool is_of_the_network(Specialisation what) {
   switch (what) {
-    case LeaveOut::color_mlp:
-    case LeaveOut::view_direction:
-    case LeaveOut::weight_uniforms:
-    case LeaveOut::dead_neurons:
-    case LeaveOut::latent_features:
+    case Specialisation::color_mlp:
+    case Specialisation::view_direction:
+    case Specialisation::weight_uniforms:
+    case Specialisation::dead_neurons:
+    case Specialisation::latent_features:
       return true;
     default:
       return false;
@@ -86,7 +86,7 @@ bool is_of_the_network(LeaveOut what) {
 
 /// A large scene with the trait. Lattices are those of the cut-out cloud; the others are small
 /// random triangles.
-TriangleSoup large_soup(LeaveOut what, const Scene& cloud) {
+TriangleSoup large_soup(Specialisation what, const Scene& cloud) {
   const Kind kind = kind_of_trait(what);
   TriangleSoup soup;
   if (kind == Kind::lattice_mlp || kind == Kind::lattice) {
@@ -94,7 +94,7 @@ TriangleSoup large_soup(LeaveOut what, const Scene& cloud) {
     if (kind == Kind::lattice) std::get<LatticeTexture>(soup.appearance).mlp.reset();
   } else {
     // Some pixels large; those that are to lie between pixels a tenth of that, when they are split.
-    const double size = what == LeaveOut::faces_between_pixels ? 0.005 : 0.02;
+    const double size = what == Specialisation::faces_between_pixels ? 0.005 : 0.02;
     soup = random_soup(1, {.kind = kind, .faces = 200000, .size = size, .degree = 3});
   }
   give_trait(what, soup);
@@ -109,10 +109,10 @@ void measure_traits(const gl::Context& context, const Settings& settings) {
                                    .coverage = CloudCoverage::all,
                                    .width = settings.width,
                                    .height = settings.height});
-  for (const LeaveOutName& row : leave_out_names()) {
+  for (const SpecialisationName& row : specialisation_names()) {
     const Scene& base = is_of_the_network(row.what) ? wall : cloud;
     compare(context, settings, row.name, "made for it", large_soup(row.what, base), base.cameras,
-            {.leave_out = LeaveOutSet::all().without(row.what)});
+            {.specialisations = SpecialisationSet::all().without(row.what)});
   }
 }
 
@@ -132,11 +132,11 @@ void measure_scene(const gl::Context& context, const Settings& settings,
                               box.centre(), up, 0.7, settings.width, settings.height));
   }
   const std::string name = path.stem().string();
-  const LeaveOutSet applied = make_plan(soup, device_limits(context.capabilities())).left_out;
-  for (const LeaveOutName& row : leave_out_names())
+  const SpecialisationSet applied = make_plan(soup, device_limits(context.capabilities())).left_out;
+  for (const SpecialisationName& row : specialisation_names())
     if (applied.has(row.what))
       compare(context, settings, row.name, name, soup, cameras,
-              {.leave_out = LeaveOutSet::all().without(row.what)});
+              {.specialisations = SpecialisationSet::all().without(row.what)});
   compare(context, settings, "all of them", name, soup, cameras, {.specialise = false});
 }
 

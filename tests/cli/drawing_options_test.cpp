@@ -20,9 +20,11 @@ PlanPreferences parsed(const std::string& arguments) {
 }
 
 TEST(DrawingOptions, WhatIsToBeKeptIsNotLeftOut) {
-  EXPECT_EQ(parsed("").leave_out, LeaveOutSet::all());
-  EXPECT_EQ(parsed("--keep background,alpha-test").leave_out,
-            LeaveOutSet::all().without(LeaveOut::background).without(LeaveOut::alpha_test));
+  EXPECT_EQ(parsed("").specialisations, SpecialisationSet::all());
+  EXPECT_EQ(parsed("--keep background,alpha-test").specialisations,
+            SpecialisationSet::all()
+                .without(Specialisation::background)
+                .without(Specialisation::alpha_test));
   EXPECT_TRUE(parsed("--keep background").specialise);
   EXPECT_FALSE(parsed("--no-specialise").specialise);
   EXPECT_THROW(parsed("--no-specialise --keep background"), CLI::ExcludesError);

@@ -173,9 +173,10 @@ TEST_P(CoveredFacesPicture, StaysTheSameToTheBit) {
       const glm::vec3 first = soup.positions[soup.triangles[t][0]];
       corner = first + 20.0f * (corner - first);
     }
-  const LeaveOutSet all = LeaveOutSet::all();
-  Renderer without(context, soup, glm::dvec3(0),
-                   {.plan = {.leave_out = all.without(LeaveOut::faces_between_pixels)}});
+  const SpecialisationSet all = SpecialisationSet::all();
+  Renderer without(
+      context, soup, glm::dvec3(0),
+      {.plan = {.specialisations = all.without(Specialisation::faces_between_pixels)}});
   ASSERT_FALSE(without.plan().drops_faces_between_pixels);
   int showing = 0;
   for (int i = 0; i < 4; ++i) {
@@ -185,7 +186,7 @@ TEST_P(CoveredFacesPicture, StaysTheSameToTheBit) {
       camera = look_at(eye, 0.3 * random.direction(), {0, 0, 1}, 1.2, 200, 151);
     }
     // Anew for each view: a frame that shows most faces lets the search rest in those after it.
-    Renderer with(context, soup, glm::dvec3(0), {.plan = {.leave_out = all}});
+    Renderer with(context, soup, glm::dvec3(0), {.plan = {.specialisations = all}});
     ASSERT_TRUE(with.plan().drops_faces_between_pixels);
     with.draw(camera);
     without.draw(camera);
@@ -211,11 +212,12 @@ TEST(CoveredFaces, AreFoundAmongThePixelsThatAreDrawn) {
       random_soup(seed, {.kind = Kind::face_colors, .faces = 30000, .size = 0.01});
   Random random(seed);
   for (const Quality& quality : {Quality{.resolution_scale = 0.6}, Quality{.supersampling = 3}}) {
-    const LeaveOutSet all = LeaveOutSet::all();
-    Renderer with(context, soup, glm::dvec3(0), {.plan = {.leave_out = all, .quality = quality}});
-    Renderer without(
-        context, soup, glm::dvec3(0),
-        {.plan = {.leave_out = all.without(LeaveOut::faces_between_pixels), .quality = quality}});
+    const SpecialisationSet all = SpecialisationSet::all();
+    Renderer with(context, soup, glm::dvec3(0),
+                  {.plan = {.specialisations = all, .quality = quality}});
+    Renderer without(context, soup, glm::dvec3(0),
+                     {.plan = {.specialisations = all.without(Specialisation::faces_between_pixels),
+                               .quality = quality}});
     ASSERT_TRUE(with.plan().drops_faces_between_pixels);
     ASSERT_FALSE(without.plan().drops_faces_between_pixels);
     const Camera camera = random_camera(random, 211, 150);

@@ -1,4 +1,4 @@
-// The entries of LeaveOut that decide by a bound on what a color MLP makes of them (affine-texels,
+// The specialisations that decide by a bound on what a color MLP makes of them (affine-texels,
 // color-mlp and view-direction), at that bound: networks made to attain it show that it is neither
 // too lax nor too strict, random ones that it always holds.
 #include <gtest/gtest.h>
@@ -211,10 +211,10 @@ Features features_of(const LatticeTexture& texture, std::size_t texel) {
 }
 
 /// How far any texel's colour moves when `what` is left out, whatever the plan says of it.
-double largest_shift(LeaveOut what, const EdgeSoup& edge) {
+double largest_shift(Specialisation what, const EdgeSoup& edge) {
   const auto& texture = std::get<LatticeTexture>(edge.soup.appearance);
   const ColorMlp& mlp = *texture.mlp;
-  const ColorMlp other = what == LeaveOut::view_direction ? blind(mlp) : mlp;
+  const ColorMlp other = what == Specialisation::view_direction ? blind(mlp) : mlp;
   double shift = 0;
   for (const LatticePatch& patch : texture.patches) {
     const int n = lattice::resolution(int(patch.level));
@@ -226,9 +226,9 @@ double largest_shift(LeaveOut what, const EdgeSoup& edge) {
       for (int x = 0; x + y <= n; ++x) {
         const Features features = at(x, y);
         Features instead = features;
-        if (what == LeaveOut::color_mlp) instead[3] = 0.0;
+        if (what == Specialisation::color_mlp) instead[3] = 0.0;
         const double b0 = double(x) / n, b1 = double(y) / n;
-        for (std::size_t c = 0; what == LeaveOut::affine_texels && c < instead.size(); ++c)
+        for (std::size_t c = 0; what == Specialisation::affine_texels && c < instead.size(); ++c)
           instead[c] = b0 * corners[0][c] + b1 * corners[1][c] + (1 - b0 - b1) * corners[2][c];
         shift = std::max(shift, largest(glm::abs(evaluate(mlp, features, edge.to_eye) -
                                                  evaluate(other, instead, edge.to_eye))));
@@ -241,7 +241,7 @@ double largest_shift(LeaveOut what, const EdgeSoup& edge) {
 
 struct Edge {
   const char* name;
-  LeaveOut what;
+  Specialisation what;
   EdgeSoup (*make)(std::uint64_t seed, double fraction);
   std::uint64_t seed;
 };
@@ -272,8 +272,10 @@ TEST_P(AtTheBound, PicturesMoveByAStepAtMost) {
   const TriangleSoup soup = this->soup(inside).soup;
   const std::vector<Camera> views = four_views(GetParam().seed);
   const std::vector<Image8> generic = pictures(soup, views, {.specialise = false});
-  for (const LeaveOutSet& leave_out : {LeaveOutSet::all(), alone(GetParam().what)}) {
-    const Difference found = difference(pictures(soup, views, {.leave_out = leave_out}), generic);
+  for (const SpecialisationSet& specialisations :
+       {SpecialisationSet::all(), alone(GetParam().what)}) {
+    const Difference found =
+        difference(pictures(soup, views, {.specialisations = specialisations}), generic);
     EXPECT_EQ(found.largest, 1) << "half a step turns into a whole one by rounding, somewhere";
     EXPECT_GT(found.covered, 0.05) << "there is nothing to compare";
   }
@@ -282,12 +284,14 @@ TEST_P(AtTheBound, PicturesMoveByAStepAtMost) {
 std::vector<Edge> edges() {
   std::vector<Edge> all;
   for (const std::uint64_t seed : {1, 2}) {
-    all.push_back({"ColorMlp", LeaveOut::color_mlp, almost_unblended, seed});
-    all.push_back({"ViewHarmonics", LeaveOut::view_direction, hardly_directed_by_harmonics, seed});
-    all.push_back({"BareViewDirection", LeaveOut::view_direction, hardly_directed_by_xyz, seed});
+    all.push_back({"ColorMlp", Specialisation::color_mlp, almost_unblended, seed});
     all.push_back(
-        {"BlendedViewHarmonics", LeaveOut::view_direction, hardly_directed_and_blended, seed});
-    all.push_back({"AffineTexels", LeaveOut::affine_texels, almost_affine, seed});
+        {"ViewHarmonics", Specialisation::view_direction, hardly_directed_by_harmonics, seed});
+    all.push_back(
+        {"BareViewDirection", Specialisation::view_direction, hardly_directed_by_xyz, seed});
+    all.push_back({"BlendedViewHarmonics", Specialisation::view_direction,
+                   hardly_directed_and_blended, seed});
+    all.push_back({"AffineTexels", Specialisation::affine_texels, almost_affine, seed});
   }
   return all;
 }

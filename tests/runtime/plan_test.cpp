@@ -171,7 +171,7 @@ TEST(Plan, WithoutSpecialisationNothingIsLeftOut) {
   EXPECT_EQ(plan.opaque_count, 0u);
   EXPECT_TRUE(plan.color_mlp);
   EXPECT_EQ(plan.mlp_weights, MlpWeights::uniforms);
-  EXPECT_EQ(plan.left_out, LeaveOutSet());
+  EXPECT_EQ(plan.left_out, SpecialisationSet());
   EXPECT_FALSE(plan.depth_rejects_background);
   EXPECT_THAT(plan.sentences, Not(Contains(HasSubstr("left out:"))));
 }
@@ -181,7 +181,7 @@ TEST(Plan, KeepingChangesNothingForThePublishedPipeline) {
   PlanPreferences published{.pipeline = PipelineKind::published};
   const auto says = Contains(HasSubstr("what is to be kept changes nothing"));
   EXPECT_THAT(make_plan(soup, DeviceLimits{}, published).sentences, Not(says));
-  published.leave_out = LeaveOutSet::all().without(LeaveOut::alpha_test);
+  published.specialisations = SpecialisationSet::all().without(Specialisation::alpha_test);
   EXPECT_THAT(make_plan(soup, DeviceLimits{}, published).sentences, says);
 }
 
@@ -218,12 +218,12 @@ Difference specialised_against_generic(const TriangleSoup& soup, const std::vect
   return difference(pictures(soup, views, {}), pictures(soup, views, {.specialise = false}));
 }
 
-struct Specialisation {
+struct KindAndSeed {
   Kind kind;
   std::uint64_t seed;
 };
 
-class SpecialisedKinds : public testing::TestWithParam<Specialisation> {};
+class SpecialisedKinds : public testing::TestWithParam<KindAndSeed> {};
 
 // docs/leaving-out.md: what the plan calls exact leaves every pixel as it is. Compiling the
 // network's weights in sums the same terms in another order: that may round one channel in 100,000
@@ -277,14 +277,14 @@ TEST(Specialised, DroppedHarmonicsMoveNoColourByMoreThanAStep) {
   EXPECT_LE(specialised_against_generic(soup, four_views(5)).largest, 1);
 }
 
-std::vector<Specialisation> specialisations() {
-  std::vector<Specialisation> all;
+std::vector<KindAndSeed> kinds_and_seeds() {
+  std::vector<KindAndSeed> all;
   for (const Kind kind : all_kinds)
     for (std::uint64_t seed = 1; seed <= 3; ++seed) all.push_back({kind, seed});
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, SpecialisedKinds, testing::ValuesIn(specialisations()),
+INSTANTIATE_TEST_SUITE_P(All, SpecialisedKinds, testing::ValuesIn(kinds_and_seeds()),
                          [](const auto& test) {
                            return to_string(test.param.kind) + "_seed" +
                                   std::to_string(test.param.seed);

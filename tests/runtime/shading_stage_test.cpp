@@ -62,7 +62,7 @@ TEST_P(ShadingStages, ShowTheSameOverEveryBackground) {
   const std::vector<Camera> camera{camera_of(63, 41)};
   const glm::vec4 backgrounds[] = {{0.2f, 0.5f, 0.7f, 1}, {1, 1, 1, 0.5f}, {0, 0, 0, 0}};
   PlanPreferences shades_background = deferred({});
-  shades_background.leave_out = LeaveOutSet::all().without(LeaveOut::background);
+  shades_background.specialisations = SpecialisationSet::all().without(Specialisation::background);
   PlanPreferences generic = deferred({});
   generic.specialise = false;
   for (const glm::vec4& background : backgrounds)

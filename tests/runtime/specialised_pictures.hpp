@@ -67,19 +67,19 @@ inline Difference difference(const std::vector<Image8>& a, const std::vector<Ima
 
 /// `what`, and what else a plan must leave out to leave that out: of a network whose weights are
 /// uniforms nothing is looked at, and only faces without an alpha test have one colour throughout.
-inline LeaveOutSet alone(LeaveOut what) {
-  LeaveOutSet set = LeaveOutSet::only(what);
+inline SpecialisationSet alone(Specialisation what) {
+  SpecialisationSet set = SpecialisationSet::only(what);
   switch (what) {
-    case LeaveOut::latent_features:
-      set.add(LeaveOut::dead_neurons);
-      set.add(LeaveOut::weight_uniforms);
+    case Specialisation::latent_features:
+      set.add(Specialisation::dead_neurons);
+      set.add(Specialisation::weight_uniforms);
       break;
-    case LeaveOut::dead_neurons:
-      set.add(LeaveOut::weight_uniforms);
+    case Specialisation::dead_neurons:
+      set.add(Specialisation::weight_uniforms);
       break;
-    case LeaveOut::interpolation:
-    case LeaveOut::constant_lattices:
-      set.add(LeaveOut::alpha_test);
+    case Specialisation::interpolation:
+    case Specialisation::constant_lattices:
+      set.add(Specialisation::alpha_test);
       break;
     default:
       break;

@@ -80,33 +80,33 @@ std::uint8_t face_value(std::size_t face, int channel) {
 
 }  // namespace
 
-Kind kind_of_trait(LeaveOut what) {
+Kind kind_of_trait(Specialisation what) {
   switch (what) {
-    case LeaveOut::coincident_faces:
-    case LeaveOut::faces_between_pixels:
+    case Specialisation::coincident_faces:
+    case Specialisation::faces_between_pixels:
       return Kind::face_colors;
-    case LeaveOut::shading_pass:
-    case LeaveOut::interpolation:
+    case Specialisation::shading_pass:
+    case Specialisation::interpolation:
       return Kind::vertex_colors;
-    case LeaveOut::harmonics_bands:
+    case Specialisation::harmonics_bands:
       return Kind::face_harmonics;
-    case LeaveOut::constant_lattices:
-    case LeaveOut::affine_texels:
+    case Specialisation::constant_lattices:
+    case Specialisation::affine_texels:
       return Kind::lattice;
     default:
       return Kind::lattice_mlp;
   }
 }
 
-void give_trait(LeaveOut what, TriangleSoup& soup) {
+void give_trait(Specialisation what, TriangleSoup& soup) {
   switch (what) {
-    case LeaveOut::alpha_test:
+    case Specialisation::alpha_test:
       return make_opaque(soup);
-    case LeaveOut::transparent_faces:
+    case Specialisation::transparent_faces:
       return for_each_texel(soup, [](std::size_t face, int, int, std::uint8_t* texel) {
         if (face % 2 == 1) texel[7] = std::min<std::uint8_t>(texel[7], 127);
       });
-    case LeaveOut::coincident_faces: {
+    case Specialisation::coincident_faces: {
       auto& rgba = std::get<FaceColors>(soup.appearance).rgba;
       const std::size_t faces = soup.triangles.size();
       for (glm::vec4& color : rgba) color.a = 1.0f;
@@ -116,10 +116,10 @@ void give_trait(LeaveOut what, TriangleSoup& soup) {
       }
       return;
     }
-    case LeaveOut::faces_between_pixels:
+    case Specialisation::faces_between_pixels:
       for (int i = 0; i < 2 || soup.triangles.size() < 65536; ++i) split_faces(soup);
       return;
-    case LeaveOut::interpolation: {
+    case Specialisation::interpolation: {
       auto& rgba = std::get<VertexColors>(soup.appearance).rgba;
       for (const glm::uvec3& t : soup.triangles) {
         rgba[t.x].a = 1.0f;
@@ -127,7 +127,7 @@ void give_trait(LeaveOut what, TriangleSoup& soup) {
       }
       return;
     }
-    case LeaveOut::harmonics_bands: {
+    case Specialisation::harmonics_bands: {
       auto& sh = std::get<Harmonics>(soup.appearance);
       const auto count = std::size_t(harmonics::count(sh.degree));
       // Bands 2, 3 and 4 can together move a channel by (5 + 7 + 9) / sqrt(4 pi) * 1e-4 < 1/510.
@@ -135,32 +135,32 @@ void give_trait(LeaveOut what, TriangleSoup& soup) {
         if (i % count >= 4) sh.coefficients[i] = glm::vec3(i % 2 == 0 ? 1e-4f : -1e-4f);
       return;
     }
-    case LeaveOut::color_mlp:
+    case Specialisation::color_mlp:
       return for_each_texel(soup, [](std::size_t, int, int, std::uint8_t* texel) { texel[3] = 0; });
-    case LeaveOut::view_direction: {
+    case Specialisation::view_direction: {
       DenseLayer& first = lattice_of(soup).mlp->layers.front();
       for (std::size_t i = 0; i < first.weights.size(); ++i)
         if (i % 16 > 7) first.weights[i] *= 1e-6f;
       return;
     }
-    case LeaveOut::latent_features:
+    case Specialisation::latent_features:
       return for_each_texel(soup, [](std::size_t, int, int, std::uint8_t* texel) {
         std::fill(texel + 4, texel + 7, std::uint8_t(100));
       });
-    case LeaveOut::dead_neurons: {
+    case Specialisation::dead_neurons: {
       ColorMlp& mlp = *lattice_of(soup).mlp;
       for (std::size_t l = 0; l + 1 < mlp.layers.size(); ++l)
         for (std::size_t o = 0; o < mlp.layers[l].biases.size(); o += 2)
           mlp.layers[l].biases[o] = -100.0f;
       return;
     }
-    case LeaveOut::constant_lattices:
+    case Specialisation::constant_lattices:
       unshare_texels(soup);
       make_opaque(soup);
       return for_each_texel(soup, [](std::size_t face, int, int, std::uint8_t* texel) {
         for (int c = 0; c < LatticeTexture::features; ++c) texel[c] = face_value(face, c);
       });
-    case LeaveOut::affine_texels: {
+    case Specialisation::affine_texels: {
       unshare_texels(soup);
       make_opaque(soup);
       // Steps of whole bytes are affine without rounding; 2^level (1 + 2) of them fit below 155.
@@ -171,36 +171,36 @@ void give_trait(LeaveOut what, TriangleSoup& soup) {
           texel[c] = std::uint8_t((face_value(face, c) + step * x * (1 + c % 2) + step * y) % 256);
       });
     }
-    case LeaveOut::shading_pass:
-    case LeaveOut::background:
-    case LeaveOut::weight_uniforms:
+    case Specialisation::shading_pass:
+    case Specialisation::background:
+    case Specialisation::weight_uniforms:
       return;  // their kind is enough
   }
   assert(!"a trait without a soup");
 }
 
-TriangleSoup soup_without_trait(LeaveOut what, std::uint64_t seed) {
+TriangleSoup soup_without_trait(Specialisation what, std::uint64_t seed) {
   SoupOptions options{.kind = kind_of_trait(what), .faces = 300, .level = 3};
   switch (what) {
-    case LeaveOut::shading_pass:
+    case Specialisation::shading_pass:
       options.kind = Kind::face_harmonics;
       break;
-    case LeaveOut::background:
+    case Specialisation::background:
       options.kind = Kind::face_colors;  // drawn forward
       break;
-    case LeaveOut::weight_uniforms:
+    case Specialisation::weight_uniforms:
       options.kind = Kind::lattice;
       break;
     default:
       break;
   }
   TriangleSoup soup = random_soup(seed, options);
-  if (what == LeaveOut::alpha_test || what == LeaveOut::transparent_faces)
+  if (what == Specialisation::alpha_test || what == Specialisation::transparent_faces)
     // A hole in one corner of each face, the other two at its very edge.
     for_each_texel(soup, [](std::size_t, int x, int y, std::uint8_t* texel) {
       texel[7] = x == 0 && y == 0 ? 0 : 255;
     });
-  if (what == LeaveOut::affine_texels || what == LeaveOut::constant_lattices)
+  if (what == Specialisation::affine_texels || what == Specialisation::constant_lattices)
     for_each_texel(soup, [](std::size_t, int x, int y, std::uint8_t* texel) {
       texel[0] = (x + y) % 2 == 0 ? 40 : 200;
     });

@@ -92,7 +92,7 @@ TEST(RenderCommand, SaysHowItIsDrawn) {
   const Camera camera = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.8, 400, 300);
   DrawingChoice choice;
   choice.quality = Quality{.supersampling = 3};
-  choice.plan.leave_out = LeaveOutSet::all().without(LeaveOut::alpha_test);
+  choice.plan.specialisations = SpecialisationSet::all().without(Specialisation::alpha_test);
   const std::string command = render_command(source("a.glb"), choice, {}, camera, "");
   EXPECT_THAT(command, HasSubstr("--supersample 3"));
   EXPECT_THAT(command, HasSubstr("--keep alpha-test"));

@@ -39,15 +39,15 @@ bool sampling(DrawingChoice& choice, const Scene& scene) {
 /// What this plan leaves out, each to be kept: to see what it costs, or to look for a fault.
 bool left_out(DrawingChoice& choice, const RenderPlan& plan) {
   bool changed = false;
-  for (const LeaveOutName& entry : leave_out_names()) {
-    const bool allowed = choice.plan.leave_out.has(entry.what);
+  for (const SpecialisationName& entry : specialisation_names()) {
+    const bool allowed = choice.plan.specialisations.has(entry.what);
     if (allowed && !plan.left_out.has(entry.what)) continue;  // nothing of it in this scene
     bool out = allowed;
     if (!ImGui::Checkbox(entry.title, &out)) continue;
     if (out)
-      choice.plan.leave_out.add(entry.what);
+      choice.plan.specialisations.add(entry.what);
     else
-      choice.plan.leave_out = choice.plan.leave_out.without(entry.what);
+      choice.plan.specialisations = choice.plan.specialisations.without(entry.what);
     changed = true;
   }
   return changed;

@@ -1,6 +1,6 @@
 // Each thing that a plan leaves out, alone: a soup that has its trait loses nothing, one that lacks
 // it keeps it. docs/leaving-out.md names these tests as its proofs.
-#include "runtime/leave_out.hpp"
+#include "runtime/specialisation.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,8 +19,9 @@ using testing::Contains;
 using testing::Not;
 using testing::StartsWith;
 
-RenderPlan plan_of(const TriangleSoup& soup, LeaveOutSet leave_out = LeaveOutSet::all()) {
-  return make_plan(soup, DeviceLimits{.software = true}, {.leave_out = leave_out});
+RenderPlan plan_of(const TriangleSoup& soup,
+                   SpecialisationSet specialisations = SpecialisationSet::all()) {
+  return make_plan(soup, DeviceLimits{.software = true}, {.specialisations = specialisations});
 }
 
 /// How far pictures may move.
@@ -32,14 +33,14 @@ struct Tolerance {
 /// Exact is exact, but that a network whose sums are taken in another order may round one channel
 /// in 100,000 otherwise, and that a shading pass knows barycentrics in 16 bits only. What has a
 /// bound of half a step can turn into a whole one by rounding, anywhere.
-Tolerance tolerance_of(LeaveOut what) {
+Tolerance tolerance_of(Specialisation what) {
   switch (what) {
-    case LeaveOut::shading_pass:
+    case Specialisation::shading_pass:
       return {1, 1e-3};
-    case LeaveOut::harmonics_bands:
-    case LeaveOut::color_mlp:
-    case LeaveOut::view_direction:
-    case LeaveOut::affine_texels:
+    case Specialisation::harmonics_bands:
+    case Specialisation::color_mlp:
+    case Specialisation::view_direction:
+    case Specialisation::affine_texels:
       return {1, 1.0};
     default:
       return kind_of_trait(what) == Kind::lattice_mlp ? Tolerance{1, 1e-5} : Tolerance{0, 0};
@@ -47,13 +48,13 @@ Tolerance tolerance_of(LeaveOut what) {
 }
 
 struct Case {
-  LeaveOut what;
+  Specialisation what;
   std::uint64_t seed;
 };
 
 class LeavingOut : public testing::TestWithParam<Case> {
  protected:
-  LeaveOut what() const { return GetParam().what; }
+  Specialisation what() const { return GetParam().what; }
   std::uint64_t seed() const { return GetParam().seed; }
   TriangleSoup soup_with_trait() const {
     TriangleSoup soup =
@@ -67,7 +68,7 @@ TEST_P(LeavingOut, IsPlannedAndSaidWhereTheSceneHasTheTrait) {
   const TriangleSoup soup = soup_with_trait();
   ASSERT_EQ(defect(soup), std::nullopt);
   const RenderPlan with = plan_of(soup);
-  const RenderPlan without = plan_of(soup, LeaveOutSet::all().without(what()));
+  const RenderPlan without = plan_of(soup, SpecialisationSet::all().without(what()));
   EXPECT_TRUE(with.left_out.has(what()));
   EXPECT_FALSE(without.left_out.has(what()));
   const auto is_said_alone = [&](const std::string& sentence) {
@@ -87,12 +88,14 @@ TEST_P(LeavingOutPicture, LosesNothing) {
   const std::vector<Camera> views = four_views(seed());
   const std::vector<Image8> generic = pictures(soup, views, {.specialise = false});
   const auto [steps, channels] = tolerance_of(what());
-  const LeaveOutSet all = LeaveOutSet::all();
-  const std::pair<const char*, LeaveOutSet> sets[] = {
+  const SpecialisationSet all = SpecialisationSet::all();
+  const std::pair<const char*, SpecialisationSet> sets[] = {
       {"all", all}, {"alone", alone(what())}, {"all but this", all.without(what())}};
-  for (const auto& [name, leave_out] : sets) {
-    EXPECT_EQ(plan_of(soup, leave_out).left_out.has(what()), leave_out.has(what())) << name;
-    const Difference found = difference(pictures(soup, views, {.leave_out = leave_out}), generic);
+  for (const auto& [name, specialisations] : sets) {
+    EXPECT_EQ(plan_of(soup, specialisations).left_out.has(what()), specialisations.has(what()))
+        << name;
+    const Difference found =
+        difference(pictures(soup, views, {.specialisations = specialisations}), generic);
     EXPECT_LE(found.largest, steps) << name;
     EXPECT_LE(double(found.channels), channels * double(found.all_channels)) << name;
     EXPECT_GT(found.covered, 0.05) << "there is nothing to compare";
@@ -103,18 +106,18 @@ TEST_P(LeavingOut, DoesNotHappenWhereTheSceneLacksTheTrait) {
   const TriangleSoup soup = soup_without_trait(what(), seed());
   const RenderPlan with = plan_of(soup);
   EXPECT_FALSE(with.left_out.has(what()));
-  EXPECT_EQ(with.sentences, plan_of(soup, LeaveOutSet::all().without(what())).sentences);
+  EXPECT_EQ(with.sentences, plan_of(soup, SpecialisationSet::all().without(what())).sentences);
 }
 
 std::vector<Case> cases() {
   std::vector<Case> all;
-  for (const LeaveOutName& known : leave_out_names())
+  for (const SpecialisationName& known : specialisation_names())
     for (const std::uint64_t seed : {1, 2}) all.push_back({known.what, seed});
   return all;
 }
 
 /// "alpha-test" as a test's name: "AlphaTest".
-std::string test_name(LeaveOut what) {
+std::string test_name(Specialisation what) {
   std::string name;
   bool begins = true;
   for (const char c : std::string(name_of(what))) {
@@ -154,19 +157,19 @@ TEST(FacesWithoutArea, AreSaidAndChangeNothing) {
   }
 }
 
-TEST(LeaveOutNames, AreFoundAgain) {
-  for (const LeaveOutName& known : leave_out_names()) {
+TEST(SpecialisationNames, AreFoundAgain) {
+  for (const SpecialisationName& known : specialisation_names()) {
     EXPECT_STREQ(name_of(known.what), known.name);
-    EXPECT_EQ(leave_out_named(known.name), known.what);
+    EXPECT_EQ(specialisation_named(known.name), known.what);
   }
-  EXPECT_EQ(leave_out_named("everything"), std::nullopt);
+  EXPECT_EQ(specialisation_named("everything"), std::nullopt);
 }
 
-TEST(LeaveOutNames, OnlyWhatIsAskedForIsLeftOut) {
+TEST(SpecialisationNames, OnlyWhatIsAskedForIsLeftOut) {
   const TriangleSoup soup = random_soup(1, {.kind = Kind::lattice_mlp, .level = 3});
-  EXPECT_THAT(plan_of(soup, LeaveOutSet()).sentences, Not(Contains(StartsWith("left out"))));
-  const RenderPlan plan = plan_of(soup, LeaveOutSet::only(LeaveOut::background));
-  EXPECT_EQ(plan.left_out, LeaveOutSet::only(LeaveOut::background));
+  EXPECT_THAT(plan_of(soup, SpecialisationSet()).sentences, Not(Contains(StartsWith("left out"))));
+  const RenderPlan plan = plan_of(soup, SpecialisationSet::only(Specialisation::background));
+  EXPECT_EQ(plan.left_out, SpecialisationSet::only(Specialisation::background));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 namespace tureen {
 
-enum class LeaveOut : std::uint8_t {
+enum class Specialisation : std::uint8_t {
   alpha_test,            // of faces that are opaque throughout
   transparent_faces,     // faces that are transparent throughout
   coincident_faces,      // faces behind an opaque one with the same corners
@@ -29,35 +29,39 @@ enum class LeaveOut : std::uint8_t {
 };
 
 /// One of them for people and for the command line.
-struct LeaveOutName {
-  LeaveOut what;
+struct SpecialisationName {
+  Specialisation what;
   const char* name;   // "alpha-test"
   const char* title;  // "the alpha test of opaque faces"
 };
 
 /// All of them, in the order of the enumeration.
-std::span<const LeaveOutName> leave_out_names();
+std::span<const SpecialisationName> specialisation_names();
 
-const char* name_of(LeaveOut what);
+const char* name_of(Specialisation what);
 
 /// By name; nothing when there is none of that name.
-std::optional<LeaveOut> leave_out_named(std::string_view name);
+std::optional<Specialisation> specialisation_named(std::string_view name);
 
 /// Some of them.
-class LeaveOutSet {
+class SpecialisationSet {
  public:
-  constexpr LeaveOutSet() = default;
-  static constexpr LeaveOutSet all() { return LeaveOutSet(~std::uint32_t(0)); }
-  static constexpr LeaveOutSet only(LeaveOut what) { return LeaveOutSet(bit(what)); }
+  constexpr SpecialisationSet() = default;
+  static constexpr SpecialisationSet all() { return SpecialisationSet(~std::uint32_t(0)); }
+  static constexpr SpecialisationSet only(Specialisation what) {
+    return SpecialisationSet(bit(what));
+  }
 
-  constexpr bool has(LeaveOut what) const { return (bits_ & bit(what)) != 0; }
-  constexpr void add(LeaveOut what) { bits_ |= bit(what); }
-  constexpr LeaveOutSet without(LeaveOut what) const { return LeaveOutSet(bits_ & ~bit(what)); }
-  constexpr bool operator==(const LeaveOutSet&) const = default;
+  constexpr bool has(Specialisation what) const { return (bits_ & bit(what)) != 0; }
+  constexpr void add(Specialisation what) { bits_ |= bit(what); }
+  constexpr SpecialisationSet without(Specialisation what) const {
+    return SpecialisationSet(bits_ & ~bit(what));
+  }
+  constexpr bool operator==(const SpecialisationSet&) const = default;
 
  private:
-  constexpr explicit LeaveOutSet(std::uint32_t bits) : bits_(bits) {}
-  static constexpr std::uint32_t bit(LeaveOut what) { return std::uint32_t(1) << int(what); }
+  constexpr explicit SpecialisationSet(std::uint32_t bits) : bits_(bits) {}
+  static constexpr std::uint32_t bit(Specialisation what) { return std::uint32_t(1) << int(what); }
   std::uint32_t bits_ = 0;
 };
 
