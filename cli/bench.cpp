@@ -146,7 +146,7 @@ void add_bench(CLI::App& program, Action& action, std::vector<std::string> argum
   options->arguments = std::move(arguments);
   CLI::App* command = program.add_subcommand("bench", "Frame times across resolutions");
   command->footer(
-      R"(The plan, our pipeline with nothing left out and the published pipeline (where it can draw the
+      R"(The plan, our pipeline without specialisations and the published pipeline (where it can draw the
 scene) take turns frame by frame, each warmed up until its times are stable, each frame ended when
 the device has finished; first of all the plan is held against itself (A/A). "best ms" is the
 smallest of the rounds' medians, which ratios are taken of; what differs by less than twice the

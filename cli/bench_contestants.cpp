@@ -5,6 +5,7 @@
 
 #include "formats/suggestion.hpp"
 #include "runtime/copy_ceiling.hpp"
+#include "runtime/plan_description.hpp"
 #include "runtime/renderer.hpp"
 #include "soup/error.hpp"
 
@@ -46,7 +47,8 @@ class RendererContestant final : public Contestant {
         RenderOptions{.plan = preferences, .background = glm::vec4(scene.info.background, 1.0f)});
     renderer_->finish();
     configuration.upload_ms = milliseconds_since(start);
-    configuration.plan = renderer_->plan().sentences;
+    configuration.plan = describe(renderer_->plan());
+    configuration.specialisations = renderer_->plan().applied;
     configuration.device_mib = double(renderer_->device_bytes()) / bytes_per_mib;
   }
   void draw(const Camera& camera) override { renderer_->draw(camera); }
@@ -163,7 +165,7 @@ void add_contestant_options(CLI::App& command, ContestantOptions& options) {
       .add_option(
           "--only", options.only,
           "who takes part, with commas between: tureen (the plan), tureen-fragment and "
-          "tureen-compute (the same, with --shading), generic (nothing left out), published "
+          "tureen-compute (the same, with --shading), generic (no specialisation), published "
           "(DiffSoup's viewer), triangles and copy (the ceilings); the first is what the others "
           "are held against")
       ->delimiter(',')

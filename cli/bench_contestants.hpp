@@ -1,6 +1,6 @@
 // Who takes part in `tureen bench`: the plan, with either shading stage where asked for, the same
-// pipeline with nothing left out, the published pipeline, and the device's ceilings, each ready to
-// draw.
+// pipeline without specialisations, the published pipeline, and the device's ceilings, each ready
+// to draw.
 #pragma once
 
 #include <CLI/App.hpp>

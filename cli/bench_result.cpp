@@ -1,6 +1,7 @@
 #include "cli/bench_result.hpp"
 
 #include "cli/json_reading.hpp"
+#include "cli/plan_json.hpp"
 #include "cli/provenance.hpp"
 
 namespace tureen::cli {
@@ -21,9 +22,13 @@ Json to_json(const FrameStatistics& ms) {
 }
 
 Json to_json(const BenchConfiguration& configuration) {
-  return {{"name", configuration.name},           {"options", configuration.options},
-          {"plan", configuration.plan},           {"plan_ms", configuration.plan_ms},
-          {"upload_ms", configuration.upload_ms}, {"device_mib", configuration.device_mib}};
+  return {{"name", configuration.name},
+          {"options", configuration.options},
+          {"plan", configuration.plan},
+          {"specialisations", specialisations_json(configuration.specialisations)},
+          {"plan_ms", configuration.plan_ms},
+          {"upload_ms", configuration.upload_ms},
+          {"device_mib", configuration.device_mib}};
 }
 
 Json to_json(const BenchMeasurement& measurement) {
@@ -76,13 +81,25 @@ FrameStatistics frame_statistics(const JsonView& measurement) {
       .samples = samples};
 }
 
+std::vector<AppliedSpecialisation> specialisations(const JsonView& configuration) {
+  const auto applied = configuration.find("specialisations");
+  if (!applied) return {};
+  return list(*applied, [](const JsonView& each) {
+    const auto what = specialisation_named(each["name"].text());
+    if (!what) each["name"].fail("is no specialisation");
+    const auto count = [&](const char* key) { return std::size_t(integer(each[key])); };
+    return AppliedSpecialisation{*what, count("count"), count("total"), each["margin"].number()};
+  });
+}
+
 BenchConfiguration configuration(const JsonView& view) {
   return {.name = view["name"].text(),
           .options = texts(view["options"]),
           .plan = texts(view["plan"]),
           .plan_ms = view["plan_ms"].number(),
           .upload_ms = view["upload_ms"].number(),
-          .device_mib = view["device_mib"].number()};
+          .device_mib = view["device_mib"].number(),
+          .specialisations = specialisations(view)};
 }
 
 std::vector<std::pair<std::string, double>> passes(const JsonView& view) {

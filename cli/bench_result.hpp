@@ -11,6 +11,7 @@
 #include "cli/machine.hpp"
 #include "cli/report.hpp"
 #include "runtime/frame_statistics.hpp"
+#include "runtime/specialisation.hpp"
 
 namespace tureen::cli {
 
@@ -58,10 +59,12 @@ struct BenchLoad {
 struct BenchConfiguration {
   std::string name;                  // "tureen", "generic", "published", "empty fragments", ..
   std::vector<std::string> options;  // of `tureen render` that draw the same; empty for ceilings
-  std::vector<std::string> plan;     // its sentences
+  std::vector<std::string> plan;     // describe()
   double plan_ms = 0;
   double upload_ms = 0;
   double device_mib = 0;
+  /// Of the plan; none in files of earlier versions.
+  std::vector<AppliedSpecialisation> specialisations = {};
 };
 
 /// One configuration with one set of cameras at one size.

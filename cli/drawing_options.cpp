@@ -41,7 +41,7 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
       ->option_text("NAME");
   CLI::Option* no_specialise = command.add_flag_callback(
       "--no-specialise", [&options] { options.plan.specialise = false; },
-      "leave nothing out that the scene does not need (for comparisons)");
+      "apply no specialisation: draw and compute also what the scene does not need");
   command
       .add_option_function<std::vector<std::string>>(
           "--keep",
@@ -49,7 +49,7 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
             for (const std::string& name : names)
               options.plan.specialisations = options.plan.specialisations.without(named(name));
           },
-          "do not leave these out, whether the scene needs them or not: names from "
+          "do not apply these specialisations: names from "
           "docs/leaving-out.md with commas between, as alpha-test,background")
       ->option_text("NAMES")
       ->delimiter(',')

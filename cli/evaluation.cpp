@@ -14,6 +14,7 @@
 #include "cli/picture_file.hpp"
 #include "formats/existing_path.hpp"
 #include "formats/output.hpp"
+#include "runtime/plan_description.hpp"
 #include "runtime/renderer.hpp"
 #include "soup/error.hpp"
 #include "soup/heat_map.hpp"
@@ -140,7 +141,7 @@ Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
     result.output.push_back(sheet.string());
   }
   result.mean = mean_of(result.views);
-  result.plan = renderer.plan().sentences;
+  result.plan = describe(renderer.plan());
   return result;
 }
 

@@ -50,7 +50,7 @@ struct Evaluation {
   ViewMetrics mean;                // without a name
   std::string context;             // how the device was reached, and its name
   std::string renderer;
-  std::vector<std::string> plan;    // the plan's sentences
+  std::vector<std::string> plan;    // describe()
   std::vector<std::string> output;  // the pictures written
 };
 

@@ -6,11 +6,12 @@
 
 #include "cli/commands.hpp"
 #include "cli/memory_option.hpp"
+#include "cli/plan_json.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
 #include "formats/camera_file.hpp"
 #include "runtime/device_forecast.hpp"
-#include "runtime/plan.hpp"
+#include "runtime/plan_description.hpp"
 #include "soup/lint.hpp"
 #include "soup/spherical_harmonics.hpp"
 
@@ -189,7 +190,7 @@ ExitCode inform(const Options& options) {
   say(fmt::format("  cameras      {}", scene.cameras.size()));
   if (scene.quality != Quality{}) say("  quality      " + describe(scene.quality));
   say_list("Notes:", all_notes(scene.info));
-  say_list("Plan:", plan.sentences);
+  say_list("Plan:", describe(plan));
   say_list("Devices:", device_lines);
   std::vector<std::string> lint_lines;
   for (const LintFinding& finding : findings.findings) lint_lines.push_back(describe(finding));
@@ -219,7 +220,8 @@ ExitCode inform(const Options& options) {
                  {"quality",
                   {{"resolution_scale", scene.quality.resolution_scale},
                    {"supersampling", scene.quality.supersampling}}},
-                 {"plan", plan.sentences},
+                 {"plan", describe(plan)},
+                 {"specialisations", specialisations_json(plan.applied)},
                  {"devices", devices},
                  {"lint", to_json(findings)}});
     print_json(json);

@@ -12,6 +12,7 @@
 #include "cli/output_argument.hpp"
 #include "cli/picture_file.hpp"
 #include "cli/pictures.hpp"
+#include "cli/plan_json.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/show_option.hpp"
@@ -19,6 +20,7 @@
 #include "cli/view_options.hpp"
 #include "formats/video_file.hpp"
 #include "runtime/inspector.hpp"
+#include "runtime/plan_description.hpp"
 #include "runtime/renderer.hpp"
 #include "soup/error.hpp"
 
@@ -41,6 +43,7 @@ struct Options {
 struct Drawn {
   Pictures pictures;
   std::vector<std::string> plan;
+  std::vector<AppliedSpecialisation> specialisations;
   std::vector<std::string> legend;  // of inspections
   std::size_t device_bytes = 0;
 };
@@ -66,7 +69,8 @@ Drawn draw_colors(const gl::Context& context, const Scene& scene, const Triangle
   if (options.frames > 0) times = benchmark(drawer, device, views.cameras, options.frames);
   Pictures pictures = draw_views(drawer, device, views, options.output);
   if (options.frames > 0) pictures.times = times;
-  return {std::move(pictures), renderer.plan().sentences, {}, renderer.device_bytes()};
+  const RenderPlan& plan = renderer.plan();
+  return {std::move(pictures), describe(plan), plan.applied, {}, renderer.device_bytes()};
 }
 
 Drawn draw_inspection(const gl::Context& context, const Scene& scene, const TriangleSoup& soup,
@@ -77,8 +81,11 @@ Drawn draw_inspection(const gl::Context& context, const Scene& scene, const Tria
   Pictures pictures = draw_views(drawer_of(inspector, device), device, views, options.output);
   const std::string sentence = std::string("shows ") + name_of(options.show.what) +
                                " of the soup as it is stored, one sample a pixel";
-  return {
-      std::move(pictures), {sentence}, legend_lines(inspector.legend()), inspector.device_bytes()};
+  return {std::move(pictures),
+          {sentence},
+          {},
+          legend_lines(inspector.legend()),
+          inspector.device_bytes()};
 }
 
 /// Before a context is asked for.
@@ -172,6 +179,7 @@ ExitCode render(Options options) {
          {"triangles", soup.triangles.size()},
          {"frame_ms", {{"median", times.median()}, {"p95", times.p95()}, {"n", times.ms.size()}}},
          {"plan", drawn.plan},
+         {"specialisations", specialisations_json(drawn.specialisations)},
          {"output", pictures.paths}});
   return ExitCode::done;
 }

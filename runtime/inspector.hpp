@@ -1,7 +1,7 @@
 // Draws what runtime/inspection.hpp names of a soup, frame by frame, as Renderer draws its colours:
 // the same faces in the same pixels, but for what says otherwise.
 //
-// It has buffers and textures of its own, of the soup as it is stored: nothing is left out of it,
+// It has buffers and textures of its own, of the soup as it is stored: nothing is specialised,
 // and ordinary frames know nothing of it. GL state is treated as Renderer treats it.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What a lattice texture holds, measured: the plan leaves out what it does not.
+// What a lattice texture holds, measured: the plan specialises for it.
 #pragma once
 
 #include <cstdint>

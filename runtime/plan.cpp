@@ -1,5 +1,7 @@
 #include "runtime/plan.hpp"
 
+#include <algorithm>
+
 #include "runtime/color_mlp_source.hpp"
 #include "runtime/plan_draft.hpp"
 #include "soup/error.hpp"
@@ -20,13 +22,9 @@ void choose_site(PlanDraft& draft) {
   plan.site = wanted.value_or(forward ? ShadingSite::forward : ShadingSite::deferred);
   plan.depth_rejects_background =
       draft.may(Specialisation::background) && plan.site == ShadingSite::deferred;
-  if (plan.depth_rejects_background)
-    draft.apply(Specialisation::background,
-                "shading of background pixels, the depth test rejects them (exact)");
+  if (plan.depth_rejects_background) draft.apply({Specialisation::background});
   if (draft.preferences.specialise && !wanted && plan.site == ShadingSite::forward)
-    draft.apply(
-        Specialisation::shading_pass,
-        "the shading pass, colours are cheap enough to write at once (exact but for rounding)");
+    draft.apply({Specialisation::shading_pass});
 }
 
 void choose_stage(PlanDraft& draft, const DeviceLimits& limits) {
@@ -36,37 +34,16 @@ void choose_stage(PlanDraft& draft, const DeviceLimits& limits) {
     throw DeviceLimitError(
         "shading as compute needs compute shaders, OpenGL 4.3 or ES 3.1, which this device has "
         "not");
-  if (plan.site != ShadingSite::deferred) {
-    if (wanted == ShadingStage::compute)
-      draft.say("nothing is shaded as compute, as colours are written at once");
-    return;
-  }
-  if (wanted == ShadingStage::compute) draft.say("shading runs as compute, as asked");
-  plan.shading_stage = wanted;
-}
-
-void plan_quality(PlanDraft& draft) {
-  draft.plan.quality = draft.preferences.quality;
-  if (draft.plan.quality.resolution_scale < 1)
-    draft.say("draws " + describe(draft.plan.quality) + " and enlarges the image bilinearly");
-  if (draft.plan.quality.supersampling > 1) draft.say("draws " + describe(draft.plan.quality));
-}
-
-void describe_drawing(PlanDraft& draft) {
-  RenderPlan& plan = draft.plan;
-  std::string sentence = formatted("draws %zu of %zu faces (%s), near ones first in %zu clusters, ",
-                                   plan.faces.size(), draft.soup.triangles.size(),
-                                   appearance_name(draft.soup.appearance), plan.clusters.size());
-  sentence += plan.site == ShadingSite::forward    ? "colour in one pass"
-              : plan.site == ShadingSite::deferred ? "a visibility pass, then colour once a pixel"
-                                                   : "no colours, an empty fragment shader";
-  if (plan.color_mlp && plan.site != ShadingSite::nowhere) sentence += " by the color MLP";
-  sentence += plan.reversed_depth ? "; reversed depth" : "; ordinary depth range";
-  if (!draft.preferences.specialise) sentence += "; nothing is left out, as asked";
-  plan.sentences.insert(plan.sentences.begin(), std::move(sentence));
+  plan.requested_stage = wanted;
+  if (plan.site == ShadingSite::deferred) plan.shading_stage = wanted;
 }
 
 }  // namespace
+
+bool RenderPlan::applies(Specialisation what) const {
+  return std::any_of(applied.begin(), applied.end(),
+                     [what](const AppliedSpecialisation& each) { return each.what == what; });
+}
 
 void plan_appearance(PlanDraft& draft, const FaceColors&) { draft.plan.flat_colors = true; }
 
@@ -78,8 +55,7 @@ void plan_appearance(PlanDraft& draft, const VertexColors& colors) {
     if (colors.rgba[v.x] != colors.rgba[v.y] || colors.rgba[v.x] != colors.rgba[v.z]) return;
   }
   plan.flat_colors = true;
-  draft.apply(Specialisation::interpolation,
-              "interpolation, the three vertex colours of every face are equal (exact)");
+  draft.apply({Specialisation::interpolation});
 }
 
 void plan_appearance(PlanDraft& draft, const UvTextures& textures) {
@@ -92,18 +68,19 @@ RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
   if (const auto reason = defect(preferences.quality)) throw UsageError(*reason);
   PlanDraft draft{soup, preferences, {}};
   draft.plan.pipeline = preferences.pipeline;
+  draft.plan.specialise = preferences.specialise;
+  draft.plan.appearance = appearance_name(soup.appearance);
+  draft.plan.soup_faces = soup.triangles.size();
+  draft.plan.quality = preferences.quality;
   if (preferences.pipeline == PipelineKind::published) {
     plan_published(draft);
-    plan_quality(draft);
     return std::move(draft.plan);
   }
   draft.plan.reversed_depth = limits.clip_control && preferences.reversed_depth;
   plan_faces(draft, limits);
   std::visit([&](const auto& appearance) { plan_appearance(draft, appearance); }, soup.appearance);
   choose_site(draft);
-  plan_quality(draft);
   choose_stage(draft, limits);
-  describe_drawing(draft);
   return std::move(draft.plan);
 }
 

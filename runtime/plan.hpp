@@ -1,6 +1,6 @@
-// What is drawn for this scene on this device, and what was left out. Made once, without GL; the
-// pipelines below obey it. Every row that the sentences name is proven by a test against the
-// plan made with `specialise = false`.
+// What is drawn for this scene on this device, and which specialisations apply. Made once, without
+// GL; the pipelines draw by it. plan_description.hpp puts it into English. A test holds each
+// specialisation against the plan made with `specialise = false`.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ enum class ShadingSite {
              // background's. How fast a device can be asked to draw them at all (a ceiling)
 };
 
-/// What runs the shading pass of a deferred plan that names faces.
+/// What runs the shading pass of a deferred plan.
 enum class ShadingStage {
   fragment,  // a triangle over the window; the depth test rejects the background
   compute,   // a compute shader, an invocation for every pixel of the picture
@@ -46,10 +46,10 @@ enum class ShadingStage {
 
 struct PlanPreferences {
   PipelineKind pipeline = PipelineKind::tureen;
-  /// Without it nothing is left out: every face is alpha-tested, every pixel shaded, network
-  /// weights are uniforms.
+  /// Without it no specialisation is applied: every face is alpha-tested, every pixel shaded,
+  /// network weights are uniforms.
   bool specialise = true;
-  /// What may be left out, where `specialise` is set.
+  /// Which specialisations may be applied, where `specialise` is set.
   SpecialisationSet specialisations = SpecialisationSet::all();
   bool reversed_depth = true;            // where the device can
   std::optional<ShadingSite> site = {};  // the plan's own choice when absent
@@ -74,6 +74,8 @@ struct LatticePlan {
   /// Alpha is stored by the cell, read once a fragment, or by the texel, read three times, in less
   /// than a third of the memory.
   bool alpha_by_cell = true;
+  /// Bytes that alpha by cell would take, where that is too much.
+  std::uint64_t refused_alpha_cell_bytes = 0;
 };
 
 struct RenderPlan {
@@ -101,15 +103,25 @@ struct RenderPlan {
   FeatureRanges feature_ranges;  // of what the network sees, for constant weights
   LatticePlan lattice;
 
-  /// What of Specialisation this plan leaves out.
-  SpecialisationSet left_out;
   /// `fragment` where there is no choice.
   ShadingStage shading_stage = ShadingStage::fragment;
   Quality quality;
 
-  /// For people: how the scene is drawn, a sentence for each quality setting that is applied, and
-  /// one for each thing left out, with the measured margin.
-  std::vector<std::string> sentences;
+  /// In the order in which they were found; each of them once.
+  std::vector<AppliedSpecialisation> applied;
+  bool applies(Specialisation what) const;
+
+  // What is known of the soup and of the request, for people and for tests.
+
+  std::string appearance;            // appearance_name() of the soup
+  std::size_t soup_faces = 0;        // all of them
+  std::size_t undrawable_faces = 0;  // without area, or with corners that are not finite: not drawn
+  int zero_weights = 0;              // of the network, not computed
+  bool specialise = true;            // PlanPreferences::specialise
+  /// PlanPreferences::shading_stage: compute runs only where the plan is deferred.
+  ShadingStage requested_stage = ShadingStage::fragment;
+  /// --keep has no effect, as the published pipeline has no specialisations.
+  bool ignores_specialisations = false;
 };
 
 /// The soup must have no defect(). Throws UsageError when the published pipeline is asked for and

@@ -2,39 +2,27 @@
 // Internal to runtime/: users want plan.hpp.
 #pragma once
 
-#include <cstdio>
-#include <string>
-#include <utility>
-
 #include "runtime/plan.hpp"
 
 namespace tureen {
 
-/// Half a step of an 8-bit colour: nothing that is not exact may change a colour by more.
+/// Half a step of an 8-bit colour: no specialisation may change a colour by more.
 inline constexpr float half_step = 0.5f / 255.0f;
 
-/// printf's formatting into a string of at most 511 characters.
-template <class... Values>
-std::string formatted(const char* pattern, Values... values) {
-  char text[512];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
+/// A change of a colour in [0, 1] in steps of 8 bits, as AppliedSpecialisation::margin.
+constexpr double steps_of(double change) { return 255.0 * change; }
 
 struct PlanDraft {
   const TriangleSoup& soup;
   PlanPreferences preferences;
   RenderPlan plan;
 
-  /// Whether the caller lets this be left out.
+  /// Whether the caller allows this specialisation.
   bool may(Specialisation what) const {
     return preferences.specialise && preferences.specialisations.has(what);
   }
-  void say(std::string sentence) { plan.sentences.push_back(std::move(sentence)); }
-  /// `what` is left out; the sentence says so with the measured margin.
-  void apply(Specialisation what, std::string sentence) {
-    plan.left_out.add(what);
-    say("left out: " + std::move(sentence));
+  void apply(const AppliedSpecialisation& specialisation) {
+    plan.applied.push_back(specialisation);
   }
 };
 

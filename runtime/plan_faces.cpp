@@ -12,10 +12,7 @@ std::vector<std::uint32_t> drawable_faces(PlanDraft& draft) {
   std::vector<std::uint32_t> faces;
   for (std::uint32_t t = 0; t < draft.soup.triangles.size(); ++t)
     if (drawable(draft.soup, t)) faces.push_back(t);
-  const std::size_t undrawable = draft.soup.triangles.size() - faces.size();
-  if (undrawable > 0)
-    draft.say(formatted("left out: %zu faces without area or with corners that are not finite",
-                        undrawable));
+  draft.plan.undrawable_faces = draft.soup.triangles.size() - faces.size();
   return faces;
 }
 
@@ -30,9 +27,7 @@ void skip_coincident_faces(PlanDraft& draft, const std::vector<FaceAlpha>& alpha
         !coincident(draft.soup, kept.back(), face))
       kept.push_back(face);
   if (kept.size() == faces.size()) return;
-  draft.apply(Specialisation::coincident_faces,
-              formatted("%zu of %zu faces lie behind an opaque one with the same corners (exact)",
-                        faces.size() - kept.size(), faces.size()));
+  draft.apply({Specialisation::coincident_faces, faces.size() - kept.size(), faces.size()});
   faces = std::move(kept);
 }
 
@@ -58,10 +53,7 @@ void plan_faces_between_pixels(PlanDraft& draft, const DeviceLimits& limits) {
       !draft.may(Specialisation::faces_between_pixels))
     return;
   draft.plan.drops_faces_between_pixels = true;
-  draft.apply(Specialisation::faces_between_pixels,
-              formatted("in each frame, faces that cover no pixel's centre (exact; from %zu "
-                        "faces on, and only where the processor draws)",
-                        least_faces_between_pixels));
+  draft.apply({Specialisation::faces_between_pixels});
 }
 
 }  // namespace
@@ -77,9 +69,7 @@ void plan_faces(PlanDraft& draft, const DeviceLimits& limits) {
     const std::size_t before = faces.size();
     std::erase_if(faces, [&](std::uint32_t t) { return alpha[t] == FaceAlpha::transparent; });
     if (faces.size() < before)
-      draft.apply(Specialisation::transparent_faces,
-                  formatted("%zu of %zu faces are transparent throughout (exact)",
-                            before - faces.size(), before));
+      draft.apply({Specialisation::transparent_faces, before - faces.size(), before});
   }
 
   sort_spatially(soup, faces);
@@ -91,13 +81,8 @@ void plan_faces(PlanDraft& draft, const DeviceLimits& limits) {
       faces.begin(), faces.end(), [&](std::uint32_t t) { return alpha[t] == FaceAlpha::opaque; });
   plan.opaque_count = std::size_t(first_cut_out - faces.begin());
   plan.faces = std::move(faces);
-  if (plan.opaque_count == plan.faces.size() && !plan.faces.empty())
-    draft.apply(Specialisation::alpha_test,
-                "the alpha test, every face is opaque throughout (exact)");
-  else if (plan.opaque_count > 0)
-    draft.apply(Specialisation::alpha_test,
-                formatted("the alpha test of %zu of %zu faces, opaque throughout (exact)",
-                          plan.opaque_count, plan.faces.size()));
+  if (plan.opaque_count > 0)
+    draft.apply({Specialisation::alpha_test, plan.opaque_count, plan.faces.size()});
 
   const auto opaque = std::uint32_t(plan.opaque_count), all = std::uint32_t(plan.faces.size());
   const std::uint32_t size = cluster_size(plan.faces.size());

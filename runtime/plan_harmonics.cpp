@@ -40,10 +40,8 @@ void plan_appearance(PlanDraft& draft, const Harmonics& sh) {
   const std::vector<double> largest = largest_from_band(sh);
   while (degree > 0 && largest[std::size_t(degree)] < half_step) --degree;
   if (degree < sh.degree)
-    draft.apply(Specialisation::harmonics_bands,
-                formatted("harmonics above degree %d of %d, they change no colour by more than "
-                          "%.5f (1/510 = 0.00196 allowed)",
-                          degree, sh.degree, largest[std::size_t(degree) + 1]));
+    draft.apply({Specialisation::harmonics_bands, std::size_t(sh.degree - degree),
+                 std::size_t(sh.degree), steps_of(largest[std::size_t(degree) + 1])});
 }
 
 }  // namespace tureen

@@ -9,16 +9,13 @@ namespace tureen {
 
 namespace {
 
-/// Whether the network never blends in; says so.
+/// Whether the network never blends in.
 bool never_blends_in(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges& ranges) {
   if (!mlp.blend_channel || !draft.may(Specialisation::color_mlp)) return false;
   const FeatureRange& range = ranges[std::size_t(*mlp.blend_channel)];
   const double moves = double(std::max(range.high, -range.low)) * base_from_network(ranges);
   if (!(moves <= double(half_step))) return false;
-  draft.apply(Specialisation::color_mlp,
-              formatted("the color MLP, its blend channel moves no colour by more than %.5f "
-                        "(1/510 = 0.00196 allowed)",
-                        moves));
+  draft.apply({.what = Specialisation::color_mlp, .margin = steps_of(moves)});
   return true;
 }
 
@@ -49,10 +46,7 @@ void plan_affine_texels(PlanDraft& draft, const LatticeTexture& texture,
   if (kept == texels || !worth_it || traits.shares_texels) return;
   plan.lattice.levels = std::move(levels);
   if (all_affine) plan.lattice.uniform_level = 0;
-  draft.apply(Specialisation::affine_texels,
-              formatted("%zu of %zu texels, %zu faces are affine (%zu constant) and keep their "
-                        "corners (no colour changes by more than %.5f, 1/510 = 0.00196 allowed)",
-                        texels - kept, texels, affine_faces, traits.constant_faces, largest_error));
+  draft.apply({Specialisation::affine_texels, affine_faces, count, steps_of(largest_error)});
 }
 
 }  // namespace
@@ -71,10 +65,7 @@ void choose_alpha_storage(PlanDraft& draft, const LatticeTexture& texture) {
   const std::uint64_t bytes = cells * std::uint64_t(texture.is_float() ? 16 : 4);
   if (bytes <= draft.preferences.most_alpha_cell_bytes) return;
   plan.lattice.alpha_by_cell = false;
-  draft.say(
-      formatted("alpha is stored by the texel, not by the cell: that would take %.1f MB, and "
-                "memory is short",
-                double(bytes) / 1e6));
+  plan.lattice.refused_alpha_cell_bytes = bytes;
 }
 
 void plan_lattice(PlanDraft& draft, const LatticeTexture& texture) {
@@ -94,8 +85,7 @@ void plan_lattice(PlanDraft& draft, const LatticeTexture& texture) {
   if (!plan.color_mlp && traits.constant_faces == plan.faces.size() && opaque &&
       draft.may(Specialisation::constant_lattices)) {
     plan.flat_colors = true;
-    draft.apply(Specialisation::constant_lattices,
-                "the lattice, every face has one colour (exact)");
+    draft.apply({Specialisation::constant_lattices, plan.faces.size(), plan.faces.size()});
     return;
   }
   if (draft.may(Specialisation::affine_texels))

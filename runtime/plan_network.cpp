@@ -21,10 +21,7 @@ void plan_view_direction(PlanDraft& draft, const ColorMlp& mlp, const FeatureRan
   const double moves = view_dependence(mlp) * largest_blend(mlp, ranges);
   if (moves > double(half_step)) return;
   draft.plan.view_direction = false;
-  draft.apply(Specialisation::view_direction,
-              formatted("the view direction, it moves no colour by more than %.5f (1/510 = "
-                        "0.00196 allowed)",
-                        moves));
+  draft.apply({.what = Specialisation::view_direction, .margin = steps_of(moves)});
 }
 
 /// A range that is a single value makes the network's source use that value: widened where the
@@ -44,22 +41,20 @@ void plan_network(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges& me
   if (!draft.may(Specialisation::weight_uniforms)) return;
   plan.mlp_weights =
       draft.may(Specialisation::dead_neurons) ? MlpWeights::constants : MlpWeights::all_constants;
-  draft.apply(Specialisation::weight_uniforms,
-              "uniforms, the network's weights are compiled in as constants");
+  draft.apply({Specialisation::weight_uniforms});
   if (plan.mlp_weights == MlpWeights::all_constants) return;
   if (!draft.may(Specialisation::latent_features))
     for (std::size_t i = 4; i < plan.feature_ranges.size(); ++i)
       keep_reading(plan.feature_ranges[i]);
   const ColorMlpSource source = color_mlp_source(plan.view_direction ? mlp : without_direction(mlp),
                                                  plan.mlp_weights, plan.feature_ranges);
+  plan.zero_weights = source.zero_weights;
   if (source.dead_neurons + source.zero_weights > 0)
-    draft.apply(Specialisation::dead_neurons,
-                formatted("%d of %d hidden neurons that never fire and %d weights of zero (exact)",
-                          source.dead_neurons, source.hidden_neurons, source.zero_weights));
+    draft.apply({Specialisation::dead_neurons, std::size_t(source.dead_neurons),
+                 std::size_t(source.hidden_neurons)});
   if (source.reads_features1 || !draft.may(Specialisation::latent_features)) return;
   plan.latent_features = false;
-  draft.apply(Specialisation::latent_features,
-              "features 4 and above, each is the same everywhere or has no weight (exact)");
+  draft.apply({Specialisation::latent_features});
 }
 
 }  // namespace tureen

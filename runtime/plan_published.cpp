@@ -1,4 +1,4 @@
-// The plan of the published pipeline, which leaves nothing out.
+// The plan of the published pipeline, which has no specialisations.
 #include "runtime/face_alpha.hpp"
 #include "runtime/plan_draft.hpp"
 #include "soup/error.hpp"
@@ -23,11 +23,7 @@ void plan_published(PlanDraft& draft) {
     if (drawable(soup, t)) plan.faces.push_back(t);
   plan.color_mlp = true;
   plan.lattice.uniform_level = int(level);
-  draft.say(
-      "published pipeline: two RGBA8 feature targets, every fragment samples all eight channels, "
-      "faces in file order, the network on every pixel with its weights in uniforms");
-  if (draft.preferences.specialisations != SpecialisationSet::all())
-    draft.say("what is to be kept changes nothing: the published pipeline leaves nothing out");
+  plan.ignores_specialisations = draft.preferences.specialisations != SpecialisationSet::all();
 }
 
 }  // namespace tureen

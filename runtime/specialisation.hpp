@@ -1,8 +1,9 @@
-// The things that a plan may leave out of a frame because this scene does not need them, by name,
-// so that each can be kept alone: to measure what leaving it out gains, or to look for a fault.
-// docs/leaving-out.md says for each how it is found, why nothing is lost, and what it gains.
+// Specialisations: what a plan does not draw or compute because the scene does not need it. Each
+// has a name, so that it can be turned off alone, to measure its gain or to look for a fault.
+// docs/leaving-out.md says how each is found, why the image stays the same, and what it gains.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -11,28 +12,40 @@
 namespace tureen {
 
 enum class Specialisation : std::uint8_t {
-  alpha_test,            // of faces that are opaque throughout
-  transparent_faces,     // faces that are transparent throughout
-  coincident_faces,      // faces behind an opaque one with the same corners
-  faces_between_pixels,  // that cover no pixel's centre
-  shading_pass,          // where a colour is cheap enough to write at once
-  background,            // shading of pixels that no face covers
-  interpolation,         // of vertex colours that are equal
-  harmonics_bands,       // that nobody sees
-  color_mlp,             // a network that never blends in
-  view_direction,        // that moves no colour
-  weight_uniforms,       // weights become constants of the shader
-  dead_neurons,          // that never fire, and weights of zero
-  latent_features,       // that are the same everywhere, or have no weight
-  constant_lattices,     // lattices where every face has one colour
-  affine_texels,         // all but the corners of faces that are affine
+  alpha_test,            // no alpha test for faces that are opaque throughout
+  transparent_faces,     // faces that are transparent throughout are not drawn
+  coincident_faces,      // nor faces behind an opaque one with the same corners
+  faces_between_pixels,  // nor, frame by frame, faces that cover no pixel's centre
+  shading_pass,          // colours that cost little are written in the only pass
+  background,            // pixels without a face are not shaded
+  interpolation,         // three equal vertex colours become a colour a face
+  harmonics_bands,       // bands that change no colour are not evaluated
+  color_mlp,             // a network that never blends in does not run
+  view_direction,        // a network ignores a direction that changes no colour
+  weight_uniforms,       // weights are constants of the shader
+  dead_neurons,          // neurons that never fire, and weights of zero, are not computed
+  latent_features,       // features 4 and above that are constant or have no weight are not read
+  constant_lattices,     // lattices of one colour become a colour a face
+  affine_texels,         // affine faces keep only their corner texels
+};
+
+/// One specialisation, as a plan applied it.
+struct AppliedSpecialisation {
+  Specialisation what = {};
+  /// What is not drawn or computed, of how many: faces, bands or hidden neurons, by its kind. Both
+  /// are 0 where nothing is counted.
+  std::size_t count = 0, total = 0;
+  /// The largest change of a colour, in steps of 8 bits: 0 (exact, but for rounding) to 0.5.
+  double margin = 0;
+
+  bool operator==(const AppliedSpecialisation&) const = default;
 };
 
 /// One of them for people and for the command line.
 struct SpecialisationName {
   Specialisation what;
   const char* name;   // "alpha-test"
-  const char* title;  // "the alpha test of opaque faces"
+  const char* title;  // "no alpha test for opaque faces"
 };
 
 /// All of them, in the order of the enumeration.

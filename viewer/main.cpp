@@ -47,7 +47,7 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
       .add_option("--pipeline", arguments.pipeline,
                   "auto, or published: the published viewer's, the baseline")
       ->check(CLI::IsMember({"auto", "published"}));
-  program.add_flag("--no-specialise", arguments.no_specialise, "leave nothing out");
+  program.add_flag("--no-specialise", arguments.no_specialise, "apply no specialisation");
   program.add_option("--pictures", arguments.pictures, "where pictures are saved")
       ->option_text("FOLDER");
   program

@@ -132,9 +132,9 @@ void measure_scene(const gl::Context& context, const Settings& settings,
                               box.centre(), up, 0.7, settings.width, settings.height));
   }
   const std::string name = path.stem().string();
-  const SpecialisationSet applied = make_plan(soup, device_limits(context.capabilities())).left_out;
+  const RenderPlan plan = make_plan(soup, device_limits(context.capabilities()));
   for (const SpecialisationName& row : specialisation_names())
-    if (applied.has(row.what))
+    if (plan.applies(row.what))
       compare(context, settings, row.name, name, soup, cameras,
               {.specialisations = SpecialisationSet::all().without(row.what)});
   compare(context, settings, "all of them", name, soup, cameras, {.specialise = false});

@@ -66,10 +66,12 @@ BenchResult example() {
           .load = {.read_ms = 1, .plan_ms = 2, .upload_ms = 3, .peak_mib = 4, .device_mib = 5},
           .configurations = {{.name = "tureen",
                               .options = {},
-                              .plan = {"M1: no network"},
+                              .plan = {"color-mlp: the color MLP does not run"},
                               .plan_ms = 2,
                               .upload_ms = 3,
-                              .device_mib = 5},
+                              .device_mib = 5,
+                              .specialisations = {{Specialisation::color_mlp, 0, 0, 0.25},
+                                                  {Specialisation::alpha_test, 7, 9}}},
                              {.name = "published",
                               .options = {"--pipeline", "published"},
                               .plan = {},
@@ -85,6 +87,7 @@ TEST(BenchResult, ComesBackFromJsonAsItWas) {
   const Json written = to_json(example());
   const BenchResult read = bench_result_from_json(written.dump(), "bench.json");
   EXPECT_EQ(to_json(read), written);
+  EXPECT_EQ(read.configurations[0].specialisations, example().configurations[0].specialisations);
   // The order of passes is that of the frame.
   ASSERT_EQ(read.measurements[0].passes_ms.size(), 3u);
   EXPECT_EQ(read.measurements[0].passes_ms[0].first, "visibility");

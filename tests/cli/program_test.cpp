@@ -176,7 +176,7 @@ TEST_F(Program, InfoTellsWhatASceneIs) {
   const auto json = nlohmann::ordered_json::parse(result.out);
   for (const char* key : {"file", "triangles", "vertices", "appearance", "bytes_on_disk",
                           "bytes_in_memory", "bytes_on_device", "bounds", "up", "cameras", "notes",
-                          "remarks", "plan", "devices", "lint"})
+                          "remarks", "plan", "specialisations", "devices", "lint"})
     EXPECT_TRUE(json.contains(key)) << key;
   EXPECT_EQ(json["triangles"], 3);
   EXPECT_EQ(json["appearance"], "face colours");
@@ -185,6 +185,9 @@ TEST_F(Program, InfoTellsWhatASceneIs) {
   EXPECT_EQ(json["lint"]["duplicate_faces"]["count"], 1);
   EXPECT_EQ(json["lint"]["duplicate_faces"]["first"], nlohmann::ordered_json({2}));
   EXPECT_FALSE(json["plan"].empty());
+  const nlohmann::ordered_json repeated{
+      {"name", "coincident-faces"}, {"count", 1}, {"total", 3}, {"margin", 0.0}};
+  EXPECT_EQ(json["specialisations"][0], repeated);
   EXPECT_TRUE(json["devices"][0]["fits"].get<bool>());
   EXPECT_THAT(result.err, Names("1 of 3", 2));
 }
@@ -230,8 +233,9 @@ TEST_F(Program, RenderDrawsAndReports) {
            "--target", "0,0,0", "--frames", "5", "--context", "osmesa", "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto json = nlohmann::ordered_json::parse(result.out);
-  EXPECT_THAT(keys(json), ElementsAre("width", "height", "context", "renderer", "software",
-                                      "triangles", "frame_ms", "plan", "output"));
+  EXPECT_THAT(keys(json),
+              ElementsAre("width", "height", "context", "renderer", "software", "triangles",
+                          "frame_ms", "plan", "specialisations", "output"));
   EXPECT_EQ(json["width"], 64);
   EXPECT_EQ(json["height"], 48);
   EXPECT_EQ(json["triangles"], 3);
@@ -290,7 +294,7 @@ TEST_F(Program, RenderShowsWhatASoupHas) {
   EXPECT_THAT(overdraw.err, Names("overdraw", "#611366 2"));
   EXPECT_THAT(keys(nlohmann::ordered_json::parse(overdraw.out)),
               ElementsAre("width", "height", "context", "renderer", "software", "triangles",
-                          "frame_ms", "plan", "output"));
+                          "frame_ms", "plan", "specialisations", "output"));
   // Two faces at one place above the middle; below it the third lies behind them.
   const Image8 counts = read_png("out.png");
   EXPECT_EQ(counts.at(32, 20), glm::u8vec4(0x61, 0x13, 0x66, 255));

@@ -252,7 +252,7 @@ class AtTheBound : public testing::TestWithParam<Edge> {
   EdgeSoup soup(double fraction) const { return GetParam().make(GetParam().seed, fraction); }
   static bool is_left_out(const EdgeSoup& edge) {
     EXPECT_EQ(defect(edge.soup), std::nullopt);
-    return make_plan(edge.soup, DeviceLimits{.software = true}).left_out.has(GetParam().what);
+    return make_plan(edge.soup, DeviceLimits{.software = true}).applies(GetParam().what);
   }
 };
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "runtime/navigation.hpp"
+#include "runtime/plan_description.hpp"
 #include "runtime/renderer.hpp"
 #include "support/contexts.hpp"
 #include "support/random_soups.hpp"
@@ -69,7 +70,7 @@ class PreparedArchive : public testing::TestWithParam<test::Kind> {
     there.draw(camera);
     EXPECT_EQ(there.read_color().pixels, expected.pixels);
     EXPECT_EQ(there.read_faces(), here.read_faces());
-    EXPECT_EQ(there.plan().sentences, here.plan().sentences);
+    EXPECT_EQ(describe(there.plan()), describe(here.plan()));
     EXPECT_EQ(there.device_bytes(), here.device_bytes());
   }
 };

@@ -1,4 +1,5 @@
 // How it is drawn: the plan in words, and what can be switched to see what it costs.
+#include "runtime/plan_description.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
 
@@ -36,12 +37,13 @@ bool sampling(DrawingChoice& choice, const Scene& scene) {
   return changed;
 }
 
-/// What this plan leaves out, each to be kept: to see what it costs, or to look for a fault.
-bool left_out(DrawingChoice& choice, const RenderPlan& plan) {
+/// The specialisations of this plan, each to be turned off: to see what it costs, or to look for a
+/// fault.
+bool specialisations(DrawingChoice& choice, const RenderPlan& plan) {
   bool changed = false;
   for (const SpecialisationName& entry : specialisation_names()) {
     const bool allowed = choice.plan.specialisations.has(entry.what);
-    if (allowed && !plan.left_out.has(entry.what)) continue;  // nothing of it in this scene
+    if (allowed && !plan.applies(entry.what)) continue;  // nothing of it in this scene
     bool out = allowed;
     if (!ImGui::Checkbox(entry.title, &out)) continue;
     if (out)
@@ -66,16 +68,16 @@ void drawing_panel(State& state) {
   }
   tip("A likeness of the viewer that was published with DiffSoup: the baseline");
   if (!published) {
-    changed |= ImGui::Checkbox("leave out what the scene does not need", &choice.plan.specialise);
+    changed |= ImGui::Checkbox("specialise for the scene", &choice.plan.specialise);
     if (choice.plan.specialise) {
       ImGui::Indent();
-      changed |= left_out(choice, stage.renderer.plan());
+      changed |= specialisations(choice, stage.renderer.plan());
       ImGui::Unindent();
     }
   }
   if (changed) state.ask(ChooseDrawing{choice});
   ImGui::Separator();
-  for (const std::string& sentence : stage.renderer.plan().sentences) aside(sentence);
+  for (const std::string& sentence : describe(stage.renderer.plan())) aside(sentence);
 }
 
 }  // namespace tureen::viewer

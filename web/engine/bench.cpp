@@ -10,6 +10,7 @@
 #include "runtime/benchmark.hpp"
 #include "runtime/camera_path.hpp"
 #include "runtime/camera_sets.hpp"
+#include "runtime/plan_description.hpp"
 #include "soup/error.hpp"
 #include "web/engine/page_view.hpp"
 #include "web/engine/scene_path.hpp"
@@ -58,7 +59,7 @@ BenchScene& scene_at(const Json& index) {
 
 Json facts(const Renderer& renderer, double start) {
   renderer.finish();
-  return {{"plan", renderer.plan().sentences},
+  return {{"plan", describe(renderer.plan())},
           {"device_bytes", renderer.device_bytes()},
           {"upload_ms", milliseconds() - start}};
 }

@@ -15,8 +15,10 @@ void archive_plan(Archive& archive, Plan& plan) {
           plan.mlp_weights, plan.view_direction, plan.latent_features,
           plan.depth_rejects_background, plan.harmonics_degree, plan.feature_ranges,
           plan.lattice.uniform_level, plan.lattice.levels, plan.lattice.alpha_by_cell,
-          plan.left_out, plan.shading_stage, plan.quality.resolution_scale,
-          plan.quality.supersampling, plan.sentences);
+          plan.lattice.refused_alpha_cell_bytes, plan.applied, plan.shading_stage,
+          plan.quality.resolution_scale, plan.quality.supersampling, plan.appearance,
+          plan.soup_faces, plan.undrawable_faces, plan.zero_weights, plan.specialise,
+          plan.requested_stage, plan.ignores_specialisations);
 }
 
 template <class Archive, class Network>

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "formats/scene_file.hpp"
+#include "runtime/plan_description.hpp"
 #include "runtime/view_state.hpp"
 #include "soup/error.hpp"
 #include "web/engine/commands.hpp"
@@ -38,7 +39,7 @@ ShownScene scene_of(const Json& scene) {
 }
 
 Json facts() {
-  return {{"plan", view().renderer().plan().sentences},
+  return {{"plan", describe(view().renderer().plan())},
           {"drawn", view().renderer().plan().faces.size()},
           {"device_bytes", view().renderer().device_bytes()}};
 }
