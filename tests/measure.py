@@ -296,6 +296,14 @@ class Bench:
                 rows.append({'dataset': name, **result.pop('test'), **result})
         self.keep('training', {'training': rows})
 
+    def report(self):
+        """A page of all results that the folder holds."""
+        found = [path for pattern in ('*.json', 'browser/*.json', 'training/*.jsonl')
+                 for path in sorted(self.out.glob(pattern))]
+        page = self.out / 'report.html'
+        if found and self.run('report', TUREEN, 'report', *found, '-o', page) is not None:
+            self.outcomes.append({'part': 'report', 'outcome': str(page)})
+
 
 def fit(kind, rows):
     """t = a + b triangles + c fragments + d pixels, by least squares of the relative error: 1 ms counts
@@ -355,6 +363,7 @@ def bench(arguments):
     run = Bench(options)
     for part in sorted(options.part or PARTS[1:], key=PARTS.index):
         getattr(run, part)()
+    run.report()
     print_table(run.outcomes)
     return int(any('FAILED' in each['outcome'] for each in run.outcomes))
 
