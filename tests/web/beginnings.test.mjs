@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { brotliCompressSync } from 'node:zlib';
-import { built, middle, pick, picture, programs, sceneShown, scratch, source, stage, view, viewChanged } from './support.mjs';
+import { built, middle, pick, picture, programs, sceneShown, scratch, source, stage, still, view, viewChanged } from './support.mjs';
 
 const folder = scratch();
 const { visit } = await stage();
@@ -30,7 +30,7 @@ test('a page of one file, from the disk', () => {
     await page.mouse.down();
     await page.mouse.move(x + 80, y, { steps: 4 });
     await page.mouse.up();
-    await page.waitForTimeout(500);
+    await still(page);
     assert.ok(!before.equals(await picture(page)), 'it turns');
     await pick(page, join(source, 'examples/soup.glb'));
     await sceneShown(page, 'soup');

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { sceneShown, stage } from './support.mjs';
+import { sceneShown, stage, still } from './support.mjs';
 
 const embedder = `<!doctype html><html lang="en"><title>Embedder</title><link rel="icon" href="data:,">
 <iframe id="frame" title="A scene" style="width: 480px; height: 320px; border: 0"></iframe>
@@ -72,7 +72,8 @@ test('events that are subscribed to, until they are not', framed('&scene=soup.gl
   await call(page, 'unsubscribe', 'view');
   const before = await count();
   await call(page, 'orbit', 40, 0);
-  await page.waitForTimeout(500);
+  await still(page.frames()[1]);
+  await call(page, 'stats');  // an answer comes after the events before it
   assert.equal(await count(), before);
 }));
 

@@ -7,7 +7,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { readPng } from './png.mjs';
-import { distance, errorShown, middle, noticeShown, often, pick, picture, programs, sceneShown, scratch, source, stage, view, viewChanged } from './support.mjs';
+import { distance, errorShown, middle, noticeShown, often, pick, picture, programs, sceneShown, scratch, source, stage, still, view, viewChanged } from './support.mjs';
 
 const folder = scratch(), other = join(folder, 'UvTexturesMlp.glb');
 execFileSync(join(programs, 'make_golden_scenes'), [join(source, 'examples/soup.glb'), folder]);
@@ -203,7 +203,7 @@ test('a hidden tab moves nothing, opens scenes, and shows them when it is seen',
   const before = await view(page);
   await page.evaluate(() => hide(true));
   await page.evaluate(() => document.querySelector('#named-views button').click());
-  await page.waitForTimeout(700);
+  await still(page);
   assert.equal(await page.evaluate(() => location.hash), before.hash, 'nothing moves');
   await page.evaluate(() => hide(false));
   assert.ok(distance((await viewChanged(page, before)).eye, before.eye) > 0.1, 'it moves when it is seen');
@@ -213,7 +213,7 @@ test('a hidden tab moves nothing, opens scenes, and shows them when it is seen',
   await pick(page, other);
   await sceneShown(page, 'UvTexturesMlp');
   await page.evaluate(() => hide(false));
-  await page.waitForTimeout(500);
+  await still(page);
   assert.ok(!shown.equals(await picture(page)), 'the other scene is drawn');
 }));
 
@@ -239,7 +239,6 @@ for (const ratio of [1, 1.5, 2]) {
     const { x, y } = await middle(page);
     const before = await view(page);
     await page.mouse.dblclick(x, y);  // what is in the middle stays there, whatever a pixel is
-    await page.waitForTimeout(500);
     const after = await view(page);
     const way = after.target.map((value, axis) => value - before.eye[axis]);
     const ahead = before.target.map((value, axis) => value - before.eye[axis]);

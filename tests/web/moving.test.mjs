@@ -88,14 +88,14 @@ test('keys on the picture', looking(async (page, before) => {
 test('keys that fly, for as long as they are held', looking(async (page, before) => {
   await page.focus('#canvas');
   await page.keyboard.down('w');
-  await page.waitForTimeout(500);
+  const had = await page.evaluate(() => framesHad);
+  await page.waitForFunction((before) => framesHad > before + 3, had, often);
   await page.keyboard.up('w');
   const after = await viewChanged(page, before);
   const ahead = minus(before.target, before.eye), way = minus(after.eye, before.eye);
   const along = way.reduce((sum, value, axis) => sum + value * ahead[axis], 0) / (length(way) * length(ahead));
   assert.ok(along > 0.999, `straight ahead: ${along}`);
   assert.ok(await page.isChecked('input[name=mode][value=fly]'), 'the panel says that it flies');
-  await page.waitForTimeout(300);
   near((await view(page)).eye, after.eye, 'and stands still after');
 }));
 

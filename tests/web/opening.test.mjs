@@ -6,7 +6,7 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { distance, middle, patience, pick, picture, programs, sceneShown, scratch, source, stage, view } from './support.mjs';
+import { distance, middle, patience, pick, picture, programs, sceneShown, scratch, source, stage, still, view } from './support.mjs';
 
 const example = join(source, 'examples/soup.glb');
 const bytes = readFileSync(example);
@@ -143,7 +143,7 @@ test('a download that is cancelled leaves what was there before', () => visit('?
   await waitFor(() => held.get('/drizzle.glb').closed, 'the server is told');
   await waitFor(() => page.workers().length === 0, 'the loader is gone');
   assert.equal(await page.textContent('#scene-title'), 'soup');
-  await page.waitForTimeout(500);
+  await still(page);
   assert.ok(before.equals(await picture(page)), 'the picture is what it was');
 }));
 
@@ -167,7 +167,7 @@ test('another scene takes the place of one that is on its way', () => visit('?sc
 test('a first picture before all has come, which can be turned', () => visit('?scene=half.glb', async (page) => {
   await page.locator('body:not(.empty)').waitFor();
   await page.locator('#loading').waitFor();  // the rest is on its way
-  await page.waitForTimeout(500);
+  await still(page);
   const first = await picture(page);
   assert.ok(await page.isHidden('#start'));
   const { x, y } = await middle(page);
@@ -175,7 +175,7 @@ test('a first picture before all has come, which can be turned', () => visit('?s
   await page.mouse.down();
   await page.mouse.move(x + 120, y, { steps: 4 });
   await page.mouse.up();
-  await page.waitForTimeout(500);
+  await still(page);
   const turned = await picture(page);
   assert.ok(!first.equals(turned), 'a drag turns the first picture');
   held.get('/half.glb').rest();

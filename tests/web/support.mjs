@@ -24,6 +24,34 @@ export const patience = 60_000;
 /** How pages are asked whether something has come: not once a frame, which hidden ones have not. */
 export const often = { polling: 100 };
 
+/** Counts the frames that a page asks for and gets: one that shows all it has asks for none. Runs in
+ *  the page before its scripts. */
+function countFrames() {
+  const ask = window.requestAnimationFrame.bind(window), cancel = window.cancelAnimationFrame.bind(window);
+  const asked = new Set();
+  window.framesHad = 0;
+  window.requestAnimationFrame = (callback) => {
+    const id = ask((now) => {
+      asked.delete(id);
+      ++window.framesHad;
+      callback(now);
+    });
+    asked.add(id);
+    return id;
+  };
+  window.cancelAnimationFrame = (id) => {
+    asked.delete(id);
+    cancel(id);
+  };
+  // Two frames at least: a canvas hears of its new size after the first.
+  window.still = async () => {
+    for (let frames = 0; frames < 2 || asked.size > 0; ++frames) await new Promise((resolve) => ask(resolve));
+  };
+}
+
+/** Waits until the page, or one in a frame of it, shows all it has and asks for no frame. */
+export const still = (page) => page.evaluate(() => window.still());
+
 /** A folder that is gone after the file's tests. */
 export function scratch() {
   const folder = mkdtempSync(join(tmpdir(), 'tureen-web-'));
@@ -69,6 +97,7 @@ export async function stage({ backend = 'llvmpipe', routes = {}, folder = join(b
   async function visit(address, body, { expected = [], friends = [], ...context } = {}) {
     const profile = await browser.newContext({ viewport: { width: 800, height: 500 }, ...context });
     profile.setDefaultTimeout(patience);
+    await profile.addInitScript(countFrames);
     const complaints = [], strangers = [];
     const own = (url) => [server.address, ...friends].some((origin) => url.startsWith(origin)) ||
       /^(blob|data|file|about):/.test(url);
@@ -130,12 +159,8 @@ export async function view(page) {
     return { eye: vector('eye'), target: vector('target'), up: vector('up'), fov: Number(parts.get('fov')), hash: location.hash };
   };
   await page.waitForFunction(() => location.hash.includes('eye='), null, often);
-  for (let before = '';;) {
-    const now = await page.evaluate(readOut);
-    if (now.hash === before) return now;
-    before = now.hash;
-    await page.waitForTimeout(400);  // more than a frame takes
-  }
+  await still(page);
+  return page.evaluate(readOut);
 }
 
 /** Waits until the address says another view than `before`, and returns that. */

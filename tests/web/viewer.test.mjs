@@ -110,7 +110,7 @@ test('the first view of a scene without cameras has all of it in a canvas of any
   const { result: [first, framed] } = await tried(page, `
     viewer.canvas.style.width = '40px';
     viewer.canvas.style.height = '160px';
-    await new Promise((resolve) => setTimeout(resolve, 300));
+    await still();
     await viewer.load({ url: 'far.off' });
     const first = viewer.getView();
     viewer.home();
@@ -153,11 +153,11 @@ test('setting what is no view is no movement', onViewer(async (page) => {
     viewer.on('view', () => { ++views; });
     viewer.background = [1, 0, 0];
     viewer.mode = 'fly';
-    await new Promise((resolve) => setTimeout(resolve, 500));
-    const still = views;
+    await still();
+    const unmoved = views;
     viewer.orbit(30, 0);
-    await new Promise((resolve) => setTimeout(resolve, 500));
-    return [still, views];`);
+    await still();
+    return [unmoved, views];`);
   assert.deepEqual(result, [0, 1]);
 }));
 
