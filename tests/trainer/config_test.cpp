@@ -193,7 +193,7 @@ TEST(ConfigFile, SaysWhatIsWrong) {
   expect(R"({"step": 5})", "step", "steps");
   expect(R"({"mlp_rat": 5})", "mlp_rate");
   expect(R"({"mlp_rat": 5, "step": 5})", "mlp_rate", "step", "steps");
-  expect(R"({"steps": 5, "steps": 6})", "steps");
+  EXPECT_THAT(refusal(R"({"steps": 5, "steps": 6})"), ErrorIn("run.json", "steps"));
   expect(R"({"steps": "many"})", "steps");
   expect(R"({"steps": 2.5})", "steps", 2.5);
   expect(R"({"steps": 0})", "steps", 0, 1, 10000000);
