@@ -214,26 +214,26 @@ TEST_F(Bench, ADatasetGivesItsCamerasAndTheirSizes) {
 struct Refusal {
   std::vector<std::string> arguments;
   int exit_code;
-  const char* says;
+  const char* names;  // a value that the message has
 };
 
 TEST_F(Bench, RefusesWhatMakesNoSense) {
   const Refusal refusals[] = {
-      {{"--cameras", "hemispher"}, 2, "not 'hemispher', of which there is none"},
-      {{"--cameras", "orbit:0"}, 2, "--cameras orbit:0: '0' is no whole number from 1 to 1000"},
-      {{"--cameras", "dataset"}, 2, "wants a DATASET"},
-      {{"--size", "half"}, 2, "'half' is a size of recorded cameras only"},
-      {{"--size", "64"}, 2, "'64' is no size"},
-      {{"--only", "publish"}, 2, "not 'publish'; did you mean published?"},
-      {{"--only", "copy,copy"}, 2, "names copy twice"},
+      {{"--cameras", "hemispher"}, 2, "hemispher"},
+      {{"--cameras", "orbit:0"}, 2, "orbit:0"},
+      {{"--cameras", "dataset"}, 2, "DATASET"},
+      {{"--size", "half"}, 2, "'half'"},
+      {{"--size", "64"}, 2, "'64'"},
+      {{"--only", "publish"}, 2, "published"},
+      {{"--only", "copy,copy"}, 2, "copy"},
       {{"no_dataset", "--cameras", "dataset"}, 3, "no_dataset"},
-      {{"--against", "old.json", "--fail-slower", "5"}, 2, "--fail-slower wants 3 rounds"},
+      {{"--against", "old.json", "--fail-slower", "5"}, 2, "--fail-slower"},
   };
   for (const Refusal& refusal : refusals) {
-    SCOPED_TRACE(refusal.says);
+    SCOPED_TRACE(refusal.names);
     const ChildResult result = bench(refusal.arguments);
     EXPECT_EQ(result.exit_code, refusal.exit_code);
-    EXPECT_THAT(result.err, HasSubstr(refusal.says));
+    EXPECT_THAT(result.err, HasSubstr(refusal.names));
     EXPECT_EQ(result.out, "");
   }
 }

@@ -10,6 +10,7 @@
 #include "formats/format_testing.hpp"
 #include "formats/output.hpp"
 #include "soup/error.hpp"
+#include "support/errors.hpp"
 
 namespace tureen::cli {
 namespace {
@@ -232,9 +233,8 @@ TEST(BenchReports, ABadFileIsRefusedBeforeAnythingIsMeasured) {
     options.against = (folder / name).string();
     prepare_bench_reports(options, {});
   };
-  EXPECT_THAT(tureen::testing::input_error([&] { prepare("bad.json"); }),
-              HasSubstr("no result of tureen bench"));
-  EXPECT_THAT(tureen::testing::input_error([&] { prepare("none.json"); }), HasSubstr("none.json"));
+  EXPECT_THAT(test::error_of<InputError>([&] { prepare("bad.json"); }), test::ErrorIn("bad.json"));
+  EXPECT_THAT(test::error_of<InputError>([&] { prepare("none.json"); }), test::ErrorIn("none.json"));
 }
 
 }  // namespace

@@ -153,7 +153,8 @@ TEST(BenchResult, MissesEveryKeyThatAllHave) {
   const std::set<std::string> optional{"/program/build", "/machine/rasteriser_threads",
                                        "/peak_mib"};
   for (const auto& key : keys) {
-    if (optional.contains(key.to_string())) continue;
+    // Files of earlier versions have no list of specialisations.
+    if (optional.contains(key.to_string()) || key.back() == "specialisations") continue;
     nlohmann::json document = complete;
     document.at(key.parent_pointer()).erase(key.back());
     SCOPED_TRACE(key.to_string());

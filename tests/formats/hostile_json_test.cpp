@@ -77,7 +77,7 @@ Bytes checkpoint_of(const std::string& text) {
   return bytes;
 }
 
-const std::array<JsonReader, 18> json_readers{{
+const std::array<JsonReader, 17> json_readers{{
     {"cameras", [](const std::string& text, const fs::path&) { fuzz::cameras(bytes_of(text)); }},
     {"path", [](const std::string& text, const fs::path&) { fuzz::camera_path(bytes_of(text)); }},
     {"session", [](const std::string& text, const fs::path&) { fuzz::session(bytes_of(text)); }},
