@@ -41,6 +41,7 @@ glm::dvec3 vector_after(const std::vector<std::string>& words, const std::string
 StageSource source(const std::string& path) {
   StageSource result;
   result.path = path;
+  result.scene = std::make_shared<const Scene>();
   return result;
 }
 
