@@ -52,6 +52,7 @@ void GLAD_API_PTR report(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLc
 }
 #endif
 
+#ifndef __EMSCRIPTEN__
 bool has_extension(const char* name) {
   for (int i = 0; i < integer_of(GL_NUM_EXTENSIONS); ++i)
     if (const auto* text = reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, GLuint(i)));
@@ -59,6 +60,7 @@ bool has_extension(const char* name) {
       return true;
   return false;
 }
+#endif
 
 bool has_timer_queries(Api api) {
 #ifdef __EMSCRIPTEN__
