@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { distance, length, middle, minus, picture, sceneShown, stage, view, viewChanged } from './support.mjs';
+import { distance, length, middle, minus, often, picture, sceneShown, stage, view, viewChanged } from './support.mjs';
 
 const { visit } = await stage();
 
