@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <functional>
 #include <memory>
 
 #include "cli/bench_contestants.hpp"
+#include "cli/bench_device.hpp"
 #include "cli/bench_measure.hpp"
 #include "cli/bench_reports.hpp"
 #include "cli/bench_table.hpp"
@@ -35,30 +35,6 @@ struct Options {
   BenchReportOptions reports;
   std::vector<std::string> arguments;  // all of them, as typed
 };
-
-BenchDevice device_of(const gl::Context& context) {
-  const gl::Capabilities& capabilities = context.capabilities();
-  return {.context = context.description(),
-          .renderer = capabilities.renderer,
-          .vendor = capabilities.vendor,
-          .version = capabilities.version,
-          .software = capabilities.software};
-}
-
-/// What times are read from; with the sentence that says so.
-std::function<double()> choose_clock(const Options& options, BenchResult& result) {
-  if (!options.processor_time) {
-    result.protocol.clock =
-        "steady clock of the processor, from an idle device until it has finished";
-    return nullptr;
-  }
-  if (!result.device.software)
-    throw UsageError("--processor-time says nothing of " + result.device.renderer +
-                     ", which is no software renderer");
-  result.protocol.clock =
-      "processor time of all threads, not time that passed: for ratios on a busy machine";
-  return processor_seconds;
-}
 
 BenchLoad load_of(const Contestants& contestants, double read_ms) {
   const BenchConfiguration& first = contestants.list.front()->configuration;
@@ -98,14 +74,15 @@ BenchResult run(const Options& options) {
   throw_if_interrupted();
   result.device = device_of(context);
   result.machine.rasteriser_threads = rasteriser_threads_of(result.device.renderer);
-  const std::function<double()> clock = choose_clock(options, result);
+  const BenchClock clock = clock_for(result.device, options.processor_time);
+  result.protocol.clock = clock.text;
   const Contestants contestants = make_contestants(options.contestants, context, scene);
   result.notes.insert(result.notes.end(), contestants.notes.begin(), contestants.notes.end());
   result.load = load_of(contestants, read_ms.count());
   add_measurements(result, measure(contestants, views.views,
                                    {.rounds = options.rounds,
                                     .most_seconds = options.seconds,
-                                    .clock = clock,
+                                    .clock = clock.now,
                                     .folder = options.reports.folder}));
   if (const double peak = peak_mib(); peak > 0) result.peak_mib = peak;
   for (const auto& contestant : contestants.list)

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cli/bench_words.hpp"
+#include "cli/table.hpp"
 
 namespace tureen::cli {
 
@@ -129,19 +130,17 @@ Json to_json(const BenchComparison& comparison, const std::string& against) {
 
 std::vector<std::string> comparison_lines(const BenchComparison& comparison) {
   std::vector<std::string> lines;
-  std::size_t name_width = 0;
-  const auto name = [](const BenchRatio& r) {
-    return r.configuration + ", " + r.camera_set + ", " + r.size;
-  };
-  for (const BenchRatio& ratio : comparison.ratios)
-    name_width = std::max(name_width, name(ratio).size());
-  for (const BenchRatio& ratio : comparison.ratios)
-    lines.push_back(fmt::format(
-        "{:<{}}  {:9.3f} ms then, {:9.3f} ms now, {:.3f} times as long: {} ({}){}", name(ratio),
-        name_width, ratio.then_ms, ratio.now_ms, ratio.ratio,
-        verdict_text(ratio.verdict, ratio.rounds),
-        ratio.spread ? fmt::format("spread {:.1f} %", 100 * *ratio.spread) : "too few for a spread",
-        ratio.same_pixels ? "" : "; another picture"));
+  if (!comparison.ratios.empty()) {
+    Table table(
+        {"configuration", "<cameras", "<size", "ms then", "ms now", "ratio", "<", "spread", "<"});
+    for (const BenchRatio& ratio : comparison.ratios)
+      table.row({ratio.configuration, ratio.camera_set, ratio.size, ms_text(ratio.then_ms),
+                 ms_text(ratio.now_ms), fmt::format("{:.3f}", ratio.ratio),
+                 verdict_text(ratio.verdict, ratio.rounds),
+                 ratio.spread ? fmt::format("{:.1f} %", 100 * *ratio.spread) : not_known,
+                 ratio.same_pixels ? "" : "another picture"});
+    lines = table.lines();
+  }
   lines.insert(lines.end(), comparison.circumstances.begin(), comparison.circumstances.end());
   lines.insert(lines.end(), comparison.unmatched.begin(), comparison.unmatched.end());
   return lines;

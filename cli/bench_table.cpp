@@ -5,13 +5,11 @@
 #include <algorithm>
 
 #include "cli/bench_words.hpp"
+#include "cli/table.hpp"
 
 namespace tureen::cli {
 
 namespace {
-
-/// Three significant digits down to a microsecond.
-std::string ms_text(double ms) { return fmt::format("{:.{}f}", ms, ms < 1 ? 3 : ms < 10 ? 2 : 1); }
 
 std::string fps_text(double fps) { return fmt::format("{:.{}f}", fps, fps < 100 ? 1 : 0); }
 
@@ -39,26 +37,18 @@ void add_heading(std::vector<std::string>& lines, const BenchMeasurement& first)
     heading += fmt::format(" of {} frames a view", first.frames_per_sample);
   lines.push_back("");
   lines.push_back(heading + fmt::format(", A/A spread {:.1f} %", 100 * first.aa_spread));
-  lines.push_back(fmt::format("  {:<13} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7}",
-                              "configuration", "best ms", "mean ms", "p50", "p95", "p99", "FPS",
-                              "1 % low", "ratio"));
 }
 
-void add_row(std::vector<std::string>& lines, const BenchMeasurement& each,
-             const BenchMeasurement& first) {
+void add_row(Table& table, const BenchMeasurement& each, const BenchMeasurement& first) {
   const FrameStatistics& ms = each.frame_ms;
-  lines.push_back(
-      fmt::format("  {:<13} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7}", each.configuration,
-                  ms_text(ms.min_of_medians), ms_text(ms.mean), ms_text(ms.median), ms_text(ms.p95),
-                  slowest_percent_text(ms, ms_text(ms.p99)), fps_text(each.fps),
-                  slowest_percent_text(ms, fps_text(ms.low_1_percent_fps)), compared(each, first)));
+  table.row({each.configuration, ms_text(ms.min_of_medians), ms_text(ms.mean), ms_text(ms.median),
+             ms_text(ms.p95), slowest_percent_text(ms, ms_text(ms.p99)), fps_text(each.fps),
+             slowest_percent_text(ms, fps_text(ms.low_1_percent_fps)), compared(each, first)});
   if (!each.passes_ms.empty()) {
-    lines.push_back(fmt::format("  {:<13} {}", "", "by the device's clock: " + passes_text(each)));
-    if (!each.passes_reason.empty())
-      lines.push_back(fmt::format("  {:<13} {}", "", each.passes_reason));
+    table.remark("by the device's clock: " + passes_text(each));
+    if (!each.passes_reason.empty()) table.remark(each.passes_reason);
   }
-  if (!each.stable)
-    lines.push_back(fmt::format("  {:<13} {}", "", "its warm-up did not come to rest"));
+  if (!each.stable) table.remark("its warm-up did not come to rest");
 }
 
 /// Why there are no times of passes, each reason once.
@@ -93,13 +83,14 @@ std::vector<std::string> bench_table(const BenchResult& result) {
                   counted(result.scene.triangles), ms_text(load.read_ms), ms_text(load.plan_ms),
                   ms_text(load.upload_ms), peaks, load.device_mib));
   lines.push_back("Times: " + result.protocol.clock);
-  const BenchMeasurement* first = nullptr;
-  for (const BenchMeasurement& each : result.measurements) {
-    if (!first || !same_views(*first, each)) {
-      first = &each;
-      add_heading(lines, each);
-    }
-    add_row(lines, each, *first);
+  const std::vector<BenchMeasurement>& all = result.measurements;
+  for (std::size_t i = 0; i < all.size();) {
+    const BenchMeasurement& first = all[i];
+    add_heading(lines, first);
+    Table table(
+        {"configuration", "best ms", "mean ms", "p50", "p95", "p99", "FPS", "1 % low", "ratio"});
+    for (; i < all.size() && same_views(first, all[i]); ++i) add_row(table, all[i], first);
+    for (const std::string& line : table.lines()) lines.push_back("  " + line);
   }
   add_pass_reasons(lines, result);
   return lines;

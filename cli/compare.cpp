@@ -13,6 +13,7 @@
 #include "cli/output_argument.hpp"
 #include "cli/picture_file.hpp"
 #include "cli/report.hpp"
+#include "cli/table.hpp"
 #include "cli/values.hpp"
 #include "soup/error.hpp"
 #include "soup/heat_map.hpp"
@@ -83,11 +84,14 @@ ExitCode compare_pictures(const Options& options) {
     passed = metric.lower_is_worse ? value >= *options.tolerance : value <= *options.tolerance;
 
   if (!options.diff.empty()) write_picture(side_by_side(a, b), options.diff);
-  if (options.json)
+  if (options.json) {
     print_json(to_json(options, metrics, passed));
-  else
+  } else {
+    Table table({"", "", "<"});
     for (const NamedMetric& m : named_metrics)
-      say(fmt::format("{:<18} {:>12.6g}   {}", m.key, metrics.*m.value, m.meaning));
+      table.row({m.key, fmt::format("{:.6g}", metrics.*m.value), m.meaning});
+    for (const std::string& line : table.lines()) say(line);
+  }
   if (passed == false)
     say(fmt::format("tureen: the pictures differ: {} is {:.6g}, the tolerance is {:.6g}",
                     metric.key, value, *options.tolerance));

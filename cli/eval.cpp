@@ -15,6 +15,7 @@
 #include "cli/report.hpp"
 #include "cli/report_page.hpp"
 #include "cli/scene_argument.hpp"
+#include "cli/table.hpp"
 #include "cli/values.hpp"
 #include "soup/error.hpp"
 
@@ -105,7 +106,14 @@ ExitCode evaluate_scene(Options options) {
   say(fmt::format("{} triangles against {} photographs ({}), on {} ({}); SSIM with border {}",
                   counted(soup.triangles.size()), photographs.size(), split_name(options.split),
                   result.renderer, result.context, name(evaluation.metrics.ssim_border)));
-  say_table(result, evaluation.metrics.with_flip);
+  Table table({"view", "PSNR dB", "SSIM", evaluation.metrics.with_flip ? "FLIP" : ""});
+  const auto add_row = [&](const std::string& name, const ViewMetrics& view) {
+    table.row({name, fmt::format("{:.2f}", view.psnr_db), fmt::format("{:.4f}", view.ssim),
+               evaluation.metrics.with_flip ? fmt::format("{:.4f}", view.flip) : ""});
+  };
+  for (const ViewMetrics& view : result.views) add_row(view.name, view);
+  add_row("mean", result.mean);
+  for (const std::string& line : table.lines()) say(line);
   if (!options.folder.empty()) {
     say(fmt::format("wrote {} images to {}", result.output.size(), options.folder));
     const std::vector<std::filesystem::path> files = result_files(options.folder, "eval");

@@ -1,7 +1,5 @@
 #include "cli/evaluation.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cctype>
@@ -73,14 +71,6 @@ ViewMetrics mean_of(const std::vector<ViewMetrics>& views) {
   return {"", sum.psnr_db / n, sum.ssim / n, sum.flip / n};
 }
 
-std::string table_line(const std::string& name, const ViewMetrics& view, std::size_t width,
-                       bool with_flip) {
-  std::string line =
-      fmt::format("{:<{}}  {:>8.2f}  {:>7.4f}", name, width, view.psnr_db, view.ssim);
-  if (with_flip) line += fmt::format("  {:>7.4f}", view.flip);
-  return line;
-}
-
 }  // namespace
 
 std::vector<std::string> picture_names(std::span<const Photograph> photographs) {
@@ -143,18 +133,6 @@ Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
   result.mean = mean_of(result.views);
   result.plan = describe(renderer.plan());
   return result;
-}
-
-void say_table(const Evaluation& evaluation, bool with_flip) {
-  std::size_t width = 4;  // of "view" and "mean"
-  for (const ViewMetrics& view : evaluation.views) width = std::max(width, view.name.size());
-  std::string head = fmt::format("{:<{}}  {:>8}  {:>7}", "view", width, "PSNR dB", "SSIM");
-  if (with_flip) head += fmt::format("  {:>7}", "FLIP");
-  say(head);
-  for (const ViewMetrics& view : evaluation.views)
-    say(table_line(view.name, view, width, with_flip));
-  say(std::string(head.size(), '-'));
-  say(table_line("mean", evaluation.mean, width, with_flip));
 }
 
 Json to_json(const ViewMetrics& metrics, bool with_flip) {

@@ -65,9 +65,6 @@ Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
 /// than those that every file system takes become '_', and equal names are told apart by a number.
 std::vector<std::string> picture_names(std::span<const Photograph> photographs);
 
-/// A line a view, and the mean below a rule.
-void say_table(const Evaluation& evaluation, bool with_flip);
-
 /// {"name": .., "psnr_db": .., "ssim": .., "flip": ..}; no name where it has none.
 Json to_json(const ViewMetrics& metrics, bool with_flip);
 

@@ -9,6 +9,7 @@
 #include "cli/plan_json.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
+#include "cli/table.hpp"
 #include "formats/camera_file.hpp"
 #include "runtime/device_forecast.hpp"
 #include "runtime/plan_description.hpp"
@@ -26,6 +27,10 @@ struct Options {
 };
 
 Json to_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+std::string vector_text(const glm::dvec3& v) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
+}
 
 const char* name(DirectionEncoding encoding) {
   switch (encoding) {
@@ -174,21 +179,22 @@ ExitCode inform(const Options& options) {
                                        counted(forecast.largest_store_texels), counted(capacity))));
   }
 
-  say(fmt::format("{}: {}", options.scene.path,
-                  scene.info.source.empty() ? "a scene" : scene.info.source));
-  if (!scene.info.name.empty()) say("  name         " + scene.info.name);
-  say(fmt::format("  triangles    {} of {} vertices{}", counted(soup.triangles.size()),
-                  counted(soup.positions.size()), soft ? ", soft ones, drawn as opaque" : ""));
-  say(fmt::format("  appearance   {}", appearance_name(soup.appearance)));
-  for (const std::string& line : appearance.lines) say("               " + line);
-  say(fmt::format("  bytes        {} on disk, {} in memory, {} on the device", bytes_text(on_disk),
-                  bytes_text(byte_size(soup)), bytes_text(forecast.bytes)));
-  say(fmt::format("  bounds       ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", low.x,
-                  low.y, low.z, high.x, high.y, high.z));
-  say(fmt::format("  up           ({:.6g}, {:.6g}, {:.6g})", scene.info.up.x, scene.info.up.y,
-                  scene.info.up.z));
-  say(fmt::format("  cameras      {}", scene.cameras.size()));
-  if (scene.quality != Quality{}) say("  quality      " + describe(scene.quality));
+  Table table({"", "<"});
+  if (!scene.info.name.empty()) table.row({"name", scene.info.name});
+  table.row({"triangles", fmt::format("{} with {} vertices{}", counted(soup.triangles.size()),
+                                      counted(soup.positions.size()),
+                                      soft ? ", soft ones, drawn as opaque" : "")});
+  table.row({"appearance", appearance_name(soup.appearance)});
+  for (const std::string& line : appearance.lines) table.row({"", line});
+  table.row({"bytes", fmt::format("{} on disk, {} in memory, {} on the device", bytes_text(on_disk),
+                                  bytes_text(byte_size(soup)), bytes_text(forecast.bytes))});
+  table.row({"bounds", vector_text(low) + " to " + vector_text(high)});
+  table.row({"up", vector_text(scene.info.up)});
+  table.row({"cameras", std::to_string(scene.cameras.size())});
+  if (scene.quality != Quality{}) table.row({"quality", describe(scene.quality)});
+  say_list(fmt::format("{}: {}", options.scene.path,
+                       scene.info.source.empty() ? "a scene" : scene.info.source),
+           table.lines());
   say_list("Notes:", all_notes(scene.info));
   say_list("Plan:", describe(plan));
   say_list("Devices:", device_lines);

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
+#include "cli/bench_words.hpp"
 #include "cli/provenance.hpp"
+#include "cli/table.hpp"
 
 namespace tureen::cli {
 
@@ -120,32 +120,30 @@ Json model_protocol_json(const TradeoffReport& report) {
 
 // -- for people ----------------------------------------------------------------------------------
 
-std::string table_line(const TradeoffReport& report, const Panel& panel, std::size_t i,
-                       std::size_t width) {
+void add_row(Table& table, const TradeoffReport& report, const Panel& panel, std::size_t i) {
   const Outcome& outcome = panel.outcomes[i];
   const RenderError& error = outcome.error;
   const bool chosen = &panel == &report.study.drawing && report.study.choice == i;
   const Outcome* generic = generic_of(panel, outcome);
-  return fmt::format(
-      "{} {:<{}}  {:>8}  {:>8}  {:>7.2f}  {:>8}  {:>6.3f}  {:>6.4f}  {:>8.1e}  {:>6}",
-      chosen                  ? '>'
-      : is_on_front(panel, i) ? '*'
-                              : ' ',
-      outcome.name, width, fmt::format("{:.2f}", outcome.ms.min_of_medians),
-      generic ? fmt::format("{:.2f}", generic->ms.min_of_medians) : "-", error.psnr_db,
-      outcome.exact ? fmt::format("{:.2f}", outcome.exact->psnr_db) : "-", error.max_abs,
-      error.p999_abs, error.coverage_mismatch, fmt::format("{:.1f}", outcome.device_mib));
+  table.row({chosen                  ? ">"
+             : is_on_front(panel, i) ? "*"
+                                     : "",
+             outcome.name, ms_text(outcome.ms.min_of_medians),
+             generic ? ms_text(generic->ms.min_of_medians) : not_known,
+             fmt::format("{:.2f}", error.psnr_db),
+             outcome.exact ? fmt::format("{:.2f}", outcome.exact->psnr_db) : not_known,
+             fmt::format("{:.3f}", error.max_abs), fmt::format("{:.4f}", error.p999_abs),
+             fmt::format("{:.1e}", error.coverage_mismatch),
+             fmt::format("{:.1f}", outcome.device_mib)});
 }
 
 void say_panel(const TradeoffReport& report, const Panel& panel, const std::string& title) {
-  std::size_t width = 13;
-  for (const Outcome& outcome : panel.outcomes) width = std::max(width, outcome.name.size());
-  say(title);
-  say(fmt::format("  {:<{}}  {:>8}  {:>8}  {:>7}  {:>8}  {:>6}  {:>6}  {:>8}  {:>6}",
-                  "configuration", width, "ms", "generic", "PSNR dB", "exact dB", "max", "99.9 %",
-                  "coverage", "MiB"));
+  Table table({"", "<configuration", "ms", "generic ms", "PSNR dB", "exact dB", "max", "99.9 %",
+               "coverage", "MiB"});
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i)
-    if (panel.outcomes[i].method != Method::generic) say(table_line(report, panel, i, width));
+    if (panel.outcomes[i].method != Method::generic) add_row(table, report, panel, i);
+  say(title);
+  for (const std::string& line : table.lines()) say(line);
   say(
       fmt::format("  R1, the reference itself in 8 bits: {:.2f} dB; times differ by chance by "
                   "{:.1f} % (A/A); hypervolume {:.1f} decade dB",
@@ -162,16 +160,18 @@ void say_panel(const TradeoffReport& report, const Panel& panel, const std::stri
 
 void say_model(const TradeoffReport& report) {
   if (!report.model) return;
-  say(fmt::format("E_model, against {} photographs ({}) of {}:", report.model->photographs,
-                  report.model->split, report.model->dataset));
-  const auto table = [&](const Panel& panel, const std::vector<std::optional<ModelError>>& list) {
+  Table table({"configuration", "PSNR dB", "SSIM"});
+  const auto add = [&](const Panel& panel, const std::vector<std::optional<ModelError>>& list) {
     for (std::size_t i = 0; i < list.size(); ++i)
       if (list[i])
-        say(fmt::format("  {:<44}  {:>7.2f} dB  SSIM {:.4f}", panel.outcomes[i].name,
-                        list[i]->psnr_db, list[i]->ssim));
+        table.row({panel.outcomes[i].name, fmt::format("{:.2f}", list[i]->psnr_db),
+                   fmt::format("{:.4f}", list[i]->ssim)});
   };
-  table(report.study.drawing, report.drawing_model);
-  table(report.study.antialiasing, report.antialiasing_model);
+  add(report.study.drawing, report.drawing_model);
+  add(report.study.antialiasing, report.antialiasing_model);
+  say_list(fmt::format("E_model, against {} photographs ({}) of {}:", report.model->photographs,
+                       report.model->split, report.model->dataset),
+           table.lines());
 }
 
 }  // namespace
@@ -234,9 +234,9 @@ std::string choice_sentence(const TradeoffReport& report) {
   if (!study.choice) return "No configuration keeps to the limits: " + limits + ".";
   const Outcome& chosen = study.drawing.outcomes[*study.choice];
   const Outcome& defaults = study.drawing.outcomes.front();
-  return fmt::format(
-      "The cheapest with {}: {}, {:.2f} ms at {:.2f} dB; the defaults take {:.2f} ms.", limits,
-      chosen.name, chosen.ms.min_of_medians, chosen.error.psnr_db, defaults.ms.min_of_medians);
+  return fmt::format("The cheapest with {}: {}, {} ms at {:.2f} dB; the defaults take {} ms.",
+                     limits, chosen.name, ms_text(chosen.ms.min_of_medians), chosen.error.psnr_db,
+                     ms_text(defaults.ms.min_of_medians));
 }
 
 }  // namespace tureen::cli

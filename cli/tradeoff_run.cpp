@@ -5,22 +5,17 @@
 #include <algorithm>
 #include <optional>
 
+#include "cli/bench_device.hpp"
 #include "cli/progress.hpp"
 #include "cli/tradeoff_model.hpp"
 #include "cli/tradeoff_study.hpp"
 #include "cli/tradeoff_views.hpp"
 #include "cli/version.hpp"
-#include "runtime/benchmark.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {
 
 namespace {
-
-constexpr const char* steady_clock =
-    "steady clock of the processor, from an idle device until it has finished";
-constexpr const char* processor_clock =
-    "processor time of all threads, not time that passed: for ratios on a busy machine";
 
 /// What an effort stands for.
 struct Defaults {
@@ -102,20 +97,6 @@ TradeoffReport head_of(const TradeoffOptions& options, const Scene& scene) {
   return report;
 }
 
-void describe_device(const TradeoffOptions& options, const gl::Context& context,
-                     TradeoffReport& report) {
-  const gl::Capabilities& device = context.capabilities();
-  report.device.context = context.description();
-  report.device.renderer = device.renderer;
-  report.device.vendor = device.vendor;
-  report.device.version = device.version;
-  report.device.software = device.software;
-  report.clock = options.processor_time ? processor_clock : steady_clock;
-  if (options.processor_time && !device.software)
-    throw UsageError("--processor-time says nothing of " + device.renderer +
-                     ", which is no software renderer");
-}
-
 Study study_of(const TradeoffOptions& options, const Scene& scene, TradeoffReport& report) {
   const Defaults defaults = defaults_of(options.effort);
   const auto& soup = std::get<TriangleSoup>(scene.primitives);
@@ -129,14 +110,16 @@ Study study_of(const TradeoffOptions& options, const Scene& scene, TradeoffRepor
   report.height = views.judges.front().height;
 
   const gl::Context context = gl::Context::create({.backend = options.backend});
-  describe_device(options, context, report);
+  report.device = device_of(context);
+  const BenchClock clock = clock_for(report.device, options.processor_time);
+  report.clock = clock.text;
   StudyOptions study{.subpixel_bits = tradeoff::device_subpixel_bits()};
   if (study.subpixel_bits != 8)
     report.notes.push_back(fmt::format(
         "this device rounds vertices to 1/{} pixel, and so does the oracle where it samples as the "
         "device does; E_render is not that of devices with the usual 1/256",
         1 << study.subpixel_bits));
-  if (options.processor_time) study.clock = processor_seconds;
+  study.clock = clock.now;
   study.background = scene.info.background;
   study.samples = options.samples;
   study.rounds = report.rounds;

@@ -19,6 +19,7 @@
 #include "cli/report.hpp"
 #include "cli/run_lock.hpp"
 #include "cli/scene_argument.hpp"
+#include "cli/table.hpp"
 #include "cli/training_session.hpp"
 #include "formats/diffsoup_export.hpp"
 #include "formats/existing_path.hpp"
@@ -182,12 +183,14 @@ void say_result(const Options& options, const Dataset& dataset, const Result& re
                   duration_text(result.seconds), 100 * opacity_binary_fraction(state.model)));
   if (state.non_finite > 0)
     say(fmt::format("{} numbers that were not finite were put aside", counted(state.non_finite)));
-  say(fmt::format("{} test views: {:.2f} dB as the trainer draws", counted(dataset.test.size()),
-                  result.trainer_psnr_db));
-  if (result.evaluation)
-    say(fmt::format("as everybody sees {}: {:.2f} dB, SSIM {:.4f}, FLIP {:.4f}", options.output,
-                    result.evaluation->mean.psnr_db, result.evaluation->mean.ssim,
-                    result.evaluation->mean.flip));
+  Table table({counted(dataset.test.size()) + " test views", "PSNR dB", "SSIM", "FLIP"});
+  table.row({"drawn by the trainer", fmt::format("{:.2f}", result.trainer_psnr_db)});
+  if (result.evaluation) {
+    const ViewMetrics& mean = result.evaluation->mean;
+    table.row({options.output, fmt::format("{:.2f}", mean.psnr_db),
+               fmt::format("{:.4f}", mean.ssim), fmt::format("{:.4f}", mean.flip)});
+  }
+  for (const std::string& line : table.lines()) say(line);
   for (const std::string& path : result.output) say("wrote " + path);
 }
 

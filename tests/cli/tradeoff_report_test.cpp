@@ -108,7 +108,7 @@ TEST(TradeoffReport, TimesOfABusyMachineAreWarnedOf) {
 TEST(TradeoffReport, TheChoiceIsASentence) {
   TradeoffReport made = report();
   EXPECT_THAT(choice_sentence(made), HasSubstr("4 bits, 9.00 ms at 50.00 dB; the defaults take "
-                                               "10.00 ms"));
+                                               "10.0 ms"));
   made.study.choice.reset();
   EXPECT_THAT(choice_sentence(made), StartsWith("No configuration keeps to the limits"));
 }

@@ -12,7 +12,7 @@ const percent = number((value) => (100 * value).toFixed(1));
 const times = number((value) => `${value.toFixed(value < 10 ? 2 : 1)}×`);
 const small = number((value) => value === 0 ? '0' : value.toExponential(1));
 const db = fixed(2);
-/** Three significant digits down to a microsecond, as in the terminal (ms_text in cli/bench_table.cpp). */
+/** Three significant digits down to a microsecond, as in the terminal (ms_text in cli/table.cpp). */
 const ms = number((value) => value.toFixed(value < 1 ? 3 : value < 10 ? 2 : 1));
 const any = number((value) => Number.isInteger(value) ? count(value)
   : Math.abs(value) < 1e-3 || Math.abs(value) >= 1e6 ? value.toExponential(2) : String(+value.toPrecision(4)));

@@ -1,0 +1,27 @@
+#include "cli/bench_device.hpp"
+
+#include "runtime/benchmark.hpp"
+#include "soup/error.hpp"
+
+namespace tureen::cli {
+
+BenchDevice device_of(const gl::Context& context) {
+  const gl::Capabilities& capabilities = context.capabilities();
+  return {.context = context.description(),
+          .renderer = capabilities.renderer,
+          .vendor = capabilities.vendor,
+          .version = capabilities.version,
+          .software = capabilities.software};
+}
+
+BenchClock clock_for(const BenchDevice& device, bool processor_time) {
+  if (!processor_time)
+    return {"steady clock of the processor, from an idle device until it has finished", nullptr};
+  if (!device.software)
+    throw UsageError("--processor-time needs a software renderer, and " + device.renderer +
+                     " is none");
+  return {"processor time of all threads, not time that passed: for ratios on a busy machine",
+          processor_seconds};
+}
+
+}  // namespace tureen::cli
