@@ -81,17 +81,6 @@ FrameStatistics frame_statistics(const JsonView& measurement) {
       .samples = samples};
 }
 
-std::vector<AppliedSpecialisation> specialisations(const JsonView& configuration) {
-  const auto applied = configuration.find("specialisations");
-  if (!applied) return {};
-  return list(*applied, [](const JsonView& each) {
-    const auto what = specialisation_named(each["name"].text());
-    if (!what) each["name"].fail("is no specialisation");
-    const auto count = [&](const char* key) { return std::size_t(integer(each[key])); };
-    return AppliedSpecialisation{*what, count("count"), count("total"), each["margin"].number()};
-  });
-}
-
 BenchConfiguration configuration(const JsonView& view) {
   return {.name = view["name"].text(),
           .options = texts(view["options"]),
@@ -99,7 +88,7 @@ BenchConfiguration configuration(const JsonView& view) {
           .plan_ms = view["plan_ms"].number(),
           .upload_ms = view["upload_ms"].number(),
           .device_mib = view["device_mib"].number(),
-          .specialisations = specialisations(view)};
+          .specialisations = specialisations_of(view)};
 }
 
 std::vector<std::pair<std::string, double>> passes(const JsonView& view) {

@@ -11,6 +11,7 @@
 #include "cli/evaluation.hpp"
 #include "cli/memory_option.hpp"
 #include "cli/output_argument.hpp"
+#include "cli/plan_json.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/report_page.hpp"
@@ -60,6 +61,7 @@ Json report(const Options& options, const Evaluation& result) {
           {"context", result.context},
           {"renderer", result.renderer},
           {"plan", result.plan},
+          {"specialisations", specialisations_json(result.specialisations)},
           {"output", result.output}};
 }
 

@@ -132,6 +132,7 @@ Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
   }
   result.mean = mean_of(result.views);
   result.plan = describe(renderer.plan());
+  result.specialisations = renderer.plan().applied;
   return result;
 }
 

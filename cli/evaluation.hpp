@@ -50,8 +50,9 @@ struct Evaluation {
   ViewMetrics mean;                // without a name
   std::string context;             // how the device was reached, and its name
   std::string renderer;
-  std::vector<std::string> plan;    // describe()
-  std::vector<std::string> output;  // the pictures written
+  std::vector<std::string> plan;                       // describe()
+  std::vector<AppliedSpecialisation> specialisations;  // of the plan
+  std::vector<std::string> output;                     // the pictures written
 };
 
 /// Views are measured on all cores while others are drawn. There is one photograph at least, and

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "cli/report.hpp"
+#include "formats/json_view.hpp"
 #include "runtime/specialisation.hpp"
 
 namespace tureen::cli {
@@ -11,5 +13,9 @@ namespace tureen::cli {
 /// [{"name": "alpha-test", "count": 7, "total": 9, "margin": 0}, ..]: "margin" in steps of 8 bits,
 /// "count" of "total" faces, bands or neurons, or 0 of 0.
 Json specialisations_json(std::span<const AppliedSpecialisation> specialisations);
+
+/// The list back from the object that holds it as "specialisations"; empty where it has none, as in
+/// files of earlier versions. Throws InputError.
+std::vector<AppliedSpecialisation> specialisations_of(const JsonView& configuration);
 
 }  // namespace tureen::cli

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cli/json_reading.hpp"
+#include "cli/plan_json.hpp"
 #include "formats/json_file.hpp"
 
 namespace tureen::cli {
@@ -59,7 +60,8 @@ BenchConfiguration configuration(const JsonView& view) {
           .plan = texts(view["plan"]),
           .plan_ms = milliseconds(view["plan_ms"]),
           .upload_ms = milliseconds(view["upload_ms"]),
-          .device_mib = mebibytes(view["device_bytes"])};
+          .device_mib = mebibytes(view["device_bytes"]),
+          .specialisations = specialisations_of(view)};
 }
 
 /// What the entrants of one measurement share.

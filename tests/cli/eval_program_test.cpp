@@ -33,7 +33,7 @@ TEST_F(Eval, TheScenesOwnPicturesAreMetExactly) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto json = nlohmann::ordered_json::parse(result.out);
   EXPECT_THAT(keys(json), ElementsAre("views", "mean", "scene", "dataset", "split", "ssim_border",
-                                      "context", "renderer", "plan", "output"));
+                                      "context", "renderer", "plan", "specialisations", "output"));
   ASSERT_EQ(json["views"].size(), 2u);
   EXPECT_THAT(keys(json["views"][0]), ElementsAre("name", "psnr_db", "ssim", "flip"));
   EXPECT_EQ(json["views"][1]["name"], "test/r_1.png");

@@ -17,6 +17,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::MatchesRegex;
 using Pointer = nlohmann::json::json_pointer;
 
@@ -93,6 +94,16 @@ TEST(WebBench, JudgesTimesByTheStatisticsOfEveryBenchmark) {
   EXPECT_EQ(result.protocol.rounds, 3);
   EXPECT_EQ(result.protocol.aa_spread, 0.0625);
   EXPECT_THAT(bench_table(result), Contains(MatchesRegex(".* 3.00 +3.23 .*")));
+}
+
+TEST(WebBench, HasTheSpecialisationsOfItsPlans) {
+  EXPECT_THAT(read(fixture()).front().configurations.at(0).specialisations, IsEmpty())
+      << "a page of an earlier version";
+  nlohmann::json page = fixture();
+  page["scenes"][0]["configurations"][0]["specialisations"] = {
+      {{"name", "alpha-test"}, {"count", 7}, {"total", 9}, {"margin", 0.25}}};
+  EXPECT_THAT(read(page).front().configurations.at(0).specialisations,
+              ElementsAre(AppliedSpecialisation{Specialisation::alpha_test, 7, 9, 0.25}));
 }
 
 TEST(WebBench, BecomesAResultLikeAnyOther) {

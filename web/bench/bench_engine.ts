@@ -23,9 +23,18 @@ export interface Files {
   readonly name: string;
 }
 
+/** What a plan does not draw or compute: docs/json.md. */
+export interface Specialisation {
+  readonly name: string;
+  readonly count: number;
+  readonly total: number;
+  readonly margin: number;
+}
+
 /** A scene drawn by one pipeline. */
 export interface Pipeline {
   readonly plan: readonly string[];
+  readonly specialisations: readonly Specialisation[];
   readonly plan_ms: number;
   readonly upload_ms: number;
   readonly device_bytes: number;

@@ -3,7 +3,7 @@
 
 import { clockSentence } from './clock.js';
 import { leastSampleMs, type Measurement, type MeasuredScene } from './measure.js';
-import type { Device, FrameTimes } from './bench_engine.js';
+import type { Device, FrameTimes, Specialisation } from './bench_engine.js';
 
 /** From the build: build.mjs. */
 declare const builtVersion: string, builtCommit: string;
@@ -26,7 +26,7 @@ interface SceneInFile {
   readonly name: string; readonly source: string; readonly triangles: number; readonly appearance: string;
   readonly read_ms: number; readonly wasm_bytes: number;
   readonly configurations: readonly {
-    readonly name: string; readonly plan: readonly string[];
+    readonly name: string; readonly plan: readonly string[]; readonly specialisations: readonly Specialisation[];
     readonly plan_ms: number; readonly upload_ms: number; readonly device_bytes: number;
   }[];
   readonly measurements: readonly {
@@ -50,8 +50,8 @@ const measurementInFile = ({ cameraSet, width, height, result }: Measurement) =>
 const sceneInFile = (scene: MeasuredScene): SceneInFile => ({
   name: scene.name, source: scene.source, triangles: scene.triangles, appearance: scene.appearance,
   read_ms: scene.readMs, wasm_bytes: scene.wasmBytes,
-  configurations: scene.configurations.map(({ name, plan, plan_ms, upload_ms, device_bytes }) =>
-    ({ name, plan, plan_ms, upload_ms, device_bytes })),
+  configurations: scene.configurations.map(({ name, plan, specialisations, plan_ms, upload_ms, device_bytes }) =>
+    ({ name, plan, specialisations, plan_ms, upload_ms, device_bytes })),
   measurements: scene.measurements.map(measurementInFile),
   notes: scene.notes,
 });

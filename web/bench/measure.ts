@@ -128,6 +128,7 @@ export class Measuring {
     return {
       name: this.request.grid ? 'grid' : 'tureen',
       plan: distinct(pipelines.flatMap(({ plan }) => plan)),
+      specialisations: pipelines.flatMap(({ specialisations }) => specialisations),
       plan_ms: sum(pipelines.map(({ plan_ms }) => plan_ms)),
       upload_ms: sum(pipelines.map(({ upload_ms }) => upload_ms)),
       device_bytes: sum(pipelines.map(({ device_bytes }) => device_bytes)),

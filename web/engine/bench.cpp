@@ -59,7 +59,14 @@ BenchScene& scene_at(const Json& index) {
 
 Json facts(const Renderer& renderer, double start) {
   renderer.finish();
+  Json specialisations = Json::array();
+  for (const AppliedSpecialisation& each : renderer.plan().applied)
+    specialisations.push_back({{"name", name_of(each.what)},
+                               {"count", each.count},
+                               {"total", each.total},
+                               {"margin", each.margin}});
   return {{"plan", describe(renderer.plan())},
+          {"specialisations", specialisations},
           {"device_bytes", renderer.device_bytes()},
           {"upload_ms", milliseconds() - start}};
 }
