@@ -1,5 +1,5 @@
 // The files of the report page, embedded by the build: report.html, report.css and report.js of
-// web/report/, and chart.min.js where chart.js is installed.
+// web/report/, palette.css of web/page/style/, and chart.min.js where chart.js is installed.
 #pragma once
 
 #include <string_view>

@@ -67,8 +67,10 @@ std::string data_of(std::span<const ReportResult> results, const fs::path& page)
 std::string report_page(std::span<const ReportResult> results, const fs::path& page) {
   // Elements of report.html, in their order, and what takes their place.
   const std::pair<std::string_view, std::string> parts[] = {
+      {R"(<link rel="stylesheet" href="../page/style/palette.css">)",
+       "<style>\n" + std::string(report_files::text("palette.css"))},
       {R"(<link rel="stylesheet" href="report.css">)",
-       "<style>\n" + std::string(report_files::text("report.css")) + "</style>"},
+       std::string(report_files::text("report.css")) + "</style>"},
       {R"(<script type="application/json" id="data">[]</script>)",
        "<script type=\"application/json\" id=\"data\">" + data_of(results, page) + "</script>"},
       {R"(<script src="chart.min.js"></script>)",
