@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "cli/bench_words.hpp"
 #include "cli/table.hpp"
@@ -44,10 +45,12 @@ BenchRatio ratio_of(const BenchMeasurement& now, const BenchMeasurement& then) {
   return result;
 }
 
-std::vector<std::string> circumstances_of(const BenchResult& now, const BenchResult& then) {
-  std::vector<std::string> result;
-  const auto compare = [&](const char* what, const std::string& a, const std::string& b) {
-    if (a != b) result.push_back(fmt::format("{}: {} then, {} now", what, b, a));
+using What = BenchChange::What;
+
+std::vector<BenchChange> changes_between(const BenchResult& now, const BenchResult& then) {
+  std::vector<BenchChange> result;
+  const auto compare = [&](What what, const std::string& a, const std::string& b) {
+    if (a != b) result.push_back({.what = what, .then = b, .now = a});
   };
   const auto scene = [](const BenchResult& r) {
     return fmt::format("{}, {} triangles, {}", r.scene.name, counted(r.scene.triangles),
@@ -59,45 +62,80 @@ std::vector<std::string> circumstances_of(const BenchResult& now, const BenchRes
   const auto driver = [](const BenchResult& r) {
     return r.device.renderer + ", " + r.device.version;
   };
-  compare("another scene", scene(now), scene(then));
-  compare("another machine", machine(now), machine(then));
-  compare("another driver", driver(now), driver(then));
-  compare("another context", now.device.context, then.device.context);
+  compare(What::scene, scene(now), scene(then));
+  compare(What::machine, machine(now), machine(then));
+  compare(What::driver, driver(now), driver(then));
+  compare(What::context, now.device.context, then.device.context);
   if (now.machine.rasteriser_threads && then.machine.rasteriser_threads)
-    compare("another number of rasteriser threads", std::to_string(*now.machine.rasteriser_threads),
+    compare(What::rasteriser_threads, std::to_string(*now.machine.rasteriser_threads),
             std::to_string(*then.machine.rasteriser_threads));
   if (!now.program.build.empty() && !then.program.build.empty())
-    compare("another build", now.program.build, then.program.build);
-  compare("another commit", now.program.commit, then.program.commit);
-  compare("another clock", now.protocol.clock, then.protocol.clock);
+    compare(What::build, now.program.build, then.program.build);
+  compare(What::commit, now.program.commit, then.program.commit);
+  compare(What::clock, now.protocol.clock, then.protocol.clock);
   return result;
 }
 
-/// Why no time of the one says anything of the other's; empty where it may.
-std::string incomparable(const BenchResult& now, const BenchResult& then) {
-  if (now.device.software != then.device.software)
-    return "not compared: one of the two was drawn in software";
-  if (now.protocol.clock != then.protocol.clock)
-    return "not compared: their times are of different clocks";
-  return {};
+std::optional<Incomparable> incomparable(const BenchResult& now, const BenchResult& then) {
+  if (now.device.software != then.device.software) return Incomparable::software;
+  if (now.protocol.clock != then.protocol.clock) return Incomparable::clock;
+  return std::nullopt;
+}
+
+const char* name_of(Incomparable reason) {
+  return reason == Incomparable::software ? "software" : "clock";
+}
+
+/// In the order of BenchChange::What, as JSON has them.
+constexpr std::array<const char*, 8> change_names{
+    "scene", "machine", "driver", "context", "rasteriser_threads", "build", "commit", "clock"};
+
+std::string describe(Incomparable reason) {
+  return reason == Incomparable::software ? "not compared: one of the two was drawn in software"
+                                          : "not compared: their times are of different clocks";
+}
+
+std::string describe(const BenchChange& change) {
+  const char* what = change.what == What::rasteriser_threads
+                         ? "number of rasteriser threads"
+                         : change_names[std::size_t(change.what)];
+  return fmt::format("another {}: {} then, {} now", what, change.then, change.now);
+}
+
+std::string describe(const UnmatchedBench& unmatched) {
+  return (unmatched.in == UnmatchedBench::In::now ? "only now: " : "only then: ") +
+         described(unmatched.measurement);
+}
+
+std::vector<std::string> circumstances(const BenchComparison& comparison) {
+  std::vector<std::string> sentences;
+  if (comparison.incomparable) sentences.push_back(describe(*comparison.incomparable));
+  for (const BenchChange& change : comparison.changes) sentences.push_back(describe(change));
+  return sentences;
+}
+
+std::vector<std::string> unmatched_lines(const BenchComparison& comparison) {
+  std::vector<std::string> lines;
+  for (const UnmatchedBench& each : comparison.unmatched) lines.push_back(describe(each));
+  return lines;
 }
 
 }  // namespace
 
 BenchComparison compare_benches(const BenchResult& now, const BenchResult& then) {
-  BenchComparison result;
-  const std::string reason = incomparable(now, then);
-  if (!reason.empty()) result.circumstances.push_back(reason);
-  for (std::string& other : circumstances_of(now, then))
-    result.circumstances.push_back(std::move(other));
-  if (!reason.empty()) return result;
+  BenchComparison result{.incomparable = incomparable(now, then),
+                         .ratios = {},
+                         .changes = changes_between(now, then),
+                         .unmatched = {}};
+  if (result.incomparable) return result;
   for (const BenchMeasurement& measurement : now.measurements)
     if (const BenchMeasurement* other = find(then, measurement))
       result.ratios.push_back(ratio_of(measurement, *other));
     else
-      result.unmatched.push_back("only now: " + described(measurement));
+      result.unmatched.push_back({UnmatchedBench::In::now, measurement});
   for (const BenchMeasurement& measurement : then.measurements)
-    if (!find(now, measurement)) result.unmatched.push_back("only then: " + described(measurement));
+    if (!find(now, measurement))
+      result.unmatched.push_back({UnmatchedBench::In::then, measurement});
   return result;
 }
 
@@ -122,10 +160,18 @@ Json to_json(const BenchComparison& comparison, const std::string& against) {
                       {"rounds", ratio.rounds},
                       {"verdict", verdict_word(ratio.verdict)},
                       {"same_pixels", ratio.same_pixels}});
+  Json changes = Json::array();
+  for (const BenchChange& change : comparison.changes)
+    changes.push_back({{"what", change_names[std::size_t(change.what)]},
+                       {"then", change.then},
+                       {"now", change.now}});
+  const std::optional<Incomparable>& reason = comparison.incomparable;
   return {{"against", against},
+          {"incomparable", reason ? Json(name_of(*reason)) : Json()},
           {"ratios", std::move(ratios)},
-          {"circumstances", comparison.circumstances},
-          {"unmatched", comparison.unmatched}};
+          {"changes", std::move(changes)},
+          {"circumstances", circumstances(comparison)},
+          {"unmatched", unmatched_lines(comparison)}};
 }
 
 std::vector<std::string> comparison_lines(const BenchComparison& comparison) {
@@ -141,8 +187,8 @@ std::vector<std::string> comparison_lines(const BenchComparison& comparison) {
                  ratio.same_pixels ? "" : "another picture"});
     lines = table.lines();
   }
-  lines.insert(lines.end(), comparison.circumstances.begin(), comparison.circumstances.end());
-  lines.insert(lines.end(), comparison.unmatched.begin(), comparison.unmatched.end());
+  for (std::string& line : circumstances(comparison)) lines.push_back(std::move(line));
+  for (std::string& line : unmatched_lines(comparison)) lines.push_back(std::move(line));
   return lines;
 }
 

@@ -21,15 +21,30 @@ struct BenchRatio {
   bool same_pixels = false;  // the two drew the same picture, bit for bit
 };
 
+/// Why times of two results say nothing of each other.
+enum class Incomparable { software, clock };  // one drawn in software; different clocks
+
+/// Something else than the program that differs.
+struct BenchChange {
+  enum class What { scene, machine, driver, context, rasteriser_threads, build, commit, clock };
+  What what{};
+  std::string then, now;
+};
+
+/// What only one of the two results measured.
+struct UnmatchedBench {
+  enum class In { now, then };
+  In in{};
+  BenchMeasurement measurement;
+};
+
 struct BenchComparison {
-  /// In the order of the new result. None, as nothing unmatched, where the first of `circumstances`
-  /// says that the two are not to be compared: software and hardware, or different clocks.
+  std::optional<Incomparable> incomparable;
+  /// In the order of the new result. None, as nothing unmatched, where they are incomparable.
   std::vector<BenchRatio> ratios;
-  /// Sentences on what else than the program changed or may have: scene, machine, driver, commit,
-  /// build. What an older file does not tell is no change.
-  std::vector<std::string> circumstances;
-  /// What only one of the two measured, a line each.
-  std::vector<std::string> unmatched;
+  /// In the order of BenchChange::What. A field that an older file lacks is no change.
+  std::vector<BenchChange> changes;
+  std::vector<UnmatchedBench> unmatched;
 };
 
 BenchComparison compare_benches(const BenchResult& now, const BenchResult& then);

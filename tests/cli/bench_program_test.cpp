@@ -7,13 +7,16 @@
 #include <cstdlib>
 
 #include "cli/photographs_fixture.hpp"
+#include "support/errors.hpp"
 
 namespace tureen {
 namespace {
 
 using test::Child;
 using test::ChildResult;
+using test::Names;
 using testing::AnyOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
@@ -73,11 +76,13 @@ TEST_F(Bench, SaysWithHowManyThreadsLlvmpipeDraws) {
   setenv("LP_NUM_THREADS", "2", 1);
   const nlohmann::json two = bench_json(arguments);
   setenv("LP_NUM_THREADS", "1", 1);
-  const ChildResult one = bench({"--only", "tureen", "--against", "two/bench.json"});
+  const nlohmann::json one = bench_json({"--only", "tureen", "--against", "two/bench.json"});
   unsetenv("LP_NUM_THREADS");
   ASSERT_THAT(two["device"]["renderer"].get<std::string>(), HasSubstr("llvmpipe"));
   EXPECT_EQ(two["machine"]["rasteriser_threads"], 2);
-  EXPECT_THAT(one.err, HasSubstr("another number of rasteriser threads: 2 then, 1 now"));
+  EXPECT_THAT(
+      one["comparison"]["changes"],
+      Contains(nlohmann::json({{"what", "rasteriser_threads"}, {"then", "2"}, {"now", "1"}})));
 }
 
 TEST_F(Bench, SoftwareIsTimedByTheProcessorsClockAlone) {
@@ -88,10 +93,10 @@ TEST_F(Bench, SoftwareIsTimedByTheProcessorsClockAlone) {
   for (const auto& each : measured["measurements"]) {
     EXPECT_TRUE(each["passes_ms"].is_null());
     EXPECT_TRUE(each["gpu_ms"].is_null());
-    EXPECT_THAT(each["passes_reason"].get<std::string>(), HasSubstr("software OpenGL"));
+    const std::string reason = each["passes_reason"];
+    EXPECT_NE(reason, "");
+    EXPECT_THAT(result.err, HasSubstr(reason));
   }
-  EXPECT_THAT(result.err, HasSubstr("software, never to be compared with hardware"));
-  EXPECT_THAT(result.err, HasSubstr("No times of passes: software OpenGL"));
 }
 
 TEST_F(Bench, ThePixelsThatWereTimedAreThoseOfRender) {
@@ -120,16 +125,17 @@ TEST_F(Bench, WhatIsKeptIsSaidAsAnOptionOfRender) {
   EXPECT_THAT(json["configurations"][1]["options"], ElementsAre("--no-specialise"));
   const auto applied = all(json["configurations"][0]["specialisations"], "name");
   EXPECT_THAT(applied, Not(testing::IsEmpty()));
-  EXPECT_THAT(applied, Not(testing::Contains("background")));
-  EXPECT_THAT(applied, Not(testing::Contains("alpha-test")));
+  EXPECT_THAT(applied, Not(Contains("background")));
+  EXPECT_THAT(applied, Not(Contains("alpha-test")));
 }
 
 TEST_F(Bench, ProcessorTimeIsSaidWhereItIsWhatWasMeasured) {
   const std::string clock =
       bench_json({"--processor-time", "--only", "tureen"})["protocol"]["clock"];
-  EXPECT_THAT(clock, HasSubstr("processor time of all threads"));
-  const ChildResult steady = bench({"--only", "tureen"});
-  EXPECT_THAT(steady.err, HasSubstr("Times: steady clock"));
+  const ChildResult steady = bench({"--only", "tureen", "--json"});
+  const std::string other = nlohmann::json::parse(steady.out)["protocol"]["clock"];
+  EXPECT_NE(clock, other);
+  EXPECT_THAT(steady.err, HasSubstr(other));
 }
 
 TEST_F(Bench, WhoTakesPartCanBeChosen) {
@@ -162,7 +168,7 @@ TEST_F(Bench, ASceneThatThePublishedPipelineCannotDrawIsTimedWithoutIt) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto json = nlohmann::json::parse(result.out);
   EXPECT_THAT(all(json["configurations"], "name"), ElementsAre("tureen", "generic"));
-  EXPECT_THAT(result.err, HasSubstr("published is left out: "));
+  EXPECT_THAT(result.err, Names("published"));
   EXPECT_EQ(json["measurements"][0]["views"], 8);
   EXPECT_EQ(json["measurements"][0]["camera_set"], "hemisphere:8");
   EXPECT_EQ(run({"bench", "scene.off", "--only", "published"}).exit_code, 2);
@@ -177,8 +183,7 @@ TEST_F(Bench, SetsAndSizesMakeATableEach) {
   EXPECT_THAT(all(json["measurements"], "camera_set"),
               ElementsAre("adversarial", "orbit:3", "adversarial", "orbit:3"));
   EXPECT_EQ(json["measurements"][0]["views"], 4);
-  EXPECT_THAT(result.err, HasSubstr("32 x 18, adversarial: 4 views, 1 round"));
-  EXPECT_THAT(result.err, HasSubstr("48 x 27, orbit:3: 3 views"));
+  EXPECT_THAT(result.err, Names("32 x 18", "adversarial", "48 x 27", "orbit:3"));
 }
 
 TEST_F(Bench, RecordedCamerasComeInFullHalfAndQuarter) {
@@ -254,7 +259,6 @@ TEST_F(Bench, CtrlCLeavesNoResult) {
   child.signal(SIGINT);
   const ChildResult result = child.wait();
   EXPECT_EQ(result.exit_code, 5);
-  EXPECT_THAT(result.err, HasSubstr("interrupted"));
   EXPECT_FALSE(exists("timed/bench.json"));
 }
 

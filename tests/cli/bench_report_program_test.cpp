@@ -3,12 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "cli/program_fixture.hpp"
+#include "support/errors.hpp"
 
 namespace tureen {
 namespace {
 
 using test::ChildResult;
-using testing::HasSubstr;
+using test::Names;
 
 class BenchFiles : public test::Program {
  protected:
@@ -51,11 +52,9 @@ TEST_F(BenchFiles, ARunIsComparedWithAnEarlierOne) {
     EXPECT_GT(ratio["ratio"], 100);
   }
   EXPECT_EQ(json["comparison"]["ratios"].size(), before["measurements"].size());
-  EXPECT_THAT(told.err, HasSubstr("slower"));
-  EXPECT_THAT(told.err, HasSubstr("an abacus, "));
+  EXPECT_THAT(told.err, Names("an abacus"));
   const ChildResult failed = bench({"--against", "fast.json", "--fail-slower", "50"});
   EXPECT_EQ(failed.exit_code, 1) << failed.err;
-  EXPECT_THAT(failed.err, HasSubstr("slower than allowed"));
 }
 
 TEST_F(BenchFiles, BadArgumentsAreSaidBeforeAnythingIsMeasured) {
@@ -63,11 +62,11 @@ TEST_F(BenchFiles, BadArgumentsAreSaidBeforeAnythingIsMeasured) {
   EXPECT_EQ(bench({"--fail-slower", "5"}).exit_code, 2);
   const ChildResult missing = bench({"--against", "none.json"});
   EXPECT_EQ(missing.exit_code, 3);
-  EXPECT_THAT(missing.err, HasSubstr("none.json"));
+  EXPECT_THAT(missing.err, Names("none.json"));
   write("other.json", "{\"format\": \"tureen growth\"}");
   const ChildResult other = bench({"--against", "other.json", "-o", "out"});
   EXPECT_EQ(other.exit_code, 3);
-  EXPECT_THAT(other.err, HasSubstr("no result of tureen bench"));
+  EXPECT_THAT(other.err, Names("other.json", "tureen bench"));
   EXPECT_FALSE(exists("out"));
 }
 
