@@ -77,7 +77,8 @@ BenchResult run(const Options& options) {
   const BenchClock clock = clock_for(result.device, options.processor_time);
   result.protocol.clock = clock.text;
   const Contestants contestants = make_contestants(options.contestants, context, scene);
-  result.notes.insert(result.notes.end(), contestants.notes.begin(), contestants.notes.end());
+  for (const LeftOut& each : contestants.left_out)
+    result.notes.push_back(each.name + " is left out: " + each.reason);
   result.load = load_of(contestants, read_ms.count());
   add_measurements(result, measure(contestants, views.views,
                                    {.rounds = options.rounds,

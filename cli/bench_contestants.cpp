@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 
 #include "formats/suggestion.hpp"
 #include "runtime/copy_ceiling.hpp"
@@ -194,23 +195,23 @@ void check(const ContestantOptions& options) {
 Contestants make_contestants(const ContestantOptions& options, const gl::Context& context,
                              const Scene& scene) {
   Contestants result;
-  const std::vector<std::string> names = names_of(options);
-  for (const std::string& name : names) {
-    const auto note = [&](const Error& error) {
-      // Where it was asked for by name, or alone, there is nothing to go on with.
-      if (!options.only.empty() || names.size() == 1) throw;
-      result.notes.push_back(name + " is left out: " + error.reason());
+  std::exception_ptr first;
+  for (const std::string& name : names_of(options)) {
+    const auto leave_out = [&](const Error& error) {
+      if (!options.only.empty()) throw;  // it was asked for by name
+      if (!first) first = std::current_exception();
+      result.left_out.push_back({name, error.reason()});
     };
     try {
       result.list.push_back(make_contestant(name, options, context, scene));
     } catch (const UsageError& error) {
-      note(error);
+      leave_out(error);
     } catch (const DeviceLimitError& error) {
-      note(error);
+      leave_out(error);
     }
     if (result.list.size() == 1 && result.peak_mib == 0) result.peak_mib = peak_mib();
   }
-  if (result.list.empty()) throw DeviceLimitError(result.notes.front());
+  if (result.list.empty()) std::rethrow_exception(first);
   return result;
 }
 

@@ -44,16 +44,22 @@ class Contestant {
   Entrant entrant();
 };
 
+/// A configuration that cannot draw the scene, and why.
+struct LeftOut {
+  std::string name;
+  std::string reason;
+};
+
 struct Contestants {
   std::vector<std::unique_ptr<Contestant>> list;  // the first is what ratios refer to
-  double peak_mib = 0;             // of the process, when the first was ready to draw
-  std::vector<std::string> notes;  // who cannot take part, and why
+  double peak_mib = 0;  // of the process, when the first was ready to draw
+  std::vector<LeftOut> left_out;
 };
 
 /// Plans and uploads for each; the times are in Contestant::configuration. With --no-specialise or
 /// --pipeline published only that one takes part, and the ceilings where asked for. Who cannot draw
-/// this soup is noted and left out, but UsageError and DeviceLimitError pass where --only names it
-/// or nobody is left.
+/// this soup is left out, but UsageError and DeviceLimitError pass where --only names it; where
+/// nobody is left, the first of them.
 Contestants make_contestants(const ContestantOptions& options, const gl::Context& context,
                              const Scene& scene);
 
