@@ -1,7 +1,5 @@
 #include "cli/tradeoff_measurer.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <future>
 #include <thread>
@@ -107,8 +105,7 @@ void Measurer::time_and_compare(std::vector<Running>& running) {
     outcome.ms = scaled(statistics_of(result.entrants[i].times), factor);
     const Renderer& renderer = *running[i].renderer;
     outcome.device_mib = double(renderer.device_bytes() + renderer.target_bytes()) / (1 << 20);
-    if (!result.entrants[i].stable)
-      outcome.warnings.push_back("its times did not come to rest before they were taken");
+    outcome.stable = result.entrants[i].stable;
   }
   compare(running, first);
   if (!control_) control_ = running.front().job;
@@ -124,8 +121,6 @@ void Measurer::compare(std::vector<Running>& running, std::size_t first) {
   const auto take = [&](std::size_t i) {
     Outcome& outcome = running[first + i].job.outcome;
     std::tie(outcome.error, outcome.exact) = errors[i].get();
-    if (outcome.error.non_finite > 0)
-      outcome.warnings.push_back(fmt::format("{} pixels are no numbers", outcome.error.non_finite));
   };
   for (std::size_t i = first; i < running.size(); ++i) {
     report_share(0.8 + 0.2 * double(i) / double(running.size()));

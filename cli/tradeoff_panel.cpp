@@ -58,6 +58,18 @@ const Outcome* generic_of(const Panel& panel, const Outcome& outcome) {
   return nullptr;
 }
 
+std::vector<std::string> warnings_about(const Panel& panel, const Outcome& outcome) {
+  std::vector<std::string> warnings;
+  if (!outcome.stable)
+    warnings.emplace_back("its times did not come to rest before they were taken");
+  if (outcome.error.non_finite > 0)
+    warnings.push_back(fmt::format("{} pixels are no numbers", outcome.error.non_finite));
+  if (!is_judged(panel, outcome))
+    warnings.emplace_back(
+        "drawn at the reference's own samples: its error is rounding alone, and it is on no front");
+  return warnings;
+}
+
 std::optional<std::string> spread_warning(double aa_spread) {
   if (aa_spread <= BenchmarkOptions{}.stable_within) return std::nullopt;
   return fmt::format(

@@ -40,7 +40,7 @@ struct Outcome {
   double device_mib = 0;            // the soup's buffers and textures, and the targets of a view
   RenderError error;                // against References::judge
   std::optional<ExactError> exact;  // drawing knobs alone
-  std::vector<std::string> warnings;
+  bool stable = true;               // its times came to rest before they were taken
 
   int departures() const { return tradeoff::departures(configuration); }
 };
@@ -68,9 +68,9 @@ struct Panel {
 /// Whether the error of an outcome says anything of its knobs. Supersampling at the antialiasing
 /// reference's own samples (tradeoff::antialiased_samples) is measured for its time.
 bool is_judged(const Panel& panel, const Outcome& outcome);
-/// What to say of an outcome that is not.
-inline constexpr const char* not_judged =
-    "drawn at the reference's own samples: its error is rounding alone, and it is on no front";
+
+/// Sentences on why time or error of an outcome mean less than they seem.
+std::vector<std::string> warnings_about(const Panel& panel, const Outcome& outcome);
 
 /// Time and error as the front sees them, of those outcomes that may be on it; `index` says which
 /// outcome each is.

@@ -34,11 +34,10 @@ std::vector<Job> jobs_of(const std::vector<Knob>& knobs, const std::vector<Confi
   return jobs;
 }
 
-void note_skipped(Panel& panel, const tradeoff::Design& design) {
+void add_skipped(Panel& panel, const tradeoff::Design& design) {
   for (const tradeoff::Skipped& skipped : design.skipped)
     panel.skipped.push_back(
         {tradeoff::describe(panel.knobs, skipped.configuration), skipped.reason});
-  panel.notes.insert(panel.notes.end(), design.notes.begin(), design.notes.end());
 }
 
 /// The ranges of the knobs, from the outcomes of the star that were measured as specialised.
@@ -61,7 +60,8 @@ void finish(const StudyOptions& options, const std::string& task, Measurer& meas
   const tradeoff::Design rest =
       tradeoff::factorial(tradeoff::setting_counts(panel.knobs), panel.ranges,
                           refusal_of(panel.knobs), options.factorial);
-  note_skipped(panel, rest);
+  add_skipped(panel, rest);
+  panel.notes = tradeoff::describe(rest.reduction, options.factorial);
   measurer.measure(jobs_of(panel.knobs, rest.configurations, true), task);
   find_front(panel);
   if (auto warning = spread_warning(panel.aa_spread)) panel.notes.push_back(*std::move(warning));
@@ -85,7 +85,7 @@ void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& 
   panel.knobs = tradeoff::drawing_knobs(scene.soup, visible);
   const tradeoff::Design star =
       tradeoff::star(tradeoff::setting_counts(panel.knobs), refusal_of(panel.knobs));
-  note_skipped(panel, star);
+  add_skipped(panel, star);
 
   Measurer measurer(scene, options, references, panel);
   std::vector<Job> jobs = jobs_of(panel.knobs, star.configurations, true);
@@ -110,11 +110,9 @@ void study_antialiasing(const StudyScene& scene, const StudyOptions& options, St
   panel.knobs = tradeoff::antialiasing_knobs(options.most_samples);
   const tradeoff::Design star =
       tradeoff::star(tradeoff::setting_counts(panel.knobs), refusal_of(panel.knobs));
-  note_skipped(panel, star);
+  add_skipped(panel, star);
   Measurer measurer(scene, options, references, panel);
   measurer.measure(jobs_of(panel.knobs, star.configurations, true), "antialiasing");
-  for (Outcome& outcome : panel.outcomes)
-    if (!is_judged(panel, outcome)) outcome.warnings.emplace_back(not_judged);
   finish(options, "antialiasing combined", measurer, panel);
 }
 

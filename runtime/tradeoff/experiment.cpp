@@ -101,29 +101,34 @@ Design factorial(std::span<const int> settings, std::span<const KnobRange> range
   std::stable_sort(chosen.begin(), chosen.end(), [](const KnobRange& a, const KnobRange& b) {
     return std::log(a.time_ratio) * a.psnr_db > std::log(b.time_ratio) * b.psnr_db;
   });
-  std::vector<std::string> notes;
-  if (chosen.size() > limits.most_knobs) {
-    notes.push_back(std::to_string(chosen.size()) + " knobs matter; the " +
-                    std::to_string(limits.most_knobs) +
-                    " that move time and error most are combined");
-    chosen.resize(limits.most_knobs);
-  }
-  const std::size_t wanted = chosen.size();
+  Reduction reduction{.mattering = chosen.size()};
+  if (chosen.size() > limits.most_knobs) chosen.resize(limits.most_knobs);
+  reduction.wanted = chosen.size();
   Design design = combinations(settings, chosen, refuse);
-  const std::size_t all = design.configurations.size();
+  reduction.configurations = design.configurations.size();
   while (design.configurations.size() > limits.most_configurations) {
     chosen.pop_back();
     design = combinations(settings, chosen, refuse);
   }
-  if (chosen.size() < wanted)
-    notes.push_back("all combinations of " + std::to_string(wanted) + " knobs are " +
-                    std::to_string(all) + " configurations, more than the limit of " +
-                    std::to_string(limits.most_configurations) + ": " +
-                    (chosen.size() < 2
-                         ? std::string("none are measured")
-                         : "only those of the first " + std::to_string(chosen.size()) + " are"));
-  design.notes = std::move(notes);
+  reduction.combined = chosen.size();
+  design.reduction = reduction;
   return design;
+}
+
+std::vector<std::string> describe(const Reduction& reduction, const FactorialLimits& limits) {
+  std::vector<std::string> sentences;
+  const auto& [mattering, wanted, configurations, combined] = reduction;
+  if (wanted < mattering)
+    sentences.push_back(std::to_string(mattering) + " knobs matter; the " + std::to_string(wanted) +
+                        " that move time and error most are combined");
+  if (combined < wanted)
+    sentences.push_back(
+        "all combinations of " + std::to_string(wanted) + " knobs are " +
+        std::to_string(configurations) + " configurations, more than the limit of " +
+        std::to_string(limits.most_configurations) + ": " +
+        (combined < 2 ? std::string("none are measured")
+                      : "only those of the first " + std::to_string(combined) + " are"));
+  return sentences;
 }
 
 }  // namespace tureen::tradeoff

@@ -26,11 +26,19 @@ struct Skipped {
   std::string reason;
 };
 
+/// What the limits of factorial() left of the knobs that matter.
+struct Reduction {
+  std::size_t mattering = 0;       // knobs
+  std::size_t wanted = 0;          // of those, within FactorialLimits::most_knobs
+  std::size_t configurations = 0;  // all combinations of the wanted knobs that can be drawn
+  std::size_t combined = 0;        // knobs left within FactorialLimits::most_configurations
+};
+
 struct Design {
   std::vector<Configuration> configurations;
   /// What cannot be drawn; of several of which one is part of the others, that one alone.
   std::vector<Skipped> skipped;
-  std::vector<std::string> notes;  // what was left out for other reasons, a sentence each
+  Reduction reduction = {};
 };
 
 /// The defaults, then every other setting of every knob alone. `settings` is how many each knob
@@ -65,9 +73,11 @@ struct FactorialLimits {
 
 /// All combinations of the knobs that matter that the star does not have: at most `most_knobs`,
 /// those that move time and error most, by the product of both; where that leaves more
-/// configurations than the limit that can be drawn, the last of these knobs are put back, and a
-/// note says so.
+/// configurations than the limit that can be drawn, the last of these knobs are put back.
 Design factorial(std::span<const int> settings, std::span<const KnobRange> ranges,
                  const Refusal& refuse, const FactorialLimits& limits = {});
+
+/// A sentence for each of `limits` that left knobs out.
+std::vector<std::string> describe(const Reduction& reduction, const FactorialLimits& limits);
 
 }  // namespace tureen::tradeoff

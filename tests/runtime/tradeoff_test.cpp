@@ -10,13 +10,14 @@
 #include "runtime/tradeoff/experiment.hpp"
 #include "runtime/tradeoff/knobs.hpp"
 #include "runtime/tradeoff/pareto.hpp"
+#include "support/errors.hpp"
 #include "support/random.hpp"
 
 namespace tureen::tradeoff {
 namespace {
 
+using test::Names;
 using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
@@ -220,7 +221,9 @@ TEST(Factorial, CombinesTheKnobsThatMatter) {
   const std::vector<KnobRange> ranges{{0, 1.5, 5}, {1, 1.02, 9}, {2, 1.2, 3}};
   const Design design = factorial(settings, ranges, nothing_refused);
   EXPECT_THAT(design.configurations, ElementsAre(Configuration{1, 0, 1}, Configuration{2, 0, 1}));
-  EXPECT_THAT(design.notes, IsEmpty());
+  EXPECT_EQ(design.reduction.mattering, 2u);
+  EXPECT_EQ(design.reduction.combined, 2u);
+  EXPECT_THAT(describe(design.reduction, {}), IsEmpty());
 }
 
 TEST(Factorial, WithTheStarIsEveryCombinationOnce) {
@@ -240,10 +243,13 @@ TEST(Factorial, SaysWhatItsLimitsLeaveOut) {
   for (std::size_t knob = 0; knob < 5; ++knob)
     ranges.push_back({knob, 1.1 + 0.1 * double(knob), 2});
   // Four of three settings are 81, of which the star has 9.
-  const Design design = factorial(settings, ranges, nothing_refused, {.most_configurations = 71});
-  ASSERT_THAT(design.notes, SizeIs(2));
-  EXPECT_THAT(design.notes[0], HasSubstr("5 knobs matter; the 4 that"));
-  EXPECT_THAT(design.notes[1], HasSubstr("72 configurations, more than the limit of 71"));
+  const FactorialLimits limits{.most_configurations = 71};
+  const Design design = factorial(settings, ranges, nothing_refused, limits);
+  EXPECT_EQ(design.reduction.mattering, 5u);
+  EXPECT_EQ(design.reduction.wanted, 4u);
+  EXPECT_EQ(design.reduction.configurations, 72u);
+  EXPECT_EQ(design.reduction.combined, 3u);
+  EXPECT_THAT(describe(design.reduction, limits), ElementsAre(Names(5, 4), Names(4, 72, 71, 3)));
   // The three that move most are left: 27 less 7.
   EXPECT_THAT(design.configurations, SizeIs(20));
   for (const Configuration& c : design.configurations) EXPECT_EQ(c[0] + c[1], 0);
@@ -278,7 +284,7 @@ TEST(Factorial, SaysOnceWhatCannotBeDrawnTogetherAndDoesNotCountIt) {
     const std::vector<KnobRange> ranges{{0, 1.5, 5}, {1, 1.4, 5}, {2, last_ratio, 5}};
     const Design design = factorial(settings, ranges, refuse, {.most_configurations = 3});
     EXPECT_THAT(design.configurations, testing::UnorderedElementsAreArray(drawn));
-    EXPECT_THAT(design.notes, IsEmpty());
+    EXPECT_EQ(design.reduction.combined, 3u);
     std::vector<Configuration> skipped;
     for (const Skipped& each : design.skipped) skipped.push_back(each.configuration);
     EXPECT_THAT(skipped,
@@ -286,8 +292,8 @@ TEST(Factorial, SaysOnceWhatCannotBeDrawnTogetherAndDoesNotCountIt) {
   }
   const std::vector<KnobRange> ranges{{0, 1.5, 5}, {1, 1.4, 5}, {2, 1.3, 5}};
   const Design fewer = factorial(settings, ranges, refuse, {.most_configurations = 2});
-  ASSERT_THAT(fewer.notes, SizeIs(1));
-  EXPECT_THAT(fewer.notes[0], HasSubstr("are 3 configurations, more than the limit of 2"));
+  EXPECT_EQ(fewer.reduction.configurations, 3u);
+  EXPECT_EQ(fewer.reduction.combined, 2u);
 }
 
 // The knob must not be called otherwise where its outcomes are looked for.
