@@ -66,8 +66,8 @@ std::vector<Camera> training_cameras(const DatasetArgument& dataset,
 
 /// What the loss was measured on: "9 photographs of fox at scale 0.25", or recorded cameras.
 std::string measured_on(const SlimResult& result, const DatasetArgument& photographs) {
-  if (photographs.path.empty()) return result.views;
-  return fmt::format("{} of {} at scale {:g}", result.views, name_of(photographs),
+  if (photographs.path.empty()) return describe(result.views);
+  return fmt::format("{} of {} at scale {:g}", describe(result.views), name_of(photographs),
                      photographs.options.scale);
 }
 
@@ -171,6 +171,7 @@ void check_slim(const SlimArguments& arguments, const fs::path& output) {
 Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& glb) {
   SlimRequest request{.max_loss_db = arguments.max_error_db, .keep_unseen = arguments.keep_unseen};
   const bool with_photographs = !arguments.photographs.path.empty();
+  const bool compressed_before = scene.info.compressed;
   std::vector<std::string> lost = doubts_about(scene, with_photographs);
   if (with_photographs) {
     request.photographs = read(arguments.photographs, DatasetPart::test).test;
@@ -230,7 +231,10 @@ Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& g
                {"loss_db", result.loss.db},
                {"loss_is_measured", with_photographs},
                {"render_psnr_db", result.loss.render_psnr_db},
-               {"views", result.views},
+               {"views", describe(result.views)},
+               {"recorded_cameras", cameras},
+               {"training_cameras", result.lent_cameras},
+               {"compressed_before", compressed_before},
                {"faces_left_out", result.unseen},
                {"texels_kept_roughly", result.unseen_texels},
                {"lost", lost}};

@@ -43,7 +43,7 @@ struct SlimResult {
   int position_bits = 0;
   double color_step = 0;  // slim_basis
   double model_db = 0;    // of the scene itself: SlimJudge::model_db
-  std::string views;      // that it was measured on: SlimJudge::views
+  SlimViews views;        // that it was measured on
 };
 
 /// Where the scene has telling_cameras, training cameras that join them counted in, faces that

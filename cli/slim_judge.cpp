@@ -43,6 +43,15 @@ std::vector<Camera> slim_views(const Scene& scene, std::span<const Camera> recor
   return views;
 }
 
+std::string describe(const SlimViews& views) {
+  if (views.photographs > 0) return count_text(int(views.photographs), "photograph");
+  if (views.around == 0)
+    return fmt::format("{} of its {} recorded cameras", views.cameras, views.recorded);
+  const std::string around = count_text(int(views.around), "view") + " from above and around";
+  return views.cameras == 0 ? around
+                            : count_text(int(views.cameras), "recorded camera") + " and " + around;
+}
+
 SlimJudge::SlimJudge(const gl::Context& context, const Scene& scene,
                      std::span<const Photograph> photographs)
     : context_(context), origin_(scene.origin), background_(scene.info.background) {
@@ -51,15 +60,12 @@ SlimJudge::SlimJudge(const gl::Context& context, const Scene& scene,
     photographs_.push_back(composited(to_float(photograph.image), background_));
   }
   if (!photographs_.empty()) {
-    views_ = count_text(int(photographs_.size()), "photograph");
+    views_.photographs = photographs_.size();
   } else {
     cameras_ = slim_views(scene, scene.cameras, judged_views);
-    const std::size_t recorded = scene.cameras.size();
-    views_ = recorded >= telling_cameras
-                 ? fmt::format("{} of its {} recorded cameras", cameras_.size(), recorded)
-                 : count_text(int(cameras_.size() - recorded), "view") + " from above and around";
-    if (recorded > 0 && recorded < telling_cameras)
-      views_ = count_text(int(recorded), "recorded camera") + " and " + views_;
+    views_.recorded = scene.cameras.size();
+    views_.cameras = std::min(views_.recorded, cameras_.size());
+    views_.around = cameras_.size() - views_.cameras;
   }
   std::vector<double> errors;
   draw(std::get<TriangleSoup>(scene.primitives), [&](std::size_t i, const ImageF& picture) {

@@ -21,6 +21,20 @@ struct SlimLoss {
   double render_psnr_db = 100;
 };
 
+/// What a loss was measured on: photographs alone, or recorded cameras and views around the scene.
+struct SlimViews {
+  std::size_t photographs = 0;
+  std::size_t cameras = 0;   // of the `recorded` ones
+  std::size_t recorded = 0;  // cameras of the scene
+  std::size_t around = 0;    // where the scene has fewer than telling_cameras
+
+  bool operator==(const SlimViews&) const = default;
+};
+
+/// "25 photographs", "24 of its 100 recorded cameras", "1 recorded camera and 23 views from above
+/// and around", ..
+std::string describe(const SlimViews& views);
+
 class SlimJudge {
  public:
   /// Above what trained soups reach: better models lose more by the same error.
@@ -37,9 +51,7 @@ class SlimJudge {
 
   /// Mean PSNR of the scene itself against the photographs; assumed_model_db without them.
   double model_db() const { return model_db_; }
-  /// "25 photographs", "24 of its 100 recorded cameras", "1 recorded camera and 23 views from above
-  /// and around", ..
-  const std::string& views() const { return views_; }
+  const SlimViews& views() const { return views_; }
 
  private:
   /// Calls visit(view, picture) for each.
@@ -53,7 +65,7 @@ class SlimJudge {
   std::vector<Camera> cameras_;
   std::vector<ImageF> photographs_;  // over the background
   std::vector<ImageF> pictures_;     // of the scene itself
-  std::string views_;
+  SlimViews views_;
   double model_db_ = assumed_model_db;
 };
 

@@ -8,6 +8,7 @@
 #include "runtime/renderer.hpp"
 #include "soup/error.hpp"
 #include "soup/lattice.hpp"
+#include "support/errors.hpp"
 #include "support/random.hpp"
 
 namespace tureen::cli {
@@ -62,7 +63,7 @@ TEST(Slim, KeepsWithinItsBoundAndUsesIt) {
   EXPECT_GT(small.loss.db, 0.5);
   EXPECT_LT(small.soup.texels.size(), large.soup.texels.size());
   EXPECT_LE(small.position_bits, large.position_bits);
-  EXPECT_EQ(large.views, "8 of its 8 recorded cameras");
+  EXPECT_EQ(large.views, (SlimViews{.cameras = 8, .recorded = 8}));
 
   // What is in the file loses just that.
   const gl::Context context = gl::Context::create({});
@@ -76,7 +77,7 @@ TEST(Slim, MeasuresAgainstPhotographsWhereThereAreSome) {
   const SlimResult result =
       slim(scene, {.max_loss_db = 0.05, .photographs = own_photographs(scene, 40)});
   EXPECT_LE(result.loss.db, 0.05);
-  EXPECT_EQ(result.views, "8 photographs");
+  EXPECT_EQ(result.views, SlimViews{.photographs = 8});
   // They are far from the scene, so much may be lost before it shows against them.
   EXPECT_LT(result.model_db, 30);
   EXPECT_LT(result.loss.render_psnr_db, 45);
@@ -208,7 +209,7 @@ TEST(Slim, OneCameraDoesNotSpeakForAll) {
   Scene scene = part_of_the_example(100, 1);
   scene.cameras[0] = look_at({0, 0, 50}, {0, 0, 100}, {0, 1, 0}, 0.7, 64, 48);
   const SlimResult result = slim(scene, {.max_loss_db = 0.1});
-  EXPECT_EQ(result.views, "1 recorded camera and 23 views from above and around");
+  EXPECT_EQ(result.views, (SlimViews{.cameras = 1, .recorded = 1, .around = 23}));
   EXPECT_EQ(result.unseen, 0u);
   EXPECT_EQ(result.seeing_views, 0u);
   EXPECT_EQ(result.unseen_texels, 0u);
@@ -256,13 +257,8 @@ TEST(Slim, AlphasAroundTheThresholdHaveFinerSteps) {
 TEST(Slim, RefusesWhatItCannotHold) {
   Scene scene = part_of_the_example(2);
   std::get<TriangleSoup>(scene.primitives).appearance = FaceColors{{glm::vec4(1), glm::vec4(1)}};
-  try {
-    slim(scene, {});
-    FAIL();
-  } catch (const UsageError& error) {
-    EXPECT_STREQ(error.what(),
-                 "a slim file holds lattice textures only; this scene has face colours");
-  }
+  EXPECT_THAT(test::error_of<UsageError>([&] { slim(scene, {}); }),
+              test::ErrorAt("", appearance_name(FaceColors{})));
 }
 
 TEST(Slim, ViewsAreRecordedCamerasOrAround) {
