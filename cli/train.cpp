@@ -125,6 +125,7 @@ double opacity_binary_fraction(const trainer::Model& model) {
 
 struct Result {
   trainer::TrainingState state;
+  bool visible_at_start = false;  // a triangle, in any training picture
   double seconds = 0;
   double trainer_psnr_db = 0;
   std::optional<Evaluation> evaluation;  // none without OpenGL
@@ -207,6 +208,7 @@ Json report(const Dataset& dataset, const Result& result) {
           {"steps", result.state.step},
           {"seconds", result.seconds},
           {"triangles", result.state.model.faces()},
+          {"visible_at_start", result.visible_at_start},
           {"test", test},
           {"trainer_psnr_db", result.trainer_psnr_db},
           {"opacity_binary_fraction", opacity_binary_fraction(result.state.model)},
@@ -323,7 +325,9 @@ ExitCode train(const Options& options) {
                            trainer::make_backend(views, scaled, options.device, options.threads),
                            run.state);
   say_beginning(dataset, config, trainer.backend());
-  if (!shows_something(trainer.backend(), views))
+  Result result;
+  result.visible_at_start = shows_something(trainer.backend(), views);
+  if (!result.visible_at_start)
     say("No training picture shows a triangle yet: are the cameras where the scene is?");
 
   const double seconds_before = run.seconds;
@@ -336,7 +340,6 @@ ExitCode train(const Options& options) {
                           std::move(run));
   session.run();
 
-  Result result;
   result.seconds = session.seconds();
   result.state = trainer.state();
   const Scene scene = scene_of(options, dataset, config, result.state);
