@@ -4,7 +4,8 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { errors, errorShown, pick, picture, sceneShown, source, stage } from './support.mjs';
+import { readPng } from './png.mjs';
+import { errorKind, errors, errorShown, pick, picture, sceneShown, source, stage } from './support.mjs';
 
 const example = readFileSync(join(source, 'examples/soup.glb'));
 const answer = (bytes, type = 'model/gltf-binary') => (request, response) =>
@@ -32,27 +33,27 @@ const { visit, server } = await stage({ routes: {
   '/refused.glb': (request, response) => response.writeHead(403).end(),
 } });
 
-/** What is said of each, whole: the file, the place and the reason. Servers' refusals are in the
- *  console, too. */
+/** Of each: the kind of its error, and the values that it names: the file, the place and what is
+ *  wrong there. Servers' refusals are in the console, too. */
 const cases = [
-  ['cut-off.glb', 'cut-off.glb: byte 8: the file is cut short: its header says 2227760 bytes, it has 2226760'],
-  ['beginning.glb', 'beginning.glb: byte 8: the GLB header cut short: 4 bytes expected, 2 bytes left'],
-  ['empty.glb', 'empty.glb: the file is empty'],
-  ['garbage.glb', /^garbage\.glb: byte 0: neither a GLB/],
-  ['page.glb', /^page\.glb: a page of the web/],
-  ['long-json.glb', 'long-json.glb: byte 12: a GLB chunk of 4294967280 bytes, but 2227740 are left'],
-  ['counts.off', 'counts.off:2: 4000000000 vertices and 4000000000 faces do not fit into the 7 bytes that follow'],
-  ['breaks-off.glb', /breaks-off\.glb broke off after [\d,]+ bytes\.$/, /ERR_CONTENT_LENGTH_MISMATCH|ERR_CONNECTION/],
-  ['nowhere.glb', /nowhere\.glb cannot be had: the server answers 404 Not Found\.$/, /404/],
-  ['refused.glb', /refused\.glb cannot be had: the server answers 403 Forbidden\.$/, /403/],
-  ['ftp://example.org/soup.glb', 'Scenes are fetched by http and https, not by ftp.'],
+  ['cut-off.glb', 'input', ['cut-off.glb: byte 8: ', 2227760, 2226760]],
+  ['beginning.glb', 'input', ['beginning.glb: byte 8: ', 4, 2]],
+  ['empty.glb', 'input', ['empty.glb: ']],
+  ['garbage.glb', 'input', ['garbage.glb: byte 0: ']],
+  ['page.glb', 'input', ['page.glb: ']],
+  ['long-json.glb', 'input', ['long-json.glb: byte 12: ', 4294967280, 2227740]],
+  ['counts.off', 'input', ['counts.off:2: ', 4000000000, 7]],
+  ['breaks-off.glb', 'network', ['breaks-off.glb'], /ERR_CONTENT_LENGTH_MISMATCH|ERR_CONNECTION/],
+  ['nowhere.glb', 'network', ['nowhere.glb', 404], /404/],
+  ['refused.glb', 'network', ['refused.glb', 403], /403/],
+  ['ftp://example.org/soup.glb', 'usage', ['ftp']],
 ];
 
-for (const [address, sentence, complaint] of cases) {
+for (const [address, kind, values, complaint] of cases) {
   test(`${address}, and then a good one`, () => visit(`?scene=${address}`, async (page) => {
     const said = await errorShown(page);
-    if (typeof sentence === 'string') assert.equal(said, sentence);
-    else assert.match(said, sentence);
+    assert.equal(await errorKind(page), kind);
+    for (const value of values) assert.ok(said.includes(value), `${value}: ${said}`);
     assert.ok(await page.isVisible('#start'), 'another can be opened');
     await page.click('#gallery-list button');
     await sceneShown(page, 'soup');
@@ -92,7 +93,9 @@ test('a scene of which nothing can be drawn is background', () => visit('', asyn
   const off = Buffer.from('OFF\n3 1 0\nnan nan nan\n0 1 0\n1 0 0\n3 0 1 2\n');
   await pick(page, { name: 'nan.off', mimeType: 'text/plain', buffer: off });
   await sceneShown(page, 'nan');
-  assert.match(await page.textContent('#plan'), /corners that are not finite/);
+  const { width, height, pixels } = readPng(await picture(page));
+  const row = pixels.subarray(4 * width * (height >> 1)).subarray(0, 4 * width);  // the canvas has round corners
+  assert.ok(new Set(row).size <= 4, 'one colour');
 }));
 
 test('no file outside of the site is served', async () => {

@@ -149,7 +149,13 @@ export async function errorShown(page) {
   await page.locator('#errors .message p').first().waitFor();
   return (await errors(page))[0];
 }
-export const noticeShown = (page, part) => page.locator('#notices .message', { hasText: part }).waitFor();
+/** Waits for one and returns its kind, a ViewerError's. */
+export async function errorKind(page) {
+  const message = page.locator('#errors .message').first();
+  await message.waitFor();
+  return message.getAttribute('data-kind');
+}
+export const noticeShown = (page, part = '') => page.locator('#notices .message', { hasText: part }).first().waitFor();
 
 /** The camera as the page's address has it, once it has come to rest there. */
 export async function view(page) {

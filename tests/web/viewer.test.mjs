@@ -164,7 +164,7 @@ test('setting what is no view is no movement', onViewer(async (page) => {
 test('an instance that does not start is told of', () => visit('models.json', async (page) => {
   await page.addInitScript(() => { WebAssembly.instantiate = () => Promise.reject(new RangeError('out of memory')); });
   await page.goto(server.address);
-  await page.locator('[role=alert]', { hasText: 'The engine cannot start: RangeError: out of memory' }).waitFor();
+  await page.locator('[role=alert]', { hasText: 'RangeError: out of memory' }).waitFor();
 }, { expected: [/favicon/] }));
 
 test('a page with the policy that the package asks for', () => visit('guarded.html', async (page) => {

@@ -1,7 +1,7 @@
 // Sentences for the person at the page: errors, which stay until they are closed or another scene is
 // asked for, and notices, which go by themselves. Screen readers read both.
 
-import { ViewerError } from '../viewer/types.js';
+import { type ErrorKind, ViewerError } from '../viewer/types.js';
 import { block, icon, make } from './dom.js';
 
 /** Long enough to read two sentences twice. */
@@ -18,16 +18,17 @@ export class Messages {
   private readonly errors = block('errors');
   private readonly notices = block('notices');
 
-  /** What it returns takes it away again. */
-  error(sentence: string): () => void {
+  /** What it returns takes it away again. The element's data-kind is `kind`. */
+  error(sentence: string, kind: ErrorKind | 'page'): () => void {
     const message = this.show(this.errors, sentence);
+    message.dataset.kind = kind;
     return () => message.remove();
   }
 
   /** Tells of what was thrown, unless there is nothing to tell. */
   thrown(what: unknown): void {
     const sentence = sentenceOf(what);
-    if (sentence) this.error(sentence);
+    if (sentence) this.error(sentence, what instanceof ViewerError ? what.kind : 'page');
   }
 
   notice(sentence: string): void {

@@ -75,7 +75,7 @@ function tellOfContext(viewer: Viewer, messages: Messages): void {
   let takeAway = () => {};
   viewer.on('context', (what) => {
     takeAway();
-    if (what === 'lost') takeAway = messages.error(lost());
+    if (what === 'lost') takeAway = messages.error(lost(), 'device');
     else messages.notice(`The graphics device is back${viewer.scene ? ', and so is the scene' : ''}.`);
   });
 }
