@@ -4,9 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cli/bench_words.hpp"
+#include "support/errors.hpp"
+
 namespace tureen::cli {
 namespace {
 
+using test::Names;
 using testing::Contains;
 using testing::EndsWith;
 using testing::HasSubstr;
@@ -53,9 +57,7 @@ BenchResult two_sizes() {
 
 TEST(BenchTable, HoldsEachAgainstTheFirstOfItsSize) {
   const std::vector<std::string> lines = bench_table(two_sizes());
-  EXPECT_THAT(
-      lines,
-      Contains(HasSubstr("640 x 360, orbit:8: 8 views, 15 rounds, A/A spread 2.0 %")).Times(2));
+  EXPECT_THAT(lines, Contains(Names("640 x 360", "orbit:8", 8, 15, "2.0 %")).Times(2));
   EXPECT_THAT(lines, Contains(AllOf(HasSubstr("tureen "), EndsWith("  1.00"))).Times(2));
   EXPECT_THAT(lines, Contains(MatchesRegex(" *published +52.0 +53.0 +52.0 +54.0 +55.0 .*")))
       << "best, mean, p50, p95, p99";
@@ -84,28 +86,26 @@ TEST(BenchTable, LeavesOutWhatWouldBeTheSlowestSample) {
 
 TEST(BenchTable, WarnsOfABuildThatIsNoRelease) {
   BenchResult result = two_sizes();
-  for (const char* fine : {"", "release"}) {
-    result.program.build = fine;
-    EXPECT_THAT(bench_table(result), Not(Contains(HasSubstr("build")))) << fine;
-  }
+  const std::vector<std::string> unknown = bench_table(result);
+  result.program.build = "release";
+  EXPECT_EQ(bench_table(result), unknown);
   result.program.build = "debug";
-  EXPECT_THAT(bench_table(result), Contains(HasSubstr("A debug build: its checks take time")));
+  EXPECT_THAT(bench_table(result), Contains(Names("debug")));
 }
 
 TEST(BenchTable, SaysWhatMemoryIsOfWhen) {
   BenchResult result = two_sizes();
   result.load.peak_mib = 40;
   result.machine.rasteriser_threads = 2;
-  EXPECT_THAT(bench_table(result), Contains(HasSubstr("peak 40 MiB before the first frame; on")));
+  EXPECT_THAT(bench_table(result), Contains(Names("40 MiB")));
   result.peak_mib = 70;
-  EXPECT_THAT(
-      bench_table(result),
-      Contains(HasSubstr("40 MiB before the first frame; peak 70 MiB after all frames; on")));
-  EXPECT_THAT(bench_table(result), Contains(HasSubstr("2 rasteriser threads")));
+  EXPECT_THAT(bench_table(result), Contains(Names("40 MiB", "70 MiB")));
+  EXPECT_THAT(bench_table(result), Contains(machine_text(result.machine)));
+  EXPECT_THAT(machine_text(result.machine), Names(2));
 }
 
 TEST(BenchTable, SaysWhyPassesHaveNoTimesOnce) {
-  EXPECT_THAT(bench_table(two_sizes()), Contains("No times of passes: it is told so.").Times(1));
+  EXPECT_THAT(bench_table(two_sizes()), Contains(HasSubstr("it is told so")).Times(1));
 }
 
 TEST(BenchTable, ShowsThePassesThatTheDeviceTimed) {
@@ -113,22 +113,20 @@ TEST(BenchTable, ShowsThePassesThatTheDeviceTimed) {
   for (BenchMeasurement& each : result.measurements) each.passes_reason.clear();
   result.measurements[0].passes_ms = {{"visibility", 0.1234}, {"shading", 7.891}};
   const std::vector<std::string> lines = bench_table(result);
-  EXPECT_THAT(lines,
-              Contains(HasSubstr("by the device's clock: visibility 0.123 ms, shading 7.89 ms")));
-  EXPECT_THAT(lines, Not(Contains(HasSubstr("No times of passes"))));
+  EXPECT_THAT(lines, Contains(HasSubstr("visibility 0.123 ms, shading 7.89 ms")));
   result.measurements[0].passes_reason = "they miss something";
   EXPECT_THAT(bench_table(result), Contains(MatchesRegex(" +they miss something")));
-  EXPECT_THAT(bench_table(result), Not(Contains(HasSubstr("No times of passes"))));
+  EXPECT_EQ(bench_table(result).size(), lines.size() + 1) << "once, beside its row";
 }
 
 TEST(BenchTable, WarnsOfSoftwareAndOfRestlessness) {
   BenchResult result = two_sizes();
-  EXPECT_THAT(bench_table(result), Not(Contains(HasSubstr("software"))));
+  const std::vector<std::string> before = bench_table(result);
   result.device.software = true;
-  result.measurements[1].stable = false;
   const std::vector<std::string> lines = bench_table(result);
-  EXPECT_THAT(lines.front(), HasSubstr("never to be compared with hardware"));
-  EXPECT_THAT(lines, Contains(HasSubstr("its warm-up did not come to rest")).Times(1));
+  EXPECT_NE(lines.front(), before.front());
+  result.measurements[1].stable = false;
+  EXPECT_EQ(bench_table(result).size(), lines.size() + 1);
 }
 
 }  // namespace

@@ -21,9 +21,9 @@ namespace {
 
 using test::error_of;
 using test::ErrorAt;
+using test::Names;
 using test::Refusal;
 using ::testing::Contains;
-using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::TemporaryFolder;
 namespace fs = std::filesystem;
@@ -256,8 +256,7 @@ TEST(DiffSoupExport, MixedLevelsBecomeTheHighest) {
   Scene scene = random_scene(6, 2, 3);
   auto& texture = std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance);
   texture.patches[1].level = 1;
-  EXPECT_THAT(write_diffsoup_export(scene, folder / "a"),
-              Contains(HasSubstr("1 of 2 faces were refined to level 3")));
+  EXPECT_THAT(write_diffsoup_export(scene, folder / "a"), Contains(Names(1, 2, 3)));
   const Scene copy = read_diffsoup_export(folder / "a");
   const LatticeTexture& fine = texture_of(copy);
   const int n = lattice::resolution(3);
@@ -284,8 +283,8 @@ TEST(DiffSoupExport, PlainColoursBecomeLevelZero) {
                         {{0, 0, 0, 1}, {0.2f, 0.4f, 0.6f, 1}, {1, 1, 1, 0}, {0.8f, 0, 0, 0.5f}}}};
   scene.primitives = soup;
   scene.origin = {10, 20, 30};
-  EXPECT_THAT(write_diffsoup_export(scene, folder / "v"),
-              ::testing::AllOf(Contains(HasSubstr("no color MLP")), Contains(HasSubstr("origin"))));
+  EXPECT_THAT(write_diffsoup_export(scene, folder / "v"), ::testing::SizeIs(2))
+      << "a network is added, the origin is moved";
   const Scene vertex = read_diffsoup_export(folder / "v");
   EXPECT_EQ(testing::soup_of(vertex).positions[3], glm::vec3(11, 21, 30));
   // Face 1 is (2, 1, 3), its texels are those of its third, first and second vertex.

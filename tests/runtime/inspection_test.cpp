@@ -18,13 +18,15 @@
 #include "soup/error.hpp"
 #include "soup/lattice.hpp"
 #include "support/contexts.hpp"
+#include "support/errors.hpp"
 #include "support/random_soups.hpp"
 
 namespace tureen::test {
 namespace {
 
 using oracle::Hit;
-using testing::HasSubstr;
+using testing::AllOf;
+using testing::Ne;
 
 constexpr int width = 200, height = 150;
 
@@ -469,20 +471,21 @@ TEST(InspectionNames, FindThemselves) {
   EXPECT_EQ(inspection_named("deep"), std::nullopt);
 }
 
-TEST(InspectionReasons, SayWhatTheSoupLacks) {
+TEST(InspectionReasons, AreThereForWhatTheSoupLacks) {
   const auto reason = [](Inspection what, Kind kind) {
     return why_not(what, random_soup(1, {.kind = kind})).value_or("");
   };
-  EXPECT_THAT(reason(Inspection::texels, Kind::vertex_colors), HasSubstr("no texels"));
-  EXPECT_THAT(reason(Inspection::alpha, Kind::face_harmonics),
-              HasSubstr("every triangle is opaque"));
-  EXPECT_THAT(reason(Inspection::mlp_weight, Kind::lattice), HasSubstr("no color MLP"));
-  EXPECT_THAT(reason(Inspection::mlp_weight, Kind::uv_textures_mlp), HasSubstr("whole colour"));
-  EXPECT_THAT(reason(Inspection::features, Kind::uv_textures), HasSubstr("no features"));
+  EXPECT_NE(reason(Inspection::texels, Kind::vertex_colors), "");
+  EXPECT_NE(reason(Inspection::alpha, Kind::face_harmonics), "");
+  EXPECT_NE(reason(Inspection::mlp_weight, Kind::lattice), "");
+  // A network that there is, but makes the whole colour, has another reason.
+  EXPECT_THAT(reason(Inspection::mlp_weight, Kind::uv_textures_mlp),
+              AllOf(Ne(""), Ne(reason(Inspection::mlp_weight, Kind::uv_textures))));
+  EXPECT_NE(reason(Inspection::features, Kind::uv_textures), "");
   for (const InspectionName& name : inspection_names())
     EXPECT_EQ(reason(name.what, Kind::lattice_mlp), "") << name.name;
   EXPECT_EQ(why_not(FeatureChoice{4, 3}, 7), std::nullopt);
-  EXPECT_THAT(why_not(FeatureChoice{5, 3}, 7).value_or(""), HasSubstr("from 0 to 6"));
+  EXPECT_THAT(why_not(FeatureChoice{5, 3}, 7).value_or(""), Names(0, 6));
   EXPECT_TRUE(why_not(FeatureChoice{0, 4}, 7));
 }
 
@@ -536,7 +539,7 @@ TEST(Legends, NameColorsWhereNumbersHideInThem) {
   EXPECT_EQ(depth[2].text, "4");
   EXPECT_EQ(depth[4].text, "16");
   EXPECT_EQ(depth[0].color, glm::u8vec4(255));
-  EXPECT_EQ(legend(Inspection::overdraw, scale, {}).back().text, "255 or more");
+  EXPECT_THAT(legend(Inspection::overdraw, scale, {}).back().text, Names(255));
   EXPECT_EQ(legend(Inspection::features, scale, {4, 3})[2].text, "feature 6");
   EXPECT_TRUE(legend(Inspection::color, scale, {}).empty());
 }

@@ -16,7 +16,6 @@ namespace tureen {
 namespace {
 
 using test::Names;
-using testing::HasSubstr;
 
 gl::Capabilities device(const std::string& renderer, bool software, bool timer_queries) {
   gl::Capabilities capabilities;

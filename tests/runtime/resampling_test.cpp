@@ -9,11 +9,10 @@
 #include "runtime/resampled_pipeline.hpp"
 #include "soup/error.hpp"
 #include "support/contexts.hpp"
+#include "support/errors.hpp"
 
 namespace tureen::test {
 namespace {
-
-using testing::HasSubstr;
 
 /// The weighted mean of samples as the shaders should take it: colours count as much as they are
 /// opaque, and as they are where nothing is.
@@ -116,13 +115,8 @@ TEST(ResamplingLimits, MoreSamplesThanTheDeviceDrawsAreRefusedAndTheNextFrameIsD
   const int side = context.capabilities().max_picture_side;
   renderer.draw(camera_of(16, 12));
   const Image8 before = renderer.read_color();
-  try {
-    renderer.draw(camera_of(side / 8 + 1, 10));
-    FAIL();
-  } catch (const DeviceLimitError& error) {
-    EXPECT_THAT(error.what(), HasSubstr(std::to_string(8 * (side / 8 + 1)) + "x80"));
-    EXPECT_THAT(error.what(), HasSubstr(std::to_string(side)));
-  }
+  EXPECT_THAT(error_of<DeviceLimitError>([&] { renderer.draw(camera_of(side / 8 + 1, 10)); }),
+              Names(std::to_string(8 * (side / 8 + 1)) + "x80", side));
   renderer.draw(camera_of(16, 12));
   EXPECT_EQ(renderer.read_color().pixels, before.pixels);
 }
