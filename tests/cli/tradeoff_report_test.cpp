@@ -146,7 +146,8 @@ Panel supersampled() {
 // 8 x 8 samples differ from a reference of 8 x 8 by rounding, whatever they cost.
 TEST(TradeoffCandidates, TheReferencesOwnSamplesAreOnNoFront) {
   Panel made = supersampled();
-  ASSERT_EQ(made.outcomes[3].name, "8 x 8 samples a pixel");
+  ASSERT_EQ(made.knobs[1].key, tradeoff::supersampling_key);
+  ASSERT_EQ(made.knobs[1].settings[3].value, "8");
   EXPECT_FALSE(is_judged(made, made.outcomes[3]));
   EXPECT_TRUE(is_judged(made, made.outcomes[2]));
   find_front(made);
