@@ -5,6 +5,7 @@
 #include <chrono>
 #include <memory>
 
+#include "cli/arguments.hpp"
 #include "cli/bench_contestants.hpp"
 #include "cli/bench_device.hpp"
 #include "cli/bench_measure.hpp"
@@ -14,7 +15,6 @@
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory_option.hpp"
-#include "cli/number_range.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/version.hpp"
@@ -119,11 +119,11 @@ ExitCode bench(const Options& options) {
 
 }  // namespace
 
-void add_bench(CLI::App& program, Action& action, std::vector<std::string> arguments) {
+void add_bench(Command& program, std::vector<std::string> arguments) {
   auto options = std::make_shared<Options>();
   options->arguments = std::move(arguments);
-  CLI::App* command = program.add_subcommand("bench", "Frame times across resolutions");
-  command->footer(
+  Command command = program.add_command("bench", "Frame times across resolutions");
+  command.footer(
       R"(The plan, our pipeline without specialisations and the published pipeline (where it can draw the
 scene) take turns frame by frame, each warmed up until its times are stable, each frame ended when
 the device has finished; first of all the plan is held against itself (A/A). "best ms" is the
@@ -146,26 +146,26 @@ Examples:
 Exit codes: 0 done, 1 slower than --fail-slower allows, 2 wrong usage, 3 the scene or the
 cameras cannot be read, 4 no OpenGL context, 5 it does not fit on the device or cannot be
 written.)");
-  add_scene_argument(*command, options->scene);
-  add_memory_option(*command);
-  add_bench_view_options(*command, options->views);
-  add_contestant_options(*command, options->contestants);
+  add_scene_argument(command, options->scene);
+  add_memory_option(command);
+  add_bench_view_options(command, options->views);
+  add_contestant_options(command, options->contestants);
   command
-      ->add_option("--rounds", options->rounds,
-                   "how often the views are gone through at most, 5 by default")
-      ->check(between(1, 10000))
-      ->option_text("N");
+      .add_option("--rounds", options->rounds,
+                  "how often the views are gone through at most, 5 by default")
+      .check(between(1, 10000))
+      .value_name("N");
   command
-      ->add_option("--seconds", options->seconds,
-                   "make fewer rounds, but one at least, to be done in about this time; 20 by "
-                   "default, 0 for no limit")
-      ->check(between(0.0, 1e6))
-      ->option_text("S");
-  command->add_flag("--processor-time", options->processor_time,
-                    "processor time of all threads instead of time that passed: for ratios on a "
-                    "busy machine; software OpenGL only");
-  add_bench_report_options(*command, options->reports);
-  command->callback([options, &action] { action = [options] { return bench(*options); }; });
+      .add_option("--seconds", options->seconds,
+                  "make fewer rounds, but one at least, to be done in about this time; 20 by "
+                  "default, 0 for no limit")
+      .check(between(0.0, 1e6))
+      .value_name("S");
+  command.add_flag("--processor-time", options->processor_time,
+                   "processor time of all threads instead of time that passed: for ratios on a "
+                   "busy machine; software OpenGL only");
+  add_bench_report_options(command, options->reports);
+  command.does([options] { return bench(*options); });
 }
 
 }  // namespace tureen::cli

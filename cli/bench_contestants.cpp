@@ -159,7 +159,7 @@ Entrant Contestant::entrant() {
           .finish = [this] { finish(); }};
 }
 
-void add_contestant_options(CLI::App& command, ContestantOptions& options) {
+void add_contestant_options(Command& command, ContestantOptions& options) {
   add_drawing_options(command, options.drawing);
   add_drawing_scale(command, options.drawing);
   command
@@ -169,9 +169,9 @@ void add_contestant_options(CLI::App& command, ContestantOptions& options) {
           "tureen-compute (the same, with --shading), generic (no specialisation), published "
           "(DiffSoup's viewer), triangles and copy (the ceilings); the first is what the others "
           "are held against")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->option_text("NAME,..");
+      .split_at_commas()
+      .single_argument()
+      .value_name("NAME,..");
   command.add_flag("--ceilings", options.ceilings,
                    "also how fast the device draws the same triangles with an empty fragment "
                    "shader, and copies as many pixels");

@@ -3,11 +3,11 @@
 // to draw.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "cli/arguments.hpp"
 #include "cli/bench_result.hpp"
 #include "cli/drawing_options.hpp"
 #include "runtime/benchmark.hpp"
@@ -24,7 +24,7 @@ struct ContestantOptions {
 };
 
 /// --only, --ceilings and the options that all commands share which draw.
-void add_contestant_options(CLI::App& command, ContestantOptions& options);
+void add_contestant_options(Command& command, ContestantOptions& options);
 
 /// Throws UsageError for names that nobody has.
 void check(const ContestantOptions& options);

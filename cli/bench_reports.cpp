@@ -7,7 +7,6 @@
 
 #include "cli/bench_comparison.hpp"
 #include "cli/bench_words.hpp"
-#include "cli/number_range.hpp"
 #include "cli/output_argument.hpp"
 #include "cli/report_page.hpp"
 #include "formats/existing_path.hpp"
@@ -54,23 +53,24 @@ void say_comparison(const BenchComparison& comparison, const std::string& file) 
 
 }  // namespace
 
-void add_bench_report_options(CLI::App& command, BenchReportOptions& options) {
+void add_bench_report_options(Command& command, BenchReportOptions& options) {
   command
       .add_option("-o,--output", options.folder,
                   "a folder for report.html, bench.json and the images timed")
-      ->option_text("FOLDER");
-  auto* against = command
-                      .add_option("--against", options.against,
-                                  "an earlier bench.json: says what became faster or slower, and "
-                                  "what differs by more than twice the spread")
-                      ->option_text("OLD.json");
+      .value_name("FOLDER");
+  const Option against =
+      command
+          .add_option("--against", options.against,
+                      "an earlier bench.json: says what became faster or slower, and "
+                      "what differs by more than twice the spread")
+          .value_name("OLD.json");
   command
       .add_option("--fail-slower", options.fail_slower,
                   "exit code 1 where something is slower than before by more than so many percent "
                   "and by more than twice the spread")
-      ->option_text("PERCENT")
-      ->check(between(0.0, 1e4))
-      ->needs(against);
+      .value_name("PERCENT")
+      .check(between(0.0, 1e4))
+      .needs(against);
   command.add_flag("--json", options.json, "the result as JSON on standard output");
 }
 

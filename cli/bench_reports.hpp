@@ -1,11 +1,11 @@
 // The files that `tureen bench` leaves beside its table, and what it says of an earlier result.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "cli/arguments.hpp"
 #include "cli/bench_result.hpp"
 #include "cli/exit_code.hpp"
 
@@ -20,7 +20,7 @@ struct BenchReportOptions {
 };
 
 /// --output, --against, --fail-slower and --json.
-void add_bench_report_options(CLI::App& command, BenchReportOptions& options);
+void add_bench_report_options(Command& command, BenchReportOptions& options);
 
 /// To be called before anything is measured: reads what --against names, so that a bad file is
 /// refused at once, and makes the folder. No file takes the place of that one or of `inputs`,

@@ -137,11 +137,9 @@ double pixels_of(const BenchViews& views) {
 
 }  // namespace
 
-void add_bench_view_options(CLI::App& command, BenchViewOptions& options) {
-  command
-      .add_option("DATASET", options.dataset,
-                  "posed photographs, whose test cameras are drawn: as for tureen eval")
-      ->type_name("");
+void add_bench_view_options(Command& command, BenchViewOptions& options) {
+  command.add_option("DATASET", options.dataset,
+                     "posed photographs, whose test cameras are drawn: as for tureen eval");
   command
       .add_option(
           "--cameras", options.cameras,
@@ -149,16 +147,16 @@ void add_bench_view_options(CLI::App& command, BenchViewOptions& options) {
           "scene), orbit[:N], adversarial (inside, far, grazing, most overdraw), dataset, "
           "or a FILE[:N] of cameras as for tureen render --camera; hemisphere:8 by default, "
           "or dataset where one is given")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->option_text("SET,..");
+      .split_at_commas()
+      .single_argument()
+      .value_name("SET,..");
   command
       .add_option("--size,--sizes", options.sizes,
                   "sizes of the pictures, with commas between: 1280x720 (the default), and, of "
                   "recorded cameras, full (theirs), half and quarter")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->option_text("WxH,..");
+      .split_at_commas()
+      .single_argument()
+      .value_name("WxH,..");
   command.add_flag("--sweep", options.sweep,
                    "640x360, 1280x720, 1920x1080, 2560x1440 and 3840x2160, and recorded cameras in "
                    "full, half and quarter size");

@@ -1,10 +1,10 @@
 // Which views `tureen bench` measures with: sets of cameras, at sizes.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <string>
 #include <vector>
 
+#include "cli/arguments.hpp"
 #include "soup/scene.hpp"
 
 namespace tureen::cli {
@@ -30,7 +30,7 @@ struct BenchViewList {
 };
 
 /// DATASET, --cameras, --size (also --sizes) and --sweep.
-void add_bench_view_options(CLI::App& command, BenchViewOptions& options);
+void add_bench_view_options(Command& command, BenchViewOptions& options);
 
 /// Whatever is wrong with them that can be told before a scene is read: throws UsageError.
 void check(const BenchViewOptions& options);

@@ -6,10 +6,9 @@
 #include <memory>
 #include <optional>
 
-#include "cli/choice.hpp"
+#include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/memory_option.hpp"
-#include "cli/number_range.hpp"
 #include "cli/output_argument.hpp"
 #include "cli/picture_file.hpp"
 #include "cli/report.hpp"
@@ -100,10 +99,10 @@ ExitCode compare_pictures(const Options& options) {
 
 }  // namespace
 
-void add_compare(CLI::App& program, Action& action) {
+void add_compare(Command& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("compare", "How far two pictures are apart");
-  command->footer(R"(Pictures with alpha are compared as they look on --background.
+  Command command = program.add_command("compare", "How far two pictures are apart");
+  command.footer(R"(Pictures with alpha are compared as they look on --background.
 
 Examples:
   tureen compare ours.png theirs.png
@@ -114,49 +113,46 @@ Examples:
   tureen compare ours.png theirs.png --diff where.png              both, and a heat map
 
 Exit codes: 0 done, 1 past --tolerance, 2 wrong usage, 3 a picture cannot be read.)");
-  command->add_option("A", options->a, "a PNG or JPEG")->required()->type_name("");
-  command->add_option("B", options->b, "another of the same size")->required()->type_name("");
-  command->add_flag("--json", options->json, "the numbers as JSON on standard output");
+  command.add_option("A", options->a, "a PNG or JPEG").required();
+  command.add_option("B", options->b, "another of the same size").required();
+  command.add_flag("--json", options->json, "the numbers as JSON on standard output");
   command
-      ->add_option("--tolerance", options->tolerance,
-                   "exit with 1 when --metric is worse than this")
-      ->check([](const std::string& text) {
+      .add_option("--tolerance", options->tolerance, "exit with 1 when --metric is worse than this")
+      .check([](const std::string& text) {
         // Numbers that nothing is worse than would be passed by everything.
-        double value = 0;
-        const bool is_finite = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
-        return text.starts_with('-') || !is_finite
+        const std::optional<double> value = number_from(text);
+        return text.starts_with('-') || !value || !std::isfinite(*value)
                    ? "a tolerance is a number of at least 0, not " + text
                    : std::string();
       })
-      ->option_text("VALUE");
+      .value_name("VALUE");
   std::vector<std::pair<std::string, const NamedMetric*>> metrics;
   for (const NamedMetric& metric : named_metrics) metrics.emplace_back(metric.key, &metric);
-  add_choice<const NamedMetric*>(*command, "--metric", options->metric, metrics,
+  add_choice<const NamedMetric*>(command, "--metric", options->metric, metrics,
                                  "what --tolerance is held against: one of the names that are "
                                  "printed; mae by default")
-      ->option_text("NAME");
+      .value_name("NAME");
   command
-      ->add_option("--pixel-tolerance", options->metrics.pixel_tolerance,
-                   "a pixel fails when a channel is off by more than this; 1/255 by default")
-      ->check(between(0.0, 1.0))
-      ->option_text("VALUE");
+      .add_option("--pixel-tolerance", options->metrics.pixel_tolerance,
+                  "a pixel fails when a channel is off by more than this; 1/255 by default")
+      .check(between(0.0, 1.0))
+      .value_name("VALUE");
   std::vector<std::pair<std::string, SsimBorder>> borders;
   for (const SsimBorder border : {SsimBorder::zero_pad, SsimBorder::valid, SsimBorder::uniform7})
     borders.emplace_back(name(border), border);
-  add_choice<SsimBorder>(*command, "--ssim-border", options->metrics.ssim_border, borders,
+  add_choice<SsimBorder>(command, "--ssim-border", options->metrics.ssim_border, borders,
                          "zero_pad (default; as 3DGS reports), valid, or uniform7 (scikit-image)")
-      ->option_text("MODE");
+      .value_name("MODE");
   command
-      ->add_option("--background", options->background,
-                   "what shows through alpha: black (default), white, or r,g,b from 0 to 1")
-      ->option_text("COLOR");
+      .add_option("--background", options->background,
+                  "what shows through alpha: black (default), white, or r,g,b from 0 to 1")
+      .value_name("COLOR");
   command
-      ->add_option("--diff", options->diff,
-                   "write A, B and a heat map of their differences side by side")
-      ->option_text("OUT.png");
-  add_memory_option(*command);
-  command->callback(
-      [options, &action] { action = [options] { return compare_pictures(*options); }; });
+      .add_option("--diff", options->diff,
+                  "write A, B and a heat map of their differences side by side")
+      .value_name("OUT.png");
+  add_memory_option(command);
+  command.does([options] { return compare_pictures(*options); });
 }
 
 }  // namespace tureen::cli

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <utility>
 
-#include "cli/choice.hpp"
 #include "soup/error.hpp"
 #include "trainer/config_fields.hpp"
 #include "trainer/config_file.hpp"
@@ -20,9 +19,9 @@ using trainer::Preset;
 namespace {
 
 template <class T>
-CLI::Option* add_number(CLI::App& command, const std::string& name, std::optional<T>& value,
-                        const std::string& help) {
-  return command.add_option(name, value, help)->option_text("N");
+Option add_number(Command& command, const std::string& name, std::optional<T>& value,
+                  const std::string& help) {
+  return command.add_option(name, value, help).value_name("N");
 }
 
 /// Signs and what 64 bits do not hold would wrap around to other seeds.
@@ -50,29 +49,29 @@ std::string ConfigOptions::mesh() const {
   return begin == "random" || begin == "points" ? std::string() : begin;
 }
 
-void add_config_options(CLI::App& command, ConfigOptions& options) {
+void add_config_options(Command& command, ConfigOptions& options) {
   add_choice<std::optional<Preset>>(
       command, "--preset", options.preset, {{"object", Preset::object}, {"scene", Preset::scene}},
       "constants for pictures of one thing, or of a place; by default object where the pictures "
       "have alpha, else scene")
-      ->option_text("NAME");
+      .value_name("NAME");
   command
       .add_option("--config", options.file,
                   "a JSON file with any of the constants that --list-config lists")
-      ->option_text("FILE");
+      .value_name("FILE");
   command.add_flag("--compat", options.published, "DiffSoup's published choices where ours differ");
   add_number(command, "--triangles", options.triangles, "so many in the end; 15,000 by default");
   add_number(command, "--steps", options.steps, "steps of the optimiser; 10,000 by default");
   add_number(command, "--batch", options.batch, "views a step; 4 by default");
   add_number(command, "--seed", options.seed, "of every random number; 0 by default")
-      ->check(refuse_seed);
+      .check(refuse_seed);
   add_number(command, "--level", options.level,
              "the finest level of the textures: a face has (2^N + 1)(2^N + 2) / 2 texels");
   command
       .add_option("--init", options.begin,
                   "where triangles begin: random, points (of structure from motion), or a scene "
                   "whose triangles are trained further; by default points where there are some")
-      ->option_text("WHERE");
+      .value_name("WHERE");
 }
 
 Config base_config(const ConfigOptions& options, Preset otherwise) {

@@ -2,11 +2,11 @@
 // from run to run. Whatever else there is, a file sets (--list-config).
 #pragma once
 
-#include <CLI/App.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
 
+#include "cli/arguments.hpp"
 #include "trainer/config.hpp"
 
 namespace tureen::cli {
@@ -27,7 +27,7 @@ struct ConfigOptions {
 
 /// --preset, --config, --compat, --triangles, --steps, --batch, --seed, --level and --init.
 /// `options` must live until the arguments are parsed.
-void add_config_options(CLI::App& command, ConfigOptions& options);
+void add_config_options(Command& command, ConfigOptions& options);
 
 /// The preset, or the file on top of it; `otherwise` where neither names a preset. Throws
 /// InputError for the file, UsageError where it and --preset disagree.

@@ -155,11 +155,11 @@ std::string written_formats() {
 
 }  // namespace
 
-void add_convert(CLI::App& program, Action& action) {
+void add_convert(Command& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("convert", "A scene in another format");
-  command->footer("The extension of OUT says which format is written:\n" + written_formats() +
-                  R"(What the format cannot hold is left out and said.
+  Command command = program.add_command("convert", "A scene in another format");
+  command.footer("The extension of OUT says which format is written:\n" + written_formats() +
+                 R"(What the format cannot hold is left out and said.
 
 Examples:
   tureen convert trained.pt soup.glb          to the file that we deploy
@@ -170,17 +170,14 @@ Examples:
                                               coarser textures; tradeoff measures the error
   tureen convert soup.glb soup.html           a page to send to somebody
   tureen convert foreign.glb soup.glb --vertex-colors srgb --up 0,0,1)");
-  add_scene_argument(*command, options->scene, "IN");
-  command->add_option("OUT", options->output, "the file (or folder) to write")
-      ->required()
-      ->type_name("");
-  add_memory_option(*command);
-  command->add_flag("--force", options->force, "replace OUT if it exists");
-  command->add_flag("--json", options->json,
-                    "what was written and lost as JSON on standard output");
-  add_edit_options(*command, options->edits);
-  add_slim_arguments(*command, options->slim);
-  command->callback([options, &action] { action = [options] { return convert_scene(*options); }; });
+  add_scene_argument(command, options->scene, "IN");
+  command.add_option("OUT", options->output, "the file (or folder) to write").required();
+  add_memory_option(command);
+  command.add_flag("--force", options->force, "replace OUT if it exists");
+  command.add_flag("--json", options->json, "what was written and lost as JSON on standard output");
+  add_edit_options(command, options->edits);
+  add_slim_arguments(command, options->slim);
+  command.does([options] { return convert_scene(*options); });
 }
 
 }  // namespace tureen::cli

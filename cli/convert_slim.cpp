@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "cli/bench_words.hpp"
-#include "cli/number_range.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/scene_page.hpp"
@@ -127,8 +126,8 @@ std::vector<std::string> losses_of(const SlimResult& result, const DatasetArgume
 
 }  // namespace
 
-void add_slim_arguments(CLI::App& command, SlimArguments& arguments) {
-  CLI::Option* slim =
+void add_slim_arguments(Command& command, SlimArguments& arguments) {
+  const Option slim =
       command.add_flag("--compress,--slim", arguments.slim,
                        "a small GLB with a loss: the smallest that stays within --max-error");
   command
@@ -136,10 +135,10 @@ void add_slim_arguments(CLI::App& command, SlimArguments& arguments) {
           "--max-error", arguments.max_error_db,
           "with --compress: how many decibels of PSNR against photographs may be lost; 0.1 by "
           "default")
-      ->check(between(1e-4, 20.0))
-      ->option_text("DB")
-      ->needs(slim);
-  CLI::Option* photographs =
+      .check(between(1e-4, 20.0))
+      .value_name("DB")
+      .needs(slim);
+  const Option photographs =
       command
           .add_option(
               "--photographs", arguments.photographs.path,
@@ -147,19 +146,19 @@ void add_slim_arguments(CLI::App& command, SlimArguments& arguments) {
               "and whose training cameras say what shows where the scene has few; "
               "without, the loss is estimated from the scene's own pictures. At a smaller "
               "--scale than the scene is looked at, it loses more than that")
-          ->option_text("DATASET")
-          ->needs(slim);
-  add_scale_option(command, arguments.photographs)->needs(photographs);
+          .value_name("DATASET")
+          .needs(slim);
+  add_scale_option(command, arguments.photographs).needs(photographs);
   command
       .add_flag(
           "--keep-unseen", arguments.keep_unseen,
           "with --compress: keep faces that none of 200 recorded cameras and no view from above "
           "and around sees")
-      ->needs(slim);
+      .needs(slim);
   command
       .add_flag("--keep-cameras", arguments.keep_cameras,
                 "with --compress: keep all recorded cameras, not only the first")
-      ->needs(slim);
+      .needs(slim);
 }
 
 void check_slim(const SlimArguments& arguments, const fs::path& output) {

@@ -1,11 +1,11 @@
 // `tureen convert --compress`: its options, what it writes and what it says about that.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "cli/arguments.hpp"
 #include "cli/dataset_argument.hpp"
 #include "cli/report.hpp"
 #include "soup/scene.hpp"
@@ -22,7 +22,7 @@ struct SlimArguments {
 
 /// --compress (also --slim), --max-error, --photographs, --scale, --keep-unseen and --keep-cameras.
 /// `arguments` must live until the arguments are parsed.
-void add_slim_arguments(CLI::App& command, SlimArguments& arguments);
+void add_slim_arguments(Command& command, SlimArguments& arguments);
 
 /// Throws UsageError for what can be known to be wrong before the scene is read.
 void check_slim(const SlimArguments& arguments, const std::filesystem::path& output);

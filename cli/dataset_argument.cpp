@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "cli/number_range.hpp"
 #include "cli/progress.hpp"
 #include "soup/error.hpp"
 
@@ -14,42 +13,42 @@ namespace {
 
 /// A number in (0, 1], which between(), closed at both ends, cannot say.
 std::string refuse_scale(const std::string& text) {
-  double scale = 0;
-  if (CLI::detail::lexical_cast(text, scale) && scale > 0 && scale <= 1) return {};
+  if (const auto scale = number_from(text); scale && *scale > 0 && *scale <= 1) return {};
   return "a scale is more than 0 and at most 1, not " + text;
 }
 
 }  // namespace
 
-CLI::Option* add_scale_option(CLI::App& command, DatasetArgument& argument) {
+Option add_scale_option(Command& command, DatasetArgument& argument) {
   return command
       .add_option("--scale", argument.options.scale,
                   "the size at which photographs are used, as a fraction of their own: 0.5 halves "
                   "both sides, each pixel the mean of those that it covers")
-      ->check(refuse_scale)
-      ->option_text("FRACTION");
+      .check(refuse_scale)
+      .value_name("FRACTION");
 }
 
-void add_dataset_argument(CLI::App& command, DatasetArgument& argument) {
-  command
-      .add_option("DATASET", argument.path,
-                  "posed photographs: a folder with transforms.json, transforms_train.json and "
-                  "transforms_test.json, or a COLMAP model and images")
-      ->required()
-      ->type_name("");
+Option add_dataset_argument(Command& command, DatasetArgument& argument) {
+  const Option dataset =
+      command
+          .add_option("DATASET", argument.path,
+                      "posed photographs: a folder with transforms.json, transforms_train.json and "
+                      "transforms_test.json, or a COLMAP model and images")
+          .required();
   add_scale_option(command, argument);
   command
       .add_option("--images", argument.options.images_folder,
                   "take the photographs of the folder images_N, which some datasets have beside "
                   "images, N times smaller")
-      ->check(between(1, 64))
-      ->option_text("N");
+      .check(between(1, 64))
+      .value_name("N");
   command
       .add_option("--test-every", argument.options.test_every,
                   "where the dataset has no split of its own, every N-th photograph in name order "
                   "is a test view, from the first on; 8 by default")
-      ->check(between(2, 1000000))
-      ->option_text("N");
+      .check(between(2, 1000000))
+      .value_name("N");
+  return dataset;
 }
 
 void require_sides(const DatasetArgument& argument, const Dataset& dataset, SideLimits limits) {

@@ -1,10 +1,10 @@
 // A dataset named on the command line: read with progress, refused with a suggestion.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <limits>
 #include <string>
 
+#include "cli/arguments.hpp"
 #include "formats/dataset.hpp"
 
 namespace tureen::cli {
@@ -14,12 +14,12 @@ struct DatasetArgument {
   DatasetOptions options;  // but for `part` and `progress`, which are not arguments
 };
 
-/// Adds DATASET, --scale, --images and --test-every. `argument` must live until the arguments are
-/// parsed.
-void add_dataset_argument(CLI::App& command, DatasetArgument& argument);
+/// Adds DATASET, --scale, --images and --test-every. Returns the first of them, which is required.
+/// `argument` must live until the arguments are parsed.
+Option add_dataset_argument(Command& command, DatasetArgument& argument);
 
 /// --scale alone.
-CLI::Option* add_scale_option(CLI::App& command, DatasetArgument& argument);
+Option add_scale_option(Command& command, DatasetArgument& argument);
 
 /// The window of the SSIM: smaller pictures cannot be measured.
 inline constexpr int ssim_window = 11;

@@ -1,9 +1,9 @@
 // How the runtime draws, on the command line: the options that all commands share which draw.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <optional>
 
+#include "cli/arguments.hpp"
 #include "runtime/gl/context.hpp"
 #include "runtime/plan.hpp"
 #include "soup/scene.hpp"
@@ -13,7 +13,8 @@ namespace tureen::cli {
 struct DrawingOptions {
   gl::Backend backend = gl::Backend::automatic;
   PlanPreferences plan = {};
-  std::optional<Quality> quality = {};  // as asked for; the scene's own otherwise
+  std::optional<int> supersampling = {};  // without either, the scene's own quality
+  std::optional<double> resolution_scale = {};
 };
 
 /// The plan's preferences for a scene: with its quality, where none was asked for.
@@ -21,10 +22,10 @@ PlanPreferences preferences_for(const Scene& scene, const DrawingOptions& option
 
 /// --context, --pipeline, --no-specialise, --keep, --shading and --supersample. `options` must live
 /// until the arguments are parsed.
-void add_drawing_options(CLI::App& command, DrawingOptions& options);
+void add_drawing_options(Command& command, DrawingOptions& options);
 
 /// --scale, after add_drawing_options. Not where a dataset's photographs have a --scale of their
 /// own.
-void add_drawing_scale(CLI::App& command, DrawingOptions& options);
+void add_drawing_scale(Command& command, DrawingOptions& options);
 
 }  // namespace tureen::cli

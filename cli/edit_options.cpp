@@ -1,16 +1,13 @@
 #include "cli/edit_options.hpp"
 
-#include "cli/choice.hpp"
-#include "cli/number_range.hpp"
-
 namespace tureen::cli {
 
-void add_edit_options(CLI::App& command, Edits& edits) {
+void add_edit_options(Command& command, Edits& edits) {
   command
       .add_option("--lattice-level", edits.lattice_level,
                   "no lattice texture above level L, 0 to 7: finer ones are projected")
-      ->check(between(0, lattice::max_level))
-      ->option_text("L");
+      .check(between(0, lattice::max_level))
+      .value_name("L");
   add_choice<Edits::Color>(command, "--color", edits.color,
                            {{"network", Edits::Color::network},
                             {"baked", Edits::Color::baked},
@@ -18,10 +15,10 @@ void add_edit_options(CLI::App& command, Edits& edits) {
                            "what turns texels into colour: network (default, the color MLP where "
                            "there is one), baked (its mean over all directions) or base (features "
                            "0 to 2 alone)")
-      ->option_text("NAME");
+      .value_name("NAME");
   add_choice<bool>(command, "--texel-bits", edits.byte_texels, {{"32", false}, {"8", true}},
                    "bits of a texel's channel at most: 32 (default, as stored) or 8")
-      ->option_text("N");
+      .value_name("N");
 }
 
 }  // namespace tureen::cli

@@ -1,13 +1,12 @@
 // Changes to a scene's data on the command line.
 #pragma once
 
-#include <CLI/App.hpp>
-
+#include "cli/arguments.hpp"
 #include "soup/edits.hpp"
 
 namespace tureen::cli {
 
 /// --lattice-level, --color and --texel-bits. `edits` must live until the arguments are parsed.
-void add_edit_options(CLI::App& command, Edits& edits);
+void add_edit_options(Command& command, Edits& edits);
 
 }  // namespace tureen::cli

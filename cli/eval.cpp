@@ -4,7 +4,7 @@
 #include <iterator>
 #include <memory>
 
-#include "cli/choice.hpp"
+#include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/dataset_argument.hpp"
 #include "cli/drawing_options.hpp"
@@ -129,10 +129,10 @@ ExitCode evaluate_scene(Options options) {
 
 }  // namespace
 
-void add_eval(CLI::App& program, Action& action) {
+void add_eval(Command& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("eval", "How near a scene comes to photographs");
-  command->footer(
+  Command command = program.add_command("eval", "How near a scene comes to photographs");
+  command.footer(
       R"(Draws the scene from where the photographs were taken and prints PSNR, SSIM and FLIP of
 each view and their means. Photographs with alpha are looked at over the background.
 
@@ -146,39 +146,37 @@ Examples:
 
 Exit codes: 0 done, 2 wrong usage, 3 the scene or the dataset cannot be read, 4 no OpenGL
 context, 5 it does not fit on the device or cannot be written.)");
-  add_scene_argument(*command, options->scene);
-  add_dataset_argument(*command, options->dataset);
-  add_memory_option(*command);
+  add_scene_argument(command, options->scene);
+  add_dataset_argument(command, options->dataset);
+  add_memory_option(command);
   add_choice<DatasetPart>(
-      *command, "--split", options->split,
+      command, "--split", options->split,
       {{"test", DatasetPart::test}, {"train", DatasetPart::train}, {"all", DatasetPart::all}},
       "which photographs: test (default), train or all")
-      ->option_text("NAME");
+      .value_name("NAME");
   command
-      ->add_option("-o,--output", options->folder,
-                   "a folder for report.html, eval.json, and images: photograph, rendering and "
-                   "heat map side by side for each view, and a contact_sheet.png")
-      ->option_text("FOLDER");
+      .add_option("-o,--output", options->folder,
+                  "a folder for report.html, eval.json, and images: photograph, rendering and "
+                  "heat map side by side for each view, and a contact_sheet.png")
+      .value_name("FOLDER");
   command
-      ->add_option("--background", options->background,
-                   "what is behind the scene and behind photographs with alpha: white, black, or "
-                   "r,g,b from 0 to 1; the scene's own by default")
-      ->option_text("COLOR");
+      .add_option("--background", options->background,
+                  "what is behind the scene and behind photographs with alpha: white, black, or "
+                  "r,g,b from 0 to 1; the scene's own by default")
+      .value_name("COLOR");
   std::vector<std::pair<std::string, SsimBorder>> borders;
   for (const SsimBorder border : {SsimBorder::valid, SsimBorder::zero_pad, SsimBorder::uniform7})
     borders.emplace_back(name(border), border);
-  add_choice<SsimBorder>(*command, "--ssim-border", options->evaluation.metrics.ssim_border,
-                         borders,
+  add_choice<SsimBorder>(command, "--ssim-border", options->evaluation.metrics.ssim_border, borders,
                          "valid (default; as DiffSoup reports on photographs), zero_pad (3DGS), "
                          "or uniform7 (scikit-image)")
-      ->option_text("MODE");
-  command->add_flag_callback(
+      .value_name("MODE");
+  command.add_flag(
       "--no-flip", [options] { options->evaluation.metrics.with_flip = false; },
       "leave FLIP out, which takes more than half of the time of measuring");
-  add_drawing_options(*command, options->drawing);
-  command->add_flag("--json", options->json, "the numbers as JSON on standard output");
-  command->callback(
-      [options, &action] { action = [options] { return evaluate_scene(*options); }; });
+  add_drawing_options(command, options->drawing);
+  command.add_flag("--json", options->json, "the numbers as JSON on standard output");
+  command.does([options] { return evaluate_scene(*options); });
 }
 
 }  // namespace tureen::cli

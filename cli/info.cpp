@@ -238,11 +238,11 @@ ExitCode inform(const Options& options) {
 
 }  // namespace
 
-void add_info(CLI::App& program, Action& action) {
+void add_info(Command& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      program.add_subcommand("info", "What a scene is, what it costs, what is odd about it");
-  command->footer(
+  Command command =
+      program.add_command("info", "What a scene is, what it costs, what is odd about it");
+  command.footer(
       R"(Lint finds vertices that are not finite, faces without area, faces that repeat another or
 are transparent everywhere, vertices that no face uses, and coordinates too large for
 their floats. None of it keeps the scene from being drawn. The "cameras" of --json can be
@@ -253,12 +253,12 @@ Examples:
   tureen info soup.glb --json | jq .triangles
   tureen info soup.glb --strict               exit with 1 when lint finds anything, or the
                                               scene fits only on some devices)");
-  add_scene_argument(*command, options->scene);
-  add_memory_option(*command);
-  command->add_flag("--json", options->json, "everything as JSON on standard output");
-  command->add_flag("--strict", options->strict,
-                    "exit with 1 when there is anything to complain of");
-  command->callback([options, &action] { action = [options] { return inform(*options); }; });
+  add_scene_argument(command, options->scene);
+  add_memory_option(command);
+  command.add_flag("--json", options->json, "everything as JSON on standard output");
+  command.add_flag("--strict", options->strict,
+                   "exit with 1 when there is anything to complain of");
+  command.does([options] { return inform(*options); });
 }
 
 }  // namespace tureen::cli

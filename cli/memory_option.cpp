@@ -6,10 +6,9 @@
 
 namespace tureen::cli {
 
-void add_memory_option(CLI::App& command) {
+void add_memory_option(Command& command) {
   const auto set = [](const std::string& text) { set_max_memory(parse_memory_size(text)); };
-  command.add_option_function<std::string>("--max-memory", set, max_memory_help)
-      ->option_text("SIZE");
+  command.add_option("--max-memory", set, max_memory_help).value_name("SIZE");
 }
 
 }  // namespace tureen::cli

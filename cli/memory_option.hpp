@@ -1,11 +1,11 @@
 // --max-memory, of every command that reads scenes or datasets.
 #pragma once
 
-#include <CLI/App.hpp>
+#include "cli/arguments.hpp"
 
 namespace tureen::cli {
 
 /// Sets what reading may take (formats/memory_budget.hpp) as soon as the option is parsed.
-void add_memory_option(CLI::App& command);
+void add_memory_option(Command& command);
 
 }  // namespace tureen::cli

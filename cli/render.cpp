@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <memory>
 
+#include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/drawing_options.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory_option.hpp"
-#include "cli/number_range.hpp"
 #include "cli/output_argument.hpp"
 #include "cli/picture_file.hpp"
 #include "cli/pictures.hpp"
@@ -186,10 +186,10 @@ ExitCode render(Options options) {
 
 }  // namespace
 
-void add_render(CLI::App& program, Action& action) {
+void add_render(Command& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("render", "Pictures of a scene");
-  command->footer(
+  Command command = program.add_command("render", "Pictures of a scene");
+  command.footer(
       R"(Without a view the scene's first camera draws, or else a view from the front, a little to
 the right and from above, that shows all of the scene.
 
@@ -210,35 +210,34 @@ Examples:
 
 Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL context,
 5 it does not fit on the device or cannot be written.)");
-  add_scene_argument(*command, options->scene);
-  add_memory_option(*command);
+  add_scene_argument(command, options->scene);
+  add_memory_option(command);
   command
-      ->add_option(
-          "-o,--output", options->output,
-          "the picture, out.png by default; of several views %d becomes the number; a name "
-          "that ends in .mp4 or .webm is a video of --path or --turntable, by ffmpeg")
-      ->option_text("OUT.png");
-  add_view_options(*command, options->views);
+      .add_option("-o,--output", options->output,
+                  "the picture, out.png by default; of several views %d becomes the number; a name "
+                  "that ends in .mp4 or .webm is a video of --path or --turntable, by ffmpeg")
+      .value_name("OUT.png");
+  add_view_options(command, options->views);
   command
-      ->add_option("--background", options->background,
-                   "what pixels without a triangle show: white, black, transparent, or r,g,b from "
-                   "0 to 1; the scene's own by default")
-      ->option_text("COLOR");
-  add_drawing_options(*command, options->drawing);
-  add_drawing_scale(*command, options->drawing);
-  CLI::Option* show = add_show_option(*command, options->show);
+      .add_option("--background", options->background,
+                  "what pixels without a triangle show: white, black, transparent, or r,g,b from "
+                  "0 to 1; the scene's own by default")
+      .value_name("COLOR");
+  add_drawing_options(command, options->drawing);
+  add_drawing_scale(command, options->drawing);
+  Option show = add_show_option(command, options->show);
   for (const char* other :
        {"--supersample", "--scale", "--pipeline", "--shading", "--no-specialise", "--keep"})
-    show->excludes(command->get_option(other));
+    show.excludes(command.option(other));
   command
-      ->add_option("--frames", options->frames,
-                   "draw so many frames more, after a warm-up, and tell the time of each")
-      ->check(between(1, 1000000))
-      ->excludes(show)
-      ->option_text("N");
-  command->add_flag("--json", options->json,
-                    "what was drawn, and how fast, as JSON on standard output");
-  command->callback([options, &action] { action = [options] { return render(*options); }; });
+      .add_option("--frames", options->frames,
+                  "draw so many frames more, after a warm-up, and tell the time of each")
+      .check(between(1, 1000000))
+      .excludes(show)
+      .value_name("N");
+  command.add_flag("--json", options->json,
+                   "what was drawn, and how fast, as JSON on standard output");
+  command.does([options] { return render(*options); });
 }
 
 }  // namespace tureen::cli

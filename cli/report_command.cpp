@@ -82,10 +82,10 @@ ExitCode report(const Options& options) {
 
 }  // namespace
 
-void add_report(CLI::App& program, Action& action) {
+void add_report(Command& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("report", "Results as a page: tables, plots, images");
-  command->footer(
+  Command command = program.add_command("report", "Results as a page: tables, plots, images");
+  command.footer(
       R"(Shows what bench, tradeoff and eval write with --json or -o, the logs of train, what the page
 bench.html downloads, and the measurements of ./dev. Several results of one kind are set side by
 side; scenes of tradeoff are joined. The page needs no network. Images stay where they are.
@@ -98,12 +98,11 @@ Examples:
   tureen report results                         all results in a folder
 
 Exit codes: 0 done, 2 wrong usage, 3 a result cannot be read, 5 the page cannot be written.)");
-  command->add_option("FILE", options->inputs, "JSON results, training logs, or folders of them")
-      ->required()
-      ->type_name("");
-  command->add_option("-o,--output", options->output, "the page; by default it opens in a browser")
-      ->option_text("OUT.html");
-  command->callback([options, &action] { action = [options] { return report(*options); }; });
+  command.add_option("FILE", options->inputs, "JSON results, training logs, or folders of them")
+      .required();
+  command.add_option("-o,--output", options->output, "the page; by default it opens in a browser")
+      .value_name("OUT.html");
+  command.does([options] { return report(*options); });
 }
 
 }  // namespace tureen::cli

@@ -2,7 +2,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "cli/choice.hpp"
 #include "cli/progress.hpp"
 #include "cli/values.hpp"
 #include "formats/existing_path.hpp"
@@ -10,24 +9,21 @@
 
 namespace tureen::cli {
 
-CLI::Option* add_scene_argument(CLI::App& command, SceneArgument& argument, const char* name) {
-  CLI::Option* scene =
-      command.add_option(name, argument.path, "the scene: a file or a folder, told by its content")
-          ->required()
-          ->type_name("");
+void add_scene_argument(Command& command, SceneArgument& argument, const char* name) {
+  command.add_option(name, argument.path, "the scene: a file or a folder, told by its content")
+      .required();
   add_choice<VertexColorSpace>(command, "--vertex-colors", argument.vertex_colors,
                                {{"auto", VertexColorSpace::automatic},
                                 {"srgb", VertexColorSpace::srgb},
                                 {"linear", VertexColorSpace::linear}},
                                "what COLOR_0 of a foreign glTF holds: auto (decided by its "
                                "generator), srgb or linear")
-      ->option_text("SPACE");
+      .value_name("SPACE");
   command
       .add_option("--up", argument.up,
                   "the direction that is up, in world coordinates, instead of the scene's own: "
                   "x,y,z")
-      ->option_text("X,Y,Z");
-  return scene;
+      .value_name("X,Y,Z");
 }
 
 Scene read(const SceneArgument& argument) {

@@ -1,10 +1,10 @@
 // A scene named on the command line: read with progress, refused with a suggestion.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <filesystem>
 #include <string>
 
+#include "cli/arguments.hpp"
 #include "formats/scene_file.hpp"
 
 namespace tureen::cli {
@@ -15,10 +15,9 @@ struct SceneArgument {
   std::string up;  // empty: the scene's own
 };
 
-/// Adds SCENE (under the name given), --vertex-colors and --up. Returns the first of them, which is
-/// required.
-CLI::Option* add_scene_argument(CLI::App& command, SceneArgument& argument,
-                                const char* name = "SCENE");
+/// Adds SCENE (under the name given), which is required, --vertex-colors and --up. `argument` must
+/// live until the arguments are parsed.
+void add_scene_argument(Command& command, SceneArgument& argument, const char* name = "SCENE");
 
 /// Throws InputError, with a suggestion where the path does not exist.
 Scene read(const SceneArgument& argument);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "cli/values.hpp"
-#include "formats/suggestion.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {
@@ -13,12 +12,8 @@ namespace {
 Inspection named(const std::string& name) {
   if (const auto known = inspection_named(name)) return *known;
   std::vector<std::string> names;
-  std::string list;
-  for (const InspectionName& known : inspection_names()) {
-    list += (names.empty() ? "" : ", ") + std::string(known.name);
-    names.emplace_back(known.name);
-  }
-  throw UsageError("--show takes " + list + ", not '" + name + "'", did_you_mean(name, names));
+  for (const InspectionName& known : inspection_names()) names.emplace_back(known.name);
+  throw unknown_word("--show", name, names);
 }
 
 /// "3" or "4-6".
@@ -47,15 +42,15 @@ ShowOption parse_show(const std::string& text) {
   return show;
 }
 
-CLI::Option* add_show_option(CLI::App& command, ShowOption& show) {
+Option add_show_option(Command& command, ShowOption& show) {
   return command
-      .add_option_function<std::string>(
+      .add_option(
           "--show", [&show](const std::string& text) { show = parse_show(text); },
           "what the soup has instead of its final colour: depth, normals, triangle-id, texels, "
           "alpha, mlp-weight, features (features:3 as grey, features:4-6 as red, green, blue), "
           "overdraw or wireframe; of the soup as it is stored, one sample a pixel "
           "(docs/looking.md)")
-      ->option_text("NAME");
+      .value_name("NAME");
 }
 
 std::vector<std::string> legend_lines(const Legend& legend) {

@@ -1,10 +1,10 @@
 // --show: what a picture shows of a soup instead of its colours.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <string>
 #include <vector>
 
+#include "cli/arguments.hpp"
 #include "runtime/inspection.hpp"
 
 namespace tureen::cli {
@@ -16,7 +16,7 @@ struct ShowOption {
 
 /// --show NAME; of features also which: features:3, features:4-6. `show` must live until the
 /// arguments are parsed.
-CLI::Option* add_show_option(CLI::App& command, ShowOption& show);
+Option add_show_option(Command& command, ShowOption& show);
 
 /// "depth", "features:4-6": throws UsageError with what there is.
 ShowOption parse_show(const std::string& text);

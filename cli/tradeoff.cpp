@@ -4,10 +4,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "cli/choice.hpp"
+#include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/memory_option.hpp"
-#include "cli/number_range.hpp"
 #include "cli/output_argument.hpp"
 #include "cli/report.hpp"
 #include "cli/report_page.hpp"
@@ -64,11 +63,11 @@ ExitCode tradeoff(const Options& options) {
 
 }  // namespace
 
-void add_tradeoff(CLI::App& program, Action& action, std::vector<std::string> arguments) {
+void add_tradeoff(Command& program, std::vector<std::string> arguments) {
   auto options = std::make_shared<Options>();
   options->arguments = std::move(arguments);
-  CLI::App* command = program.add_subcommand("tradeoff", "Error against run time, and the choice");
-  command->footer(
+  Command command = program.add_command("tradeoff", "Error against run time, and the choice");
+  command.footer(
       R"(Turns one knob of drawing at a time, then those that matter together, and measures for
 each the time of a frame and the error against the oracle's picture of the same model
 (E_render). Antialiasing knobs have an oracle of their own, with 8 x 8 samples a pixel. With
@@ -87,79 +86,78 @@ Examples:
 Exit codes: 0 done, 1 nothing keeps to the limits and --write was given, 2 wrong usage,
 3 the scene or the dataset cannot be read, 4 no OpenGL context, 5 it does not fit
 on the device or cannot be written.)");
-  add_scene_argument(*command, options->scene);
-  add_dataset_argument(*command, options->dataset);
-  command->get_option("DATASET")->required(false);
-  add_memory_option(*command);
-  command->add_option("-o,--output", options->folder, "a folder for report.html and tradeoff.json")
-      ->option_text("FOLDER");
+  add_scene_argument(command, options->scene);
+  add_dataset_argument(command, options->dataset).required(false);
+  add_memory_option(command);
+  command.add_option("-o,--output", options->folder, "a folder for report.html and tradeoff.json")
+      .value_name("FOLDER");
   add_choice<tradeoff::Samples>(
-      *command, "--reference", options->samples,
+      command, "--reference", options->samples,
       {{"device", tradeoff::Samples::device}, {"exact", tradeoff::Samples::exact}},
       "what drawing knobs are measured against: the oracle at the device's sample points "
       "(default), or of exact triangles, which adds what the device rounds")
-      ->option_text("NAME");
-  auto* full = command->add_flag_callback(
+      .value_name("NAME");
+  const Option full = command.add_flag(
       "--full", [options] { options->effort = Effort::full; },
       "1280x720, 8 views and 4 adversarial ones, 5 rounds, 8 x 8 samples, all photographs; "
       "480x270, 4 views, 3 rounds, 4 x 4 samples and 8 photographs by default");
   command
-      ->add_flag_callback(
+      .add_flag(
           "--quick", [options] { options->effort = Effort::quick; },
           "96x64, 2 views, 1 round: whether it works at all")
-      ->excludes(full);
-  command->add_option("--size", options->size, "of the pictures, in pixels")->option_text("WxH");
+      .excludes(full);
+  command.add_option("--size", options->size, "of the pictures, in pixels").value_name("WxH");
   command
-      ->add_option("--cameras", options->cameras,
-                   "the views, of one set or several: hemisphere:N, orbit:N, adversarial, dataset "
-                   "(its test cameras), or a file of cameras; 4 of the scene's own by default, or "
-                   "hemisphere:4 where it has none")
-      ->option_text("SET[,SET..]")
-      ->delimiter(',');
-  command->add_option("--rounds", options->rounds, "how often all views are gone through")
-      ->check(between(1, 1000))
-      ->option_text("N");
+      .add_option("--cameras", options->cameras,
+                  "the views, of one set or several: hemisphere:N, orbit:N, adversarial, dataset "
+                  "(its test cameras), or a file of cameras; 4 of the scene's own by default, or "
+                  "hemisphere:4 where it has none")
+      .value_name("SET[,SET..]")
+      .split_at_commas();
+  command.add_option("--rounds", options->rounds, "how often all views are gone through")
+      .check(between(1, 1000))
+      .value_name("N");
   command
-      ->add_option("--combinations", options->combinations,
-                   "at most so many combinations of the knobs that matter, of drawing and of "
-                   "antialiasing ones each, 48 by default; 0 turns one knob at a time")
-      ->check(between(0, 10000))
-      ->option_text("N");
+      .add_option("--combinations", options->combinations,
+                  "at most so many combinations of the knobs that matter, of drawing and of "
+                  "antialiasing ones each, 48 by default; 0 turns one knob at a time")
+      .check(between(0, 10000))
+      .value_name("N");
   command
-      ->add_option("--photographs", options->photographs,
-                   "at most so many of the dataset's test photographs, evenly spread")
-      ->check(between(1, 1000000))
-      ->option_text("N");
+      .add_option("--photographs", options->photographs,
+                  "at most so many of the dataset's test photographs, evenly spread")
+      .check(between(1, 1000000))
+      .value_name("N");
   command
-      ->add_option("--least-psnr", options->limits.least_psnr_db,
-                   "E_render in dB that the choice keeps, 50 by default")
-      ->check(between(0.0, 100.0))
-      ->option_text("DB");
+      .add_option("--least-psnr", options->limits.least_psnr_db,
+                  "E_render in dB that the choice keeps, 50 by default")
+      .check(between(0.0, 100.0))
+      .value_name("DB");
   command
-      ->add_option("--most-mismatch", options->limits.most_coverage_mismatch,
-                   "the part of the pixels that the choice may cover wrongly, 1e-4 by default")
-      ->check(between(0.0, 1.0))
-      ->option_text("FRACTION");
+      .add_option("--most-mismatch", options->limits.most_coverage_mismatch,
+                  "the part of the pixels that the choice may cover wrongly, 1e-4 by default")
+      .check(between(0.0, 1.0))
+      .value_name("FRACTION");
   command
-      ->add_option("--write", options->written_scene,
-                   "the scene with its data reduced as chosen, as a GLB of ours; SCENE stays as "
-                   "it is")
-      ->option_text("OUT.glb");
-  command->add_flag("--force", options->force, "--write may replace a file");
-  command->add_flag_callback(
+      .add_option("--write", options->written_scene,
+                  "the scene with its data reduced as chosen, as a GLB of ours; SCENE stays as "
+                  "it is")
+      .value_name("OUT.glb");
+  command.add_flag("--force", options->force, "--write may replace a file");
+  command.add_flag(
       "--no-flip", [options] { options->with_flip = false; },
       "leave FLIP out, which takes most of the time of comparing");
-  command->add_flag("--processor-time", options->processor_time,
-                    "processor time of all threads instead of time that passed: for ratios on a "
-                    "busy machine, of software renderers alone");
-  add_choice<gl::Backend>(*command, "--context", options->backend,
+  command.add_flag("--processor-time", options->processor_time,
+                   "processor time of all threads instead of time that passed: for ratios on a "
+                   "busy machine, of software renderers alone");
+  add_choice<gl::Backend>(command, "--context", options->backend,
                           {{"auto", gl::Backend::automatic},
                            {"egl", gl::Backend::egl},
                            {"osmesa", gl::Backend::osmesa}},
                           "where OpenGL comes from: auto (EGL, else OSMesa), egl or osmesa")
-      ->option_text("NAME");
-  command->add_flag("--json", options->json, "everything as JSON on standard output");
-  command->callback([options, &action] { action = [options] { return tradeoff(*options); }; });
+      .value_name("NAME");
+  command.add_flag("--json", options->json, "everything as JSON on standard output");
+  command.does([options] { return tradeoff(*options); });
 }
 
 }  // namespace tureen::cli

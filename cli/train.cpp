@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "cli/choice.hpp"
+#include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/config_options.hpp"
 #include "cli/dataset_argument.hpp"
@@ -14,7 +14,6 @@
 #include "cli/held_out.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory_option.hpp"
-#include "cli/number_range.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/run_lock.hpp"
@@ -355,36 +354,36 @@ ExitCode train(const Options& options) {
   return ExitCode::done;
 }
 
-void add_file_options(CLI::App& command, Options& options) {
-  command.add_option("-o,--output", options.output, "the soup")->option_text("OUT.glb");
+void add_file_options(Command& command, Options& options) {
+  command.add_option("-o,--output", options.output, "the soup").value_name("OUT.glb");
   command
       .add_option("--log", options.log,
                   "the log, JSON lines; OUT.jsonl by default (tureen report shows it)")
-      ->option_text("FILE");
+      .value_name("FILE");
   command
       .add_option("--checkpoint-every", options.checkpoint_every,
                   "write OUT.checkpoint every N steps; every two minutes by default")
-      ->check(between(1, 10'000'000))
-      ->option_text("N");
+      .check(between(1, 10'000'000))
+      .value_name("N");
   command.add_flag("--resume", options.resume,
                    "go on from OUT.checkpoint, to the same soup as without the break");
   command
       .add_option("--preview-every", options.preview_every,
                   "every N steps draw a test view beside its photograph into OUT.previews")
-      ->check(between(1, 10'000'000))
-      ->option_text("N");
+      .check(between(1, 10'000'000))
+      .value_name("N");
   command
       .add_option("--export-diffsoup", options.diffsoup_export,
                   "also write the folder that DiffSoup's web viewer reads")
-      ->option_text("FOLDER");
+      .value_name("FOLDER");
 }
 
 }  // namespace
 
-void add_train(CLI::App& program, Action& action) {
+void add_train(Command& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("train", "Photographs to a soup");
-  command->footer(
+  Command command = program.add_command("train", "Photographs to a soup");
+  command.footer(
       R"(Trains triangles with lattice textures and a color MLP until they look like the
 photographs, writes them as OUT.glb, with a log (OUT.jsonl) beside it, and measures them against the
 test views. Ctrl-C leaves a checkpoint that --resume goes on from. Equal
@@ -401,24 +400,23 @@ Examples:
 Exit codes: 0 done, 2 wrong usage, which a dataset or constants other than the checkpoint's are,
 3 the photographs, the checkpoint or the configuration cannot be read,
 4 no GPU where one is asked for, 5 interrupted, or the soup cannot be written.)");
-  add_dataset_argument(*command, options->dataset);
-  add_memory_option(*command);
-  add_file_options(*command, *options);
-  add_config_options(*command, options->config);
-  add_choice<Device>(*command, "--device", options->device,
+  add_dataset_argument(command, options->dataset);
+  add_memory_option(command);
+  add_file_options(command, *options);
+  add_config_options(command, options->config);
+  add_choice<Device>(command, "--device", options->device,
                      {{"auto", Device::automatic}, {"cpu", Device::cpu}, {"cuda", Device::cuda}},
                      "what does the arithmetic: auto (a GPU where one answers), cpu or cuda")
-      ->option_text("NAME");
-  command->add_option("--threads", options->threads, "of the processor; all cores by default")
-      ->check(between(1, 1024))
-      ->option_text("N");
-  command->add_flag("--print-config", options->print_config,
-                    "print all constants of this run as JSON instead of training");
-  command->set_version_flag(
-      "--list-config", trainer::config_reference,
-      "list all constants with their defaults, ranges and meanings, and exit");
-  command->add_flag("--json", options->json, "the result as one line of JSON on standard output");
-  command->callback([options, &action] { action = [options] { return train(*options); }; });
+      .value_name("NAME");
+  command.add_option("--threads", options->threads, "of the processor; all cores by default")
+      .check(between(1, 1024))
+      .value_name("N");
+  command.add_flag("--print-config", options->print_config,
+                   "print all constants of this run as JSON instead of training");
+  command.add_text_flag("--list-config", trainer::config_reference,
+                        "list all constants with their defaults, ranges and meanings, and exit");
+  command.add_flag("--json", options->json, "the result as one line of JSON on standard output");
+  command.does([options] { return train(*options); });
 }
 
 }  // namespace tureen::cli

@@ -53,14 +53,9 @@ ExitCode become_window(const std::vector<std::string>& arguments) {
 
 }  // namespace
 
-void add_view(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("view", "A window to look around in");
+void add_view(Command& program) {
   // All that follows, --help too, is the other program's.
-  command->set_help_flag();
-  command->prefix_command();
-  command->callback([command, &action] {
-    action = [arguments = command->remaining()] { return become_window(arguments); };
-  });
+  program.add_command("view", "A window to look around in").does_with_rest(become_window);
 }
 
 }  // namespace tureen::cli

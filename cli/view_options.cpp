@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 
-#include "cli/number_range.hpp"
 #include "cli/values.hpp"
 #include "formats/camera_file.hpp"
 #include "formats/existing_path.hpp"
@@ -94,28 +93,28 @@ Views recorded_views(const std::string& argument, const std::string& which_witho
 
 namespace {
 
-void add_film_options(CLI::App& command, ViewOptions& options) {
-  CLI::Option* path =
+void add_film_options(Command& command, ViewOptions& options) {
+  Option path =
       command
           .add_option("--path", options.path,
                       "the frames along a camera path: our JSON of cameras with \"seconds\"")
-          ->option_text("FILE.json");
+          .value_name("FILE.json");
   for (const char* other : {"--camera", "--eye", "--fov", "--orbit"})
-    path->excludes(command.get_option(other));
-  CLI::Option* turntable =
+    path.excludes(command.option(other));
+  Option turntable =
       command
           .add_option("--turntable", options.turntable,
                       "the frames of one turn around the up axis in so many seconds, like --orbit, "
                       "or from --eye about --target")
-          ->option_text("SECONDS")
-          ->check(between(0.001, 36000.0));
-  for (CLI::Option* other : {command.get_option("--camera"), command.get_option("--orbit"), path})
-    turntable->excludes(other);
+          .value_name("SECONDS")
+          .check(between(0.001, 36000.0));
+  for (const Option& other : {command.option("--camera"), command.option("--orbit"), path})
+    turntable.excludes(other);
   command
       .add_option("--fps", options.frames_per_second,
                   "frames a second of --path and --turntable, 30 by default")
-      ->option_text("N")
-      ->check(between(0.01, 1000.0));
+      .value_name("N")
+      .check(between(0.01, 1000.0));
 }
 
 }  // namespace
@@ -126,42 +125,42 @@ void check(const ViewOptions& options) {
     throw UsageError("--fps is for the frames of --path and --turntable");
 }
 
-void add_view_options(CLI::App& command, ViewOptions& options) {
+void add_view_options(Command& command, ViewOptions& options) {
   command
       .add_option(
           "--size", options.size,
           "width and height in pixels, 1280x720 by default; a recorded camera keeps its own")
-      ->option_text("WxH");
-  auto* camera =
+      .value_name("WxH");
+  const Option camera =
       command
           .add_option("--camera", options.camera,
                       "camera N (from 0) of a file, or all: our JSON of cameras, NeRF's "
                       "transforms.json, cameras.json of 3D Gaussian Splatting, the folder of a "
                       "COLMAP model, or a scene that has cameras, such as SCENE itself")
-          ->option_text("FILE[:N|:all]");
-  auto* eye = command
-                  .add_option("--eye", options.eye,
-                              "where the eye is, in world coordinates; it looks at --target")
-                  ->option_text("X,Y,Z")
-                  ->excludes(camera);
+          .value_name("FILE[:N|:all]");
+  const Option eye = command
+                         .add_option("--eye", options.eye,
+                                     "where the eye is, in world coordinates; it looks at --target")
+                         .value_name("X,Y,Z")
+                         .excludes(camera);
   command
       .add_option("--target", options.target,
                   "what the eye looks at; the centre of the scene by default")
-      ->option_text("X,Y,Z")
-      ->needs(eye);
+      .value_name("X,Y,Z")
+      .needs(eye);
   command
       .add_option("--fov", options.fov_degrees,
                   "the full vertical angle of view in degrees, 40 by default")
-      ->option_text("DEGREES")
-      ->check(between(0.1, 179.0))
-      ->excludes(camera);
+      .value_name("DEGREES")
+      .check(between(0.1, 179.0))
+      .excludes(camera);
   command
       .add_option("--orbit", options.orbit,
                   "so many views around the up axis, slightly from above, all of the scene in each")
-      ->option_text("N")
-      ->check(between(1, most_orbit_views))
-      ->excludes(camera)
-      ->excludes(eye);
+      .value_name("N")
+      .check(between(1, most_orbit_views))
+      .excludes(camera)
+      .excludes(eye);
   add_film_options(command, options);
 }
 

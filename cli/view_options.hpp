@@ -1,11 +1,11 @@
 // Which views to draw: the options of the command line, and the cameras that they ask for.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "cli/arguments.hpp"
 #include "soup/scene.hpp"
 
 namespace tureen::cli {
@@ -27,7 +27,7 @@ struct ViewOptions {
 
 /// --size, --camera, --eye, --target, --fov, --orbit, --path, --turntable and --fps, with their
 /// help and exclusions. --up belongs to the scene (cli/scene_argument.hpp).
-void add_view_options(CLI::App& command, ViewOptions& options);
+void add_view_options(Command& command, ViewOptions& options);
 
 struct Views {
   std::vector<Camera> cameras;     // at least one

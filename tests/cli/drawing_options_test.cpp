@@ -3,56 +3,57 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <CLI/CLI.hpp>
-
 #include "soup/error.hpp"
 #include "support/errors.hpp"
 
 namespace tureen::cli {
 namespace {
 
-PlanPreferences parsed(const std::string& arguments) {
-  CLI::App app;
+PlanPreferences parsed(std::vector<std::string> arguments) {
+  CommandLine line("program", "");
+  Command program = line.program();
   DrawingOptions options;
-  add_drawing_options(app, options);
-  app.parse(arguments);
+  add_drawing_options(program, options);
+  line.parse(std::move(arguments));
   return options.plan;
 }
 
 TEST(DrawingOptions, WhatIsToBeKeptIsNotLeftOut) {
-  EXPECT_EQ(parsed("").specialisations, SpecialisationSet::all());
-  EXPECT_EQ(parsed("--keep background,alpha-test").specialisations,
+  EXPECT_EQ(parsed({}).specialisations, SpecialisationSet::all());
+  EXPECT_EQ(parsed({"--keep", "background,alpha-test"}).specialisations,
             SpecialisationSet::all()
                 .without(Specialisation::background)
                 .without(Specialisation::alpha_test));
-  EXPECT_TRUE(parsed("--keep background").specialise);
-  EXPECT_FALSE(parsed("--no-specialise").specialise);
-  EXPECT_THROW(parsed("--no-specialise --keep background"), CLI::ExcludesError);
+  EXPECT_TRUE(parsed({"--keep", "background"}).specialise);
+  EXPECT_FALSE(parsed({"--no-specialise"}).specialise);
+  EXPECT_THROW(parsed({"--no-specialise", "--keep", "background"}), UsageError);
 }
 
 TEST(DrawingOptions, TheShadingStageIsFragmentUnlessComputeIsAskedFor) {
-  EXPECT_EQ(parsed("").shading_stage, ShadingStage::fragment);
-  EXPECT_EQ(parsed("--shading fragment").shading_stage, ShadingStage::fragment);
-  EXPECT_EQ(parsed("--shading compute").shading_stage, ShadingStage::compute);
-  EXPECT_THROW(parsed("--shading vertex"), UsageError);
+  EXPECT_EQ(parsed({}).shading_stage, ShadingStage::fragment);
+  EXPECT_EQ(parsed({"--shading", "fragment"}).shading_stage, ShadingStage::fragment);
+  EXPECT_EQ(parsed({"--shading", "compute"}).shading_stage, ShadingStage::compute);
+  EXPECT_THROW(parsed({"--shading", "vertex"}), UsageError);
 }
 
 TEST(DrawingOptions, RemovedValuesAreRefusedWithAHint) {
-  const std::pair<const char*, const char*> removed[] = {
-      {"--shading measured", "use fragment"},
-      {"--keep transparent-rims", "delete the name"},
-      {"--keep base-color", "delete the name"},
-      {"--keep alpha-test,texel-table", "delete the name"}};
-  for (const auto& [arguments, hint] : removed) try {
-      parsed(arguments);
-      ADD_FAILURE() << arguments;
+  const std::tuple<const char*, const char*, const char*> removed[] = {
+      {"--shading", "measured", "use fragment"},
+      {"--keep", "transparent-rims", "delete the name"},
+      {"--keep", "base-color", "delete the name"},
+      {"--keep", "alpha-test,texel-table", "delete the name"}};
+  for (const auto& [option, words, hint] : removed) try {
+      parsed({option, words});
+      ADD_FAILURE() << words;
     } catch (const UsageError& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr(hint));
     }
 }
 
 TEST(DrawingOptions, AnUnknownNameIsRefusedWithTheNearest) {
-  EXPECT_THAT(test::error_of<UsageError>([] { parsed("--keep alpha-tset"); }),
+  EXPECT_THAT(test::error_of<UsageError>([] {
+                parsed({"--keep", "alpha-tset"});
+              }),
               test::ErrorAt("", "alpha-tset", "alpha-test"));
 }
 
