@@ -1,8 +1,6 @@
 // What the program's exit code says. Scripts rely on it: ARCHITECTURE.md has the table.
 #pragma once
 
-#include <exception>
-
 namespace tureen::cli {
 
 enum class ExitCode {
@@ -13,8 +11,5 @@ enum class ExitCode {
   no_context = 4,
   other = 5,
 };
-
-/// The code for what was thrown.
-ExitCode exit_code_of(const std::exception& error);
 
 }  // namespace tureen::cli

@@ -13,6 +13,17 @@
 
 namespace tureen::cli {
 
+namespace {
+
+ExitCode exit_code_of(const std::exception& error) {
+  if (dynamic_cast<const UsageError*>(&error)) return ExitCode::usage;
+  if (dynamic_cast<const InputError*>(&error)) return ExitCode::bad_input;
+  if (dynamic_cast<const ContextError*>(&error)) return ExitCode::no_context;
+  return ExitCode::other;
+}
+
+}  // namespace
+
 void add_commands(Command& program, const std::vector<std::string>& arguments) {
   add_render(program);
   add_view(program);
