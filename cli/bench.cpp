@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "cli/arguments.hpp"
-#include "cli/bench_contestants.hpp"
+#include "cli/bench_cases.hpp"
 #include "cli/bench_device.hpp"
 #include "cli/bench_measure.hpp"
 #include "cli/bench_reports.hpp"
@@ -28,7 +28,7 @@ namespace {
 struct Options {
   SceneArgument scene;
   BenchViewOptions views;
-  ContestantOptions contestants;
+  BenchCaseOptions cases;
   int rounds = 5;
   double seconds = 20;
   bool processor_time = false;
@@ -36,12 +36,12 @@ struct Options {
   std::vector<std::string> arguments;  // all of them, as typed
 };
 
-BenchLoad load_of(const Contestants& contestants, double read_ms) {
-  const BenchConfiguration& first = contestants.list.front()->configuration;
+BenchLoad load_of(const BenchCases& cases, double read_ms) {
+  const BenchConfiguration& first = cases.list.front()->configuration;
   return {.read_ms = read_ms,
           .plan_ms = first.plan_ms,
           .upload_ms = first.upload_ms,
-          .peak_mib = contestants.peak_mib,
+          .peak_mib = cases.peak_mib,
           .device_mib = first.device_mib};
 }
 
@@ -70,24 +70,24 @@ BenchResult run(const Options& options) {
   const BenchViewList views = bench_views(options.views, scene, options.scene.path);
   result.notes.insert(result.notes.end(), views.notes.begin(), views.notes.end());
 
-  const gl::Context context = gl::Context::create({.backend = options.contestants.drawing.backend});
+  const gl::Context context = gl::Context::create({.backend = options.cases.drawing.backend});
   throw_if_interrupted();
   result.device = device_of(context);
   result.machine.rasteriser_threads = rasteriser_threads_of(result.device.renderer);
   const BenchClock clock = clock_for(result.device, options.processor_time);
   result.protocol.clock = clock.text;
-  const Contestants contestants = make_contestants(options.contestants, context, scene);
-  for (const LeftOut& each : contestants.left_out)
+  const BenchCases cases = make_cases(options.cases, context, scene);
+  for (const SkippedCase& each : cases.skipped)
     result.notes.push_back(each.name + " is left out: " + each.reason);
-  result.load = load_of(contestants, read_ms.count());
-  add_measurements(result, measure(contestants, views.views,
+  result.load = load_of(cases, read_ms.count());
+  add_measurements(result, measure(cases, views.views,
                                    {.rounds = options.rounds,
-                                    .most_seconds = options.seconds,
+                                    .max_seconds = options.seconds,
                                     .clock = clock.now,
                                     .folder = options.reports.folder}));
   if (const double peak = peak_mib(); peak > 0) result.peak_mib = peak;
-  for (const auto& contestant : contestants.list)
-    result.configurations.push_back(contestant->configuration);
+  for (const auto& bench_case : cases.list)
+    result.configurations.push_back(bench_case->configuration);
   return result;
 }
 
@@ -100,12 +100,12 @@ std::vector<std::string> inputs_of(const Options& options) {
 }
 
 ExitCode bench(const Options& options) {
-  if (options.reports.fail_slower && options.rounds < least_rounds)
+  if (options.reports.fail_slower && options.rounds < min_rounds)
     throw UsageError(
-        fmt::format("--fail-slower needs at least {} rounds to estimate the spread", least_rounds));
+        fmt::format("--fail-slower needs at least {} rounds to estimate the spread", min_rounds));
   // Everything that can be wrong with the arguments is said before the scene is read.
   check(options.views);
-  check(options.contestants);
+  check(options.cases);
   const std::optional<BenchResult> then =
       prepare_bench_reports(options.reports, inputs_of(options));
 
@@ -149,7 +149,7 @@ written.)");
   add_scene_argument(command, options->scene);
   add_memory_option(command);
   add_bench_view_options(command, options->views);
-  add_contestant_options(command, options->contestants);
+  add_case_options(command, options->cases);
   command
       .add_option("--rounds", options->rounds,
                   "how often the views are gone through at most, 5 by default")

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "cli/bench_contestants.hpp"
+#include "cli/bench_cases.hpp"
 #include "cli/bench_result.hpp"
 #include "cli/bench_views.hpp"
 
@@ -13,15 +13,14 @@ namespace tureen::cli {
 
 struct MeasureOptions {
   int rounds = 5;
-  double most_seconds = 0;                  // for all together; 0: no limit
+  double max_seconds = 0;                   // for all together; 0: no limit
   std::function<double()> clock = nullptr;  // of BenchmarkOptions
   std::filesystem::path folder;  // of the pictures that prove what was timed; empty: none
 };
 
-/// One after the other, contestant by contestant within each. Shows progress; throws Interrupted
+/// One after the other, case by case within each. Shows progress; throws Interrupted
 /// after Ctrl-C, DeviceLimitError for a size that the device does not draw and OutputError.
-std::vector<BenchMeasurement> measure(const Contestants& contestants,
-                                      const std::vector<BenchViews>& views,
+std::vector<BenchMeasurement> measure(const BenchCases& cases, const std::vector<BenchViews>& views,
                                       const MeasureOptions& options);
 
 }  // namespace tureen::cli

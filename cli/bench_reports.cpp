@@ -83,11 +83,11 @@ std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& optio
   if (!options.against.empty()) {
     require_there(options.against);
     then = bench_result_from_json(text_of(options.against), options.against);
-    const auto few = [](const BenchMeasurement& m) { return m.frame_ms.rounds < least_rounds; };
+    const auto few = [](const BenchMeasurement& m) { return m.frame_ms.rounds < min_rounds; };
     if (options.fail_slower &&
         std::any_of(then->measurements.begin(), then->measurements.end(), few))
-      throw UsageError(fmt::format("--fail-slower needs at least {} rounds in {}, too",
-                                   least_rounds, options.against),
+      throw UsageError(fmt::format("--fail-slower needs at least {} rounds in {}, too", min_rounds,
+                                   options.against),
                        "measure it anew");
   }
   if (!options.folder.empty()) {
@@ -118,7 +118,7 @@ ExitCode report_bench(const BenchReportOptions& options, const BenchResult& now,
     say(
         fmt::format("--fail-slower cannot judge {} of {}, of fewer than {} rounds: --seconds gives "
                     "them more time",
-                    unknown, comparison->ratios.size(), least_rounds));
+                    unknown, comparison->ratios.size(), min_rounds));
   say_limits(*comparison, *options.fail_slower);
   const std::vector<BenchRatio> slower = slower_than(*comparison, *options.fail_slower);
   for (const BenchRatio& ratio : slower)

@@ -18,7 +18,7 @@ namespace {
 constexpr const char* sweep_sizes[] = {"640x360", "1280x720", "1920x1080", "2560x1440",
                                        "3840x2160"};
 constexpr const char* fractions[] = {"full", "half", "quarter"};
-constexpr int default_views = 8, most_views = 1000;
+constexpr int default_views = 8, max_views = 1000;
 
 /// What a word of --cameras stands for.
 struct CameraSet {
@@ -37,7 +37,7 @@ CameraSet parse_set(const std::string& text) {
     CameraSet set{.kind = kind, .count = default_views, .name = {}};
     try {
       if (colon != std::string::npos)
-        set.count = parse_integer(text.substr(colon + 1), 1, most_views);
+        set.count = parse_integer(text.substr(colon + 1), 1, max_views);
     } catch (const UsageError& error) {
       throw UsageError("--cameras " + text + ": " + error.reason(), error.hint());
     }

@@ -31,10 +31,10 @@ double timed_draw(const Drawer& drawer, const Camera& camera) {
 /// memory. Never with a resolution scale, which tiles do not have.
 bool needs_tiles(const Drawer& drawer, const gl::Capabilities& device, const Camera& camera) {
   if (drawer.resolution_scale < 1) return false;
-  constexpr std::int64_t most_samples = std::int64_t(1) << 26;  // a gibibyte of targets
+  constexpr std::int64_t max_samples = std::int64_t(1) << 26;  // a gibibyte of targets
   const std::int64_t columns = std::int64_t(camera.width) * drawer.supersampling;
   const std::int64_t rows = std::int64_t(camera.height) * drawer.supersampling;
-  return std::max(columns, rows) > device.max_picture_side || columns * rows > most_samples;
+  return std::max(columns, rows) > device.max_picture_side || columns * rows > max_samples;
 }
 
 /// The same view no larger than a thumbnail.

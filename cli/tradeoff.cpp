@@ -68,9 +68,9 @@ void add_tradeoff(Command& program, std::vector<std::string> arguments) {
   options->arguments = std::move(arguments);
   Command command = program.add_command("tradeoff", "Error against run time, and the choice");
   command.footer(
-      R"(Turns one knob of drawing at a time, then those that matter together, and measures for
+      R"(Changes one quality setting at a time, then those that matter together, and measures for
 each the time of a frame and the error against the oracle's picture of the same model
-(E_render). Antialiasing knobs have an oracle of their own, with 8 x 8 samples a pixel. With
+(E_render). Antialiasing settings have an oracle of their own, with 8 x 8 samples a pixel. With
 photographs the error against them (E_model) stands beside, never on one axis, and that of the
 published pipeline with it. The choice is the cheapest with an E_render of at least 50 dB and
 hardly a pixel covered wrongly.
@@ -94,7 +94,7 @@ on the device or cannot be written.)");
   add_choice<tradeoff::Samples>(
       command, "--reference", options->samples,
       {{"device", tradeoff::Samples::device}, {"exact", tradeoff::Samples::exact}},
-      "what drawing knobs are measured against: the oracle at the device's sample points "
+      "what drawing settings are measured against: the oracle at the device's sample points "
       "(default), or of exact triangles, which adds what the device rounds")
       .value_name("NAME");
   const Option full = command.add_flag(
@@ -119,8 +119,8 @@ on the device or cannot be written.)");
       .value_name("N");
   command
       .add_option("--combinations", options->combinations,
-                  "at most so many combinations of the knobs that matter, of drawing and of "
-                  "antialiasing ones each, 48 by default; 0 turns one knob at a time")
+                  "at most so many combinations of the settings that matter, of drawing and of "
+                  "antialiasing ones each, 48 by default; 0 changes one setting at a time")
       .check(between(0, 10000))
       .value_name("N");
   command
@@ -129,12 +129,12 @@ on the device or cannot be written.)");
       .check(between(1, 1000000))
       .value_name("N");
   command
-      .add_option("--least-psnr", options->limits.least_psnr_db,
+      .add_option("--least-psnr", options->limits.min_psnr_db,
                   "E_render in dB that the choice keeps, 50 by default")
       .check(between(0.0, 100.0))
       .value_name("DB");
   command
-      .add_option("--most-mismatch", options->limits.most_coverage_mismatch,
+      .add_option("--most-mismatch", options->limits.max_coverage_mismatch,
                   "the part of the pixels that the choice may cover wrongly, 1e-4 by default")
       .check(between(0.0, 1.0))
       .value_name("FRACTION");

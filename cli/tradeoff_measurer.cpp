@@ -22,12 +22,12 @@ FrameStatistics scaled(FrameStatistics ms, double factor) {
 
 }  // namespace
 
-Job job_of(const std::vector<tradeoff::Knob>& knobs, const tradeoff::Configuration& configuration,
-           bool specialised) {
+Job job_of(const std::vector<tradeoff::QualitySetting>& settings,
+           const tradeoff::Configuration& configuration, bool specialised) {
   Job job;
   job.outcome.configuration = configuration;
-  job.outcome.name = tradeoff::describe(knobs, configuration);
-  job.outcome.applied = tradeoff::applied_by(knobs, configuration);
+  job.outcome.name = tradeoff::describe(settings, configuration);
+  job.outcome.applied = tradeoff::applied_by(settings, configuration);
   job.outcome.method = specialised ? Method::specialised : Method::generic;
   job.plan.specialise = specialised;
   job.plan.quality = job.outcome.applied.quality;
@@ -82,30 +82,30 @@ void Measurer::measure_group(std::vector<Job> jobs) {
 }
 
 void Measurer::time_and_compare(std::vector<Running>& running) {
-  std::vector<Entrant> entrants;
+  std::vector<BenchmarkCase> cases;
   for (const Running& each : running)
-    entrants.push_back(
+    cases.push_back(
         {each.job.outcome.name,
          [renderer = each.renderer.get()](const Camera& camera) { renderer->draw(camera); },
          [renderer = each.renderer.get()] { renderer->finish(); }});
   const BenchmarkResult result =
-      run_benchmark(entrants, scene_.cameras,
+      run_benchmark(cases, scene_.cameras,
                     {.rounds = options_.rounds,
-                     .least_sample_ms = scene_.context.capabilities().software ? 0.0 : 5.0,
+                     .min_sample_ms = scene_.context.capabilities().software ? 0.0 : 5.0,
                      .progress = [&](double fraction) { report_share(0.2 + 0.6 * fraction); },
                      .clock = options_.clock});
   panel_.aa_spread = std::max(panel_.aa_spread, result.aa_spread);
 
-  const FrameStatistics control = statistics_of(result.entrants[0].times);
+  const FrameStatistics control = statistics_of(result.cases[0].times);
   if (!control_) control_ms_ = control.min_of_medians;
   const double factor = control_ms_ / control.min_of_medians;
   const std::size_t first = control_ ? 1 : 0;
   for (std::size_t i = first; i < running.size(); ++i) {
     Outcome& outcome = running[i].job.outcome;
-    outcome.ms = scaled(statistics_of(result.entrants[i].times), factor);
+    outcome.ms = scaled(statistics_of(result.cases[i].times), factor);
     const Renderer& renderer = *running[i].renderer;
     outcome.device_mib = double(renderer.device_bytes() + renderer.target_bytes()) / (1 << 20);
-    outcome.stable = result.entrants[i].stable;
+    outcome.stable = result.cases[i].stable;
   }
   compare(running, first);
   if (!control_) control_ = running.front().job;

@@ -12,14 +12,14 @@
 
 namespace tureen::cli {
 
-/// One entrant: how it draws, and what is known of it before it is measured.
+/// One case: how it draws, and what is known of it before it is measured.
 struct Job {
   Outcome outcome;
   PlanPreferences plan;
 };
 
-Job job_of(const std::vector<tradeoff::Knob>& knobs, const tradeoff::Configuration& configuration,
-           bool specialised);
+Job job_of(const std::vector<tradeoff::QualitySetting>& settings,
+           const tradeoff::Configuration& configuration, bool specialised);
 
 class Measurer {
  public:

@@ -12,10 +12,10 @@ namespace tureen::cli {
 const char* name_of(Method method) { return method_names[std::size_t(method)]; }
 
 bool is_judged(const Panel& panel, const Outcome& outcome) {
-  for (std::size_t i = 0; i < panel.knobs.size(); ++i) {
-    const tradeoff::Knob& knob = panel.knobs[i];
-    if (knob.key == tradeoff::supersampling_key &&
-        knob.settings[std::size_t(outcome.configuration[i])].value ==
+  for (std::size_t i = 0; i < panel.settings.size(); ++i) {
+    const tradeoff::QualitySetting& setting = panel.settings[i];
+    if (setting.key == tradeoff::supersampling_key &&
+        setting.values[std::size_t(outcome.configuration[i])].value ==
             std::to_string(tradeoff::antialiased_samples))
       return false;
   }

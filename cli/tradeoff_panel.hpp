@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "runtime/frame_statistics.hpp"
-#include "runtime/tradeoff/knobs.hpp"
 #include "runtime/tradeoff/pareto.hpp"
+#include "runtime/tradeoff/quality_settings.hpp"
 #include "soup/render_error.hpp"
 
 namespace tureen::cli {
@@ -31,7 +31,7 @@ const char* name_of(Method method);
 
 /// One way to draw, with the numbers it came to.
 struct Outcome {
-  tradeoff::Configuration configuration;  // of the panel's knobs
+  tradeoff::Configuration configuration;  // of the panel's settings
   std::string name;                       // in words: "lattice level 2"
   tradeoff::Applied applied;
   Method method = Method::specialised;
@@ -39,7 +39,7 @@ struct Outcome {
   FrameStatistics ms;
   double device_mib = 0;            // the soup's buffers and textures, and the targets of a view
   RenderError error;                // against References::judge
-  std::optional<ExactError> exact;  // drawing knobs alone
+  std::optional<ExactError> exact;  // drawing settings alone
   bool stable = true;               // its times came to rest before they were taken
 
   int departures() const { return tradeoff::departures(configuration); }
@@ -50,11 +50,11 @@ struct Skipped {
   std::string reason;
 };
 
-/// What one reference is the judge of: drawing knobs, or antialiasing ones.
+/// What one reference is the judge of: drawing settings, or antialiasing ones.
 struct Panel {
-  std::vector<tradeoff::Knob> knobs;
+  std::vector<tradeoff::QualitySetting> settings;
   std::vector<Outcome> outcomes;  // the defaults first
-  std::vector<tradeoff::KnobRange> ranges;
+  std::vector<tradeoff::SettingRange> ranges;
   std::vector<Skipped> skipped;
   std::vector<std::string> notes;
   double aa_spread = 0;            // the largest of the groups
@@ -65,7 +65,7 @@ struct Panel {
   RenderError ideal;
 };
 
-/// Whether the error of an outcome says anything of its knobs. Supersampling at the antialiasing
+/// Whether the error of an outcome says anything of its settings. Supersampling at the antialiasing
 /// reference's own samples (tradeoff::antialiased_samples) is measured for its time.
 bool is_judged(const Panel& panel, const Outcome& outcome);
 
@@ -95,7 +95,7 @@ struct Study {
   /// The published pipeline as an outcome of the drawing panel (R0), where it can draw this soup.
   std::optional<std::size_t> published;
   /// What the device's subpixel grid costs by itself: the reference that samples as the device does
-  /// against the exact one. No knob changes it.
+  /// against the exact one. No setting changes it.
   RenderError grid;
   /// An outcome of the drawing panel. Left to the caller: what it has to keep to is no matter of
   /// these views alone.

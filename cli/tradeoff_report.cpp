@@ -38,10 +38,11 @@ Json to_json(const std::optional<ExactError>& error) {
   return {{"psnr_db", error->psnr_db}, {"coverage", error->coverage_mismatch}};
 }
 
-Json knobs_json(const Panel& panel, const Outcome& outcome) {
+Json settings_json(const Panel& panel, const Outcome& outcome) {
   Json json = Json::object();
-  for (std::size_t i = 0; i < panel.knobs.size(); ++i)
-    json[panel.knobs[i].key] = panel.knobs[i].settings[std::size_t(outcome.configuration[i])].value;
+  for (std::size_t i = 0; i < panel.settings.size(); ++i)
+    json[panel.settings[i].key] =
+        panel.settings[i].values[std::size_t(outcome.configuration[i])].value;
   return json;
 }
 
@@ -56,7 +57,7 @@ Json configuration_json(const TradeoffReport& report, const Panel& panel, std::s
   return {{"name", outcome.name},
           {"scene", report.scene.name},
           {"method", name_of(outcome.method)},
-          {"knobs", knobs_json(panel, outcome)},
+          {"knobs", settings_json(panel, outcome)},
           {"commit", report.program.commit},
           {"machine", report.machine.cpu},
           {"driver", report.device.renderer + "; " + report.device.version},
@@ -77,23 +78,23 @@ Json configuration_json(const TradeoffReport& report, const Panel& panel, std::s
 
 Json panel_json(const TradeoffReport& report, const Panel& panel,
                 const std::vector<std::optional<ModelError>>& model) {
-  Json knobs = Json::array(), configurations = Json::array(), skipped = Json::array();
-  for (std::size_t i = 0; i < panel.knobs.size(); ++i) {
-    Json settings = Json::array();
-    for (const tradeoff::Setting& setting : panel.knobs[i].settings)
-      settings.push_back(setting.value);
-    knobs.push_back({{"key", panel.knobs[i].key},
-                     {"title", panel.knobs[i].title},
-                     {"settings", settings},
-                     {"time_ratio", panel.ranges[i].time_ratio},
-                     {"psnr_range_db", panel.ranges[i].psnr_db},
-                     {"matters", panel.ranges[i].matters()}});
+  Json settings = Json::array(), configurations = Json::array(), skipped = Json::array();
+  for (std::size_t i = 0; i < panel.settings.size(); ++i) {
+    Json values = Json::array();
+    for (const tradeoff::SettingValue& value : panel.settings[i].values)
+      values.push_back(value.value);
+    settings.push_back({{"key", panel.settings[i].key},
+                        {"title", panel.settings[i].title},
+                        {"settings", values},
+                        {"time_ratio", panel.ranges[i].time_ratio},
+                        {"psnr_range_db", panel.ranges[i].psnr_db},
+                        {"matters", panel.ranges[i].matters()}});
   }
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i)
     configurations.push_back(configuration_json(report, panel, i, model_of(model, i)));
   for (const Skipped& each : panel.skipped)
     skipped.push_back({{"name", each.name}, {"reason", each.reason}});
-  return {{"knobs", knobs},
+  return {{"knobs", settings},
           {"configurations", configurations},
           {"front", panel.front},
           {"hypervolume_decade_db", panel.hypervolume},
@@ -201,8 +202,8 @@ Json to_json(const TradeoffReport& report) {
             {"clock", report.clock},
             {"samples", report.samples}}},
           {"limits",
-           {{"least_psnr_db", report.limits.least_psnr_db},
-            {"most_coverage_mismatch", report.limits.most_coverage_mismatch}}},
+           {{"least_psnr_db", report.limits.min_psnr_db},
+            {"most_coverage_mismatch", report.limits.max_coverage_mismatch}}},
           {"drawing", panel_json(report, study.drawing, report.drawing_model)},
           {"antialiasing", panel_json(report, study.antialiasing, report.antialiasing_model)},
           {"r0", study.published ? Json(*study.published) : Json(nullptr)},
@@ -214,16 +215,17 @@ Json to_json(const TradeoffReport& report) {
 }
 
 void say_tables(const TradeoffReport& report) {
-  say_panel(report, report.study.drawing,
-            fmt::format("E_render of drawing knobs, against the oracle {} (* on the front, > the "
-                        "choice):",
-                        where_it_looks(report)));
+  say_panel(
+      report, report.study.drawing,
+      fmt::format("E_render of drawing settings, against the oracle {} (* on the front, > the "
+                  "choice):",
+                  where_it_looks(report)));
   say(
       fmt::format("  exact dB is against exact triangles; the device's subpixel grid alone has "
-                  "{:.2f} dB there, which no knob changes",
+                  "{:.2f} dB there, which no setting changes",
                   report.study.grid.psnr_db));
   say_panel(report, report.study.antialiasing,
-            "E_render of antialiasing knobs, against 8 x 8 samples a pixel (* on the front):");
+            "E_render of antialiasing settings, against 8 x 8 samples a pixel (* on the front):");
   say_model(report);
   say("Times: " + report.clock + ".");
   say(choice_sentence(report));
@@ -233,7 +235,7 @@ std::string choice_sentence(const TradeoffReport& report) {
   const Study& study = report.study;
   const std::string limits =
       fmt::format("at least {:g} dB and at most {:g} of the pixels uncovered or covered wrongly",
-                  report.limits.least_psnr_db, report.limits.most_coverage_mismatch);
+                  report.limits.min_psnr_db, report.limits.max_coverage_mismatch);
   if (!study.choice) return "No configuration keeps to the limits: " + limits + ".";
   const Outcome& chosen = study.drawing.outcomes[*study.choice];
   const Outcome& defaults = study.drawing.outcomes.front();

@@ -54,7 +54,7 @@ struct TradeoffReport {
   std::vector<std::string> output;            // files that were written
 };
 
-/// The reference of drawing knobs, in words: "at the device's own sample points".
+/// The reference of drawing settings, in words: "at the device's own sample points".
 const char* where_it_looks(const TradeoffReport& report);
 
 Json to_json(const TradeoffReport& report);

@@ -123,9 +123,9 @@ Study study_of(const TradeoffOptions& options, const Scene& scene, TradeoffRepor
   study.background = scene.info.background;
   study.samples = options.samples;
   study.rounds = report.rounds;
-  study.factorial.most_configurations =
+  study.factorial.max_configurations =
       std::size_t(options.combinations >= 0 ? options.combinations : defaults.combinations);
-  study.most_samples = defaults.samples;
+  study.max_samples = defaults.samples;
   study.with_flip = options.with_flip;
   std::optional<Progress> progress;
   std::string task;

@@ -17,30 +17,30 @@ namespace tureen::cli {
 namespace {
 
 using tradeoff::Configuration;
-using tradeoff::Knob;
+using tradeoff::QualitySetting;
 
 /// What nothing can be drawn with, before anything is uploaded.
-tradeoff::Refusal refusal_of(const std::vector<Knob>& knobs) {
-  return [&knobs](const Configuration& configuration) {
-    return defect(tradeoff::applied_by(knobs, configuration).quality);
+tradeoff::Refusal refusal_of(const std::vector<QualitySetting>& settings) {
+  return [&settings](const Configuration& configuration) {
+    return defect(tradeoff::applied_by(settings, configuration).quality);
   };
 }
 
-std::vector<Job> jobs_of(const std::vector<Knob>& knobs, const std::vector<Configuration>& list,
-                         bool specialised) {
+std::vector<Job> jobs_of(const std::vector<QualitySetting>& settings,
+                         const std::vector<Configuration>& list, bool specialised) {
   std::vector<Job> jobs;
   for (const Configuration& configuration : list)
-    jobs.push_back(job_of(knobs, configuration, specialised));
+    jobs.push_back(job_of(settings, configuration, specialised));
   return jobs;
 }
 
 void add_skipped(Panel& panel, const tradeoff::Design& design) {
   for (const tradeoff::Skipped& skipped : design.skipped)
     panel.skipped.push_back(
-        {tradeoff::describe(panel.knobs, skipped.configuration), skipped.reason});
+        {tradeoff::describe(panel.settings, skipped.configuration), skipped.reason});
 }
 
-/// The ranges of the knobs, from the outcomes of the star that were measured as specialised.
+/// The ranges of the settings, from the outcomes of the star that were measured as specialised.
 void find_ranges(Panel& panel) {
   std::vector<Configuration> configurations;
   std::vector<tradeoff::Measured> measured;
@@ -50,19 +50,19 @@ void find_ranges(Panel& panel) {
     measured.push_back({outcome.ms.min_of_medians,
                         is_judged(panel, outcome) ? outcome.error.psnr_db : std::nan("")});
   }
-  panel.ranges = tradeoff::knob_ranges(configurations, measured, panel.knobs.size());
+  panel.ranges = tradeoff::setting_ranges(configurations, measured, panel.settings.size());
 }
 
-/// What follows from the star: which knobs matter, all combinations of these, and the front.
+/// What follows from the star: which settings matter, all combinations of these, and the front.
 void finish(const StudyOptions& options, const std::string& task, Measurer& measurer,
             Panel& panel) {
   find_ranges(panel);
   const tradeoff::Design rest =
-      tradeoff::factorial(tradeoff::setting_counts(panel.knobs), panel.ranges,
-                          refusal_of(panel.knobs), options.factorial);
+      tradeoff::factorial(tradeoff::value_counts(panel.settings), panel.ranges,
+                          refusal_of(panel.settings), options.factorial);
   add_skipped(panel, rest);
   panel.notes = tradeoff::describe(rest.reduction, options.factorial);
-  measurer.measure(jobs_of(panel.knobs, rest.configurations, true), task);
+  measurer.measure(jobs_of(panel.settings, rest.configurations, true), task);
   find_front(panel);
   if (auto warning = spread_warning(panel.aa_spread)) panel.notes.push_back(*std::move(warning));
 }
@@ -82,37 +82,37 @@ void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& 
   const std::vector<std::uint64_t> visible = count_visible_pixels(
       scene.context, scene.soup, scene.origin, scene.counting,
       [&](double fraction) { report(options, "visible triangles", fraction); });
-  panel.knobs = tradeoff::drawing_knobs(scene.soup, visible);
+  panel.settings = tradeoff::drawing_settings(scene.soup, visible);
   const tradeoff::Design star =
-      tradeoff::star(tradeoff::setting_counts(panel.knobs), refusal_of(panel.knobs));
+      tradeoff::star(tradeoff::value_counts(panel.settings), refusal_of(panel.settings));
   add_skipped(panel, star);
 
   Measurer measurer(scene, options, references, panel);
-  std::vector<Job> jobs = jobs_of(panel.knobs, star.configurations, true);
+  std::vector<Job> jobs = jobs_of(panel.settings, star.configurations, true);
   // The baseline comes right after the defaults, so that it shares their group.
-  Job published = job_of(panel.knobs, star.configurations.front(), true);
+  Job published = job_of(panel.settings, star.configurations.front(), true);
   published.outcome.name = "published pipeline";
   published.outcome.method = Method::published;
   published.plan = {.pipeline = PipelineKind::published};
   jobs.insert(jobs.begin() + 1, std::move(published));
-  std::vector<Job> generic = jobs_of(panel.knobs, star.configurations, false);
+  std::vector<Job> generic = jobs_of(panel.settings, star.configurations, false);
   std::move(generic.begin(), generic.end(), std::back_inserter(jobs));
-  measurer.measure(std::move(jobs), "one knob at a time");
+  measurer.measure(std::move(jobs), "one setting at a time");
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i)
     if (panel.outcomes[i].method == Method::published) study.published = i;
-  finish(options, "knobs combined", measurer, panel);
+  finish(options, "settings combined", measurer, panel);
 }
 
 void study_antialiasing(const StudyScene& scene, const StudyOptions& options, Study& study) {
   Panel& panel = study.antialiasing;
   const References references{oracle_pictures(scene, options, tradeoff::Samples::antialiased), {}};
   panel.ideal = ideal_error(references.judge, options.with_flip);
-  panel.knobs = tradeoff::antialiasing_knobs(options.most_samples);
+  panel.settings = tradeoff::antialiasing_settings(options.max_samples);
   const tradeoff::Design star =
-      tradeoff::star(tradeoff::setting_counts(panel.knobs), refusal_of(panel.knobs));
+      tradeoff::star(tradeoff::value_counts(panel.settings), refusal_of(panel.settings));
   add_skipped(panel, star);
   Measurer measurer(scene, options, references, panel);
-  measurer.measure(jobs_of(panel.knobs, star.configurations, true), "antialiasing");
+  measurer.measure(jobs_of(panel.settings, star.configurations, true), "antialiasing");
   finish(options, "antialiasing combined", measurer, panel);
 }
 

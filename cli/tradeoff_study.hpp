@@ -22,14 +22,14 @@ namespace tureen::cli {
 
 struct StudyOptions {
   glm::vec3 background{0.0f};
-  /// Of the reference of drawing knobs: device or exact.
+  /// Of the reference of drawing settings: device or exact.
   tradeoff::Samples samples = tradeoff::Samples::device;
   int subpixel_bits = 8;  // of the device
   int rounds = 5;
   /// Most renderers at a time; each holds the scene on the device.
   std::size_t group = 12;
   tradeoff::FactorialLimits factorial = {};
-  int most_samples = 4;  // an axis, of supersampling
+  int max_samples = 4;  // an axis, of supersampling
   bool with_flip = true;
   /// As BenchmarkOptions::clock.
   std::function<double()> clock = nullptr;

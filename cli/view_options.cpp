@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double radians_per_degree = 0.017453292519943295;
-constexpr int most_orbit_views = 1000;
+constexpr int max_orbit_views = 1000;
 constexpr double default_frames_per_second = 30;
 constexpr double most_frames = 100000;  // an hour of film; beyond it somebody mistook a unit
 
@@ -158,7 +158,7 @@ void add_view_options(Command& command, ViewOptions& options) {
       .add_option("--orbit", options.orbit,
                   "so many views around the up axis, slightly from above, all of the scene in each")
       .value_name("N")
-      .check(between(1, most_orbit_views))
+      .check(between(1, max_orbit_views))
       .excludes(camera)
       .excludes(eye);
   add_film_options(command, options);

@@ -15,15 +15,15 @@ namespace {
 constexpr const char* format_name = "tureen web bench";
 
 /// Eleven days, so that sums stay finite. Nobody waits so long for a frame.
-constexpr double most_ms = 1e9;
+constexpr double max_ms = 1e9;
 
 double mebibytes(const JsonView& bytes) { return double(bytes.natural()) / double(1 << 20); }
 
 /// What something took; not of a frame.
 double milliseconds(const JsonView& view) {
   const double ms = view.number();
-  if (!(ms >= 0 && ms <= most_ms))
-    view.fail(fmt::format("{} is no time from 0 to {:g} ms", ms, most_ms));
+  if (!(ms >= 0 && ms <= max_ms))
+    view.fail(fmt::format("{} is no time from 0 to {:g} ms", ms, max_ms));
   return ms;
 }
 
@@ -64,11 +64,11 @@ BenchConfiguration configuration(const JsonView& view) {
           .specialisations = specialisations_of(view)};
 }
 
-/// What the entrants of one measurement share.
+/// What the cases of one measurement share.
 BenchMeasurement shared_part(const JsonView& view) {
-  const JsonView entrants = view["entrants"];
-  if (entrants.size() == 0) entrants.fail("nobody took part");
-  const JsonView first = entrants.at(0)["frame_ms"];
+  const JsonView cases = view["entrants"];
+  if (cases.size() == 0) cases.fail("nobody took part");
+  const JsonView first = cases.at(0)["frame_ms"];
   if (first.size() == 0) first.fail("has no rounds");
   if (first.at(0).size() == 0) first.at(0).fail("has no views");
   BenchMeasurement shared;
@@ -94,23 +94,23 @@ BenchMeasurement shared_part(const JsonView& view) {
   return shared;
 }
 
-/// One measurement of the page: a BenchMeasurement an entrant.
+/// One measurement of the page: a BenchMeasurement a case.
 void add_measurements(const JsonView& view, BenchResult& result) {
   const BenchMeasurement shared = shared_part(view);
   const std::size_t begin = result.measurements.size();
-  const JsonView entrants = view["entrants"];
-  for (std::size_t i = 0; i < entrants.size(); ++i) {
-    const JsonView entrant = entrants.at(i);
+  const JsonView cases = view["entrants"];
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const JsonView benchmark_case = cases.at(i);
     BenchMeasurement measurement = shared;
-    measurement.configuration = entrant["configuration"].text();
+    measurement.configuration = benchmark_case["configuration"].text();
     if (!find_configuration(result, measurement.configuration))
-      entrant["configuration"].fail("is none of the scene's configurations");
+      benchmark_case["configuration"].fail("is none of the scene's configurations");
     for (std::size_t k = begin; k < result.measurements.size(); ++k)
       if (result.measurements[k].configuration == measurement.configuration)
-        entrant["configuration"].fail("took part already");
-    measurement.stable = boolean(entrant["stable"]);
-    measurement.pixels_hash = hash_of(entrant["pixels_hash"]);
-    const FrameTimes times = frame_times(entrant["frame_ms"], std::size_t(shared.views),
+        benchmark_case["configuration"].fail("took part already");
+    measurement.stable = boolean(benchmark_case["stable"]);
+    measurement.pixels_hash = hash_of(benchmark_case["pixels_hash"]);
+    const FrameTimes times = frame_times(benchmark_case["frame_ms"], std::size_t(shared.views),
                                          std::size_t(shared.frame_ms.rounds));
     measurement.frame_ms = statistics_of(times);
     measurement.fps = 1000 / measurement.frame_ms.mean;

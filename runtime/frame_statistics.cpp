@@ -99,7 +99,7 @@ double series_spread(const FrameTimes& first, const FrameTimes& second) {
 
 std::optional<double> spread_between(const FrameStatistics& a, const FrameStatistics& b,
                                      double aa_spread) {
-  if (std::min(a.rounds, b.rounds) < least_rounds) return {};
+  if (std::min(a.rounds, b.rounds) < min_rounds) return {};
   return std::max({aa_spread, a.spread, b.spread});
 }
 

@@ -22,7 +22,7 @@ double geometric_mean(std::span<const double> values);
 /// 100.
 double percentile(std::span<const double> values, double percent);
 
-/// Frame times of one entrant: round by round, in each the same views in the same order.
+/// Frame times of one case: round by round, in each the same views in the same order.
 struct FrameTimes {
   std::size_t views = 0;
   std::vector<double> ms;  // a multiple of `views`, at least one round
@@ -73,7 +73,7 @@ double series_spread(const FrameTimes& first, const FrameTimes& second);
 /// Of fewer rounds no spread is known. Two medians lie within a fifth of their standard deviation
 /// one time in nine by mere chance, three of them one time in ninety (of normal ones), and what
 /// lies so near would call any noise a difference.
-inline constexpr int least_rounds = 3;
+inline constexpr int min_rounds = 3;
 
 /// By how much two series may differ, as a fraction, though they time the same thing: the largest
 /// of the A/A spread and of the spreads of their own rounds. Nothing where one of them has fewer

@@ -82,8 +82,8 @@ PictureTiles tiles_of(Renderer& renderer, const gl::Capabilities& capabilities) 
     throw UsageError(
         "a picture that is drawn in tiles has no resolution scale: coarser tiles would not meet");
   // 2^26 samples at once: the gibibyte of targets that pictures drawn whole may have.
-  constexpr int most_samples = 8192;
-  return tiles_drawn_by(renderer, std::min(capabilities.max_picture_side, most_samples) /
+  constexpr int max_samples = 8192;
+  return tiles_drawn_by(renderer, std::min(capabilities.max_picture_side, max_samples) /
                                       renderer.plan().quality.supersampling);
 }
 

@@ -46,10 +46,10 @@ void draw_coincident_faces_alike(const TriangleSoup& soup, std::span<const std::
 }
 
 /// Fewer faces than this are drawn in a few milliseconds anyway.
-constexpr std::size_t least_faces_between_pixels = 16384;
+constexpr std::size_t min_culled_faces = 16384;
 
 void plan_faces_between_pixels(PlanDraft& draft, const DeviceLimits& limits) {
-  if (!limits.software || draft.plan.faces.size() < least_faces_between_pixels ||
+  if (!limits.software || draft.plan.faces.size() < min_culled_faces ||
       !draft.may(Specialisation::faces_between_pixels))
     return;
   draft.plan.drops_faces_between_pixels = true;

@@ -66,8 +66,8 @@ std::optional<std::size_t> cheapest_within(std::span<const Point> points, const 
   std::optional<std::size_t> fastest, taken;
   for (const std::size_t i : by_time(points)) {
     const Point& point = points[i];
-    if (!(point.psnr_db >= limits.least_psnr_db) ||
-        !(point.coverage_mismatch <= limits.most_coverage_mismatch))
+    if (!(point.psnr_db >= limits.min_psnr_db) ||
+        !(point.coverage_mismatch <= limits.max_coverage_mismatch))
       continue;
     if (!fastest) fastest = i;
     if (!equally_fast(points[*fastest], point)) continue;

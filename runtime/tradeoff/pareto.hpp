@@ -43,8 +43,8 @@ double hypervolume(std::span<const Point> points, const Corner& corner = {});
 /// What a way to draw must keep to be taken without asking.
 struct Limits {
   /// Costs a model that comes within 27 dB of its photographs 0.02 dB (soup/render_error.hpp).
-  double least_psnr_db = 50;
-  double most_coverage_mismatch = 1e-4;
+  double min_psnr_db = 50;
+  double max_coverage_mismatch = 1e-4;
 };
 
 /// The fastest point within the limits; of those equally fast the simplest, then the better, then

@@ -11,8 +11,9 @@ namespace tureen::tradeoff {
 /// Where the reference looks. Both see float colours of unquantised texels.
 enum class Samples {
   /// One a pixel, at the very points that the device samples: vertices lie on its subpixel grid
-  /// (oracle::Coverage::snapped). What a device rounds before anybody has turned a knob is not the
-  /// knob's fault: on small pictures it costs more than most knobs do (docs/tradeoff.md).
+  /// (oracle::Coverage::snapped). What a device rounds before anybody has changed a setting is not
+  /// the
+  /// setting's fault: on small pictures it costs more than most settings do (docs/tradeoff.md).
   device,
   /// One a pixel, at its centre, of the triangles as they are.
   exact,

@@ -61,18 +61,18 @@ int run(int argc, char** argv) {
   Renderer with_small = with_plan(
       {.specialisations = SpecialisationSet::all().without(Specialisation::faces_between_pixels)});
   const auto finish = [] { glFinish(); };
-  const Entrant entrants[] = {
+  const BenchmarkCase cases[] = {
       {"plain", [&](const Camera& camera) { plain.draw(camera); }, finish},
       {"generic", [&](const Camera& camera) { generic.draw(camera); }, finish},
       {"no small-triangle culling", [&](const Camera& camera) { with_small.draw(camera); }, finish},
       {"tureen", [&](const Camera& camera) { ours.draw(camera); }, finish}};
   const BenchmarkResult result =
-      run_benchmark(entrants, views_around(soup, scene.info.up, width, height),
+      run_benchmark(cases, views_around(soup, scene.info.up, width, height),
                     {.rounds = rounds, .clock = processor_time ? processor_seconds : nullptr});
-  const FrameStatistics baseline = statistics_of(result.entrants[0].times);
-  for (const EntrantResult& entrant : result.entrants) {
-    const FrameStatistics statistics = statistics_of(entrant.times);
-    const nlohmann::json row = {{"renderer", entrant.name},
+  const FrameStatistics baseline = statistics_of(result.cases[0].times);
+  for (const CaseResult& benchmark_case : result.cases) {
+    const FrameStatistics statistics = statistics_of(benchmark_case.times);
+    const nlohmann::json row = {{"renderer", benchmark_case.name},
                                 {"triangles", soup.triangles.size()},
                                 {"ms", statistics.min_of_medians},
                                 {"spread", statistics.spread},

@@ -54,15 +54,15 @@ void compare(const gl::Context& context, const Settings& settings, const char* w
              const PlanPreferences& without) {
   Renderer fast(context, soup, glm::dvec3(0.0));
   Renderer slow(context, soup, glm::dvec3(0.0), {.plan = without});
-  const auto entrant = [](const char* name, Renderer& renderer) {
-    return Entrant{name, [&renderer](const Camera& camera) { renderer.draw(camera); },
-                   [&renderer] { renderer.finish(); }};
+  const auto benchmark_case = [](const char* name, Renderer& renderer) {
+    return BenchmarkCase{name, [&renderer](const Camera& camera) { renderer.draw(camera); },
+                         [&renderer] { renderer.finish(); }};
   };
-  const Entrant entrants[] = {entrant("with", fast), entrant("without", slow)};
+  const BenchmarkCase cases[] = {benchmark_case("with", fast), benchmark_case("without", slow)};
   BenchmarkOptions options{.rounds = settings.rounds};
   if (context.capabilities().software) options.clock = processor_seconds;
-  const BenchmarkResult result = run_benchmark(entrants, cameras, options);
-  nlohmann::json row = compared(result.entrants[0].times, result.entrants[1].times);
+  const BenchmarkResult result = run_benchmark(cases, cameras, options);
+  nlohmann::json row = compared(result.cases[0].times, result.cases[1].times);
   row["specialisation"] = what;
   row["scene"] = scene;
   row["with_mib"] = double(fast.device_bytes()) / (1 << 20);

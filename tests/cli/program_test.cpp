@@ -254,11 +254,11 @@ TEST_F(Program, RenderDrawsAndReports) {
 
 TEST_F(Program, RenderSmoothsAndScalesWithoutChangingTheSize) {
   write_scene();
-  const auto draw = [&](const std::vector<std::string>& knob) {
+  const auto draw = [&](const std::vector<std::string>& option) {
     std::vector<std::string> arguments = {"render",   "scene.off", "-o",    "picture.png",
                                           "--size",   "64x48",     "--eye", "0,-5,0",
                                           "--target", "0,0,0",     "--json"};
-    arguments.insert(arguments.end(), knob.begin(), knob.end());
+    arguments.insert(arguments.end(), option.begin(), option.end());
     const ChildResult result = run(arguments);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     const Image8 picture = read_png("picture.png");
@@ -272,10 +272,10 @@ TEST_F(Program, RenderSmoothsAndScalesWithoutChangingTheSize) {
   EXPECT_GT(draw({"--supersample", "4"}), 20u);
   EXPECT_GT(draw({"--scale", "0.5"}), 20u);
 
-  for (const auto& [knob, value] : {std::pair{"--supersample", "9"}, {"--scale", "0.2"}}) {
-    const ChildResult result = run({"render", "scene.off", knob, value});
+  for (const auto& [option, value] : {std::pair{"--supersample", "9"}, {"--scale", "0.2"}}) {
+    const ChildResult result = run({"render", "scene.off", option, value});
     EXPECT_EQ(result.exit_code, 2);
-    EXPECT_THAT(result.err, Names(knob));
+    EXPECT_THAT(result.err, Names(option));
   }
   EXPECT_EQ(run({"render", "scene.off", "--supersample", "2", "--scale", "0.5"}).exit_code, 2);
 }

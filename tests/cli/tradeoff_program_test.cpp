@@ -32,15 +32,15 @@ class Tradeoff : public test::ProgramWithPhotographs {
     scene.primitives = test::random_soup(3, {.kind = test::Kind::lattice_mlp, .level = 2});
     tureen::write_scene(scene, folder / "soup.glb");
   }
-  /// Of the antialiasing panel, by the values of its knobs that are not at their default; null
+  /// Of the antialiasing panel, by the values of its settings that are not at their default; null
   /// where it was not measured.
   static nlohmann::json antialiased(const nlohmann::json& document,
-                                    const std::map<std::string, std::string>& settings) {
+                                    const std::map<std::string, std::string>& values) {
     const auto& all = document["antialiasing"]["configurations"];
-    nlohmann::json knobs = all[0]["knobs"];
-    for (const auto& [key, value] : settings) knobs[key] = value;
+    nlohmann::json settings = all[0]["knobs"];
+    for (const auto& [key, value] : values) settings[key] = value;
     for (const auto& each : all)
-      if (each["knobs"] == knobs) return each;
+      if (each["knobs"] == settings) return each;
     return nullptr;
   }
   std::string text_of(const std::string& name) const {
@@ -70,7 +70,7 @@ TEST_F(Tradeoff, MeasuresWritesAndKeepsTheChoice) {
   EXPECT_EQ(configurations[0]["name"], "defaults");
   // The defaults draw what the oracle draws, up to 8 bits: 58.9 dB where every pixel is covered.
   EXPECT_GT(configurations[0]["e_render"]["psnr_db"], 45);
-  // The grid moves edges, and no knob is to blame for that.
+  // The grid moves edges, and no setting is to blame for that.
   EXPECT_LT(configurations[0]["e_render_exact"]["psnr_db"],
             configurations[0]["e_render"]["psnr_db"]);
   EXPECT_GT(json["drawing"]["front"].size(), 0u);
@@ -157,10 +157,10 @@ TEST_F(Tradeoff, SupersamplingAsTheReferenceDoesIsOnNoFront) {
   EXPECT_EQ(coarse["judged"], true);
   // Why it must not be: nothing that antialiases comes as near.
   EXPECT_GT(fine["e_render"]["psnr_db"], coarse["e_render"]["psnr_db"].get<double>() + 3);
-  // Nor does its error make a knob matter.
-  for (const auto& knob : json["antialiasing"]["knobs"])
-    if (knob["key"] == "supersampling") {
-      EXPECT_LT(knob["psnr_range_db"],
+  // Nor does its error make a setting matter.
+  for (const auto& setting : json["antialiasing"]["knobs"])
+    if (setting["key"] == "supersampling") {
+      EXPECT_LT(setting["psnr_range_db"],
                 fine["e_render"]["psnr_db"].get<double>() -
                     antialiased(json, {})["e_render"]["psnr_db"].get<double>());
     }

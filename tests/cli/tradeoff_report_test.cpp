@@ -38,7 +38,7 @@ Outcome outcome(tradeoff::Configuration configuration, const std::string& name, 
 
 Panel panel() {
   Panel result;
-  result.knobs = {
+  result.settings = {
       {"lattice_level", "lattice level", {{"3", "level 3", nothing}, {"2", "level 2", nothing}}},
       {"texel_bits", "texel bits", {{"8", "8 bits", nothing}, {"4", "4 bits", nothing}}}};
   result.outcomes = {outcome({0, 0}, "defaults", 10, 60), outcome({0, 0}, "defaults", 20, 60),
@@ -109,7 +109,7 @@ TEST(TradeoffReport, TheChoiceIsASentence) {
   TradeoffReport made = report();
   EXPECT_THAT(choice_sentence(made), Names("4 bits", "9.00 ms", "50.00 dB", "10.0 ms"));
   made.study.choice.reset();
-  EXPECT_THAT(choice_sentence(made), Names(made.limits.least_psnr_db));
+  EXPECT_THAT(choice_sentence(made), Names(made.limits.min_psnr_db));
 }
 
 TEST(TradeoffReport, WarnsOfOutcomesThatMeanLess) {
@@ -134,20 +134,20 @@ TEST(TradeoffCandidates, AreWhatCanBeChosen) {
 
 Panel supersampled() {
   Panel result;
-  result.knobs = tradeoff::antialiasing_knobs(8);
+  result.settings = tradeoff::antialiasing_settings(8);
   const std::vector<tradeoff::Configuration> star{{0, 0}, {0, 1}, {0, 2}, {0, 3}};
   double ms = 5, psnr = 30;
   for (const tradeoff::Configuration& each : star)
     result.outcomes.push_back(
-        outcome(each, tradeoff::describe(result.knobs, each), ms *= 2, psnr += 8));
+        outcome(each, tradeoff::describe(result.settings, each), ms *= 2, psnr += 8));
   return result;
 }
 
 // 8 x 8 samples differ from a reference of 8 x 8 by rounding, whatever they cost.
 TEST(TradeoffCandidates, TheReferencesOwnSamplesAreOnNoFront) {
   Panel made = supersampled();
-  ASSERT_EQ(made.knobs[1].key, tradeoff::supersampling_key);
-  ASSERT_EQ(made.knobs[1].settings[3].value, "8");
+  ASSERT_EQ(made.settings[1].key, tradeoff::supersampling_key);
+  ASSERT_EQ(made.settings[1].values[3].value, "8");
   EXPECT_FALSE(is_judged(made, made.outcomes[3]));
   EXPECT_TRUE(is_judged(made, made.outcomes[2]));
   find_front(made);

@@ -124,7 +124,7 @@ TEST(Verdicts, FewRoundsHaveNoSpread) {
     EXPECT_EQ(spread_between(best(100, 0, rounds), best(900), 0), std::nullopt) << rounds;
     EXPECT_EQ(verdict_on(best(100), best(900, 0, rounds), 0), Verdict::unknown) << rounds;
   }
-  EXPECT_EQ(verdict_on(best(100, 0, least_rounds), best(900, 0, least_rounds), 0), Verdict::faster);
+  EXPECT_EQ(verdict_on(best(100, 0, min_rounds), best(900, 0, min_rounds), 0), Verdict::faster);
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "runtime/tradeoff/experiment.hpp"
-#include "runtime/tradeoff/knobs.hpp"
 #include "runtime/tradeoff/pareto.hpp"
+#include "runtime/tradeoff/quality_settings.hpp"
 #include "support/errors.hpp"
 #include "support/random.hpp"
 
@@ -159,9 +159,9 @@ TEST(TheChoice, IsTheCheapestWithinTheLimits) {
                                   {.ms = 2, .psnr_db = 60, .coverage_mismatch = 2e-4},
                                   {.ms = 3, .psnr_db = 50, .coverage_mismatch = 1e-4}};
   EXPECT_EQ(cheapest_within(points), 3u);
-  EXPECT_EQ(cheapest_within(points, {.least_psnr_db = 70}), 0u);
-  EXPECT_EQ(cheapest_within(points, {.least_psnr_db = 91}), std::nullopt);
-  EXPECT_EQ(cheapest_within(points, {.least_psnr_db = 40}), 1u);
+  EXPECT_EQ(cheapest_within(points, {.min_psnr_db = 70}), 0u);
+  EXPECT_EQ(cheapest_within(points, {.min_psnr_db = 91}), std::nullopt);
+  EXPECT_EQ(cheapest_within(points, {.min_psnr_db = 40}), 1u);
 }
 
 TEST(TheChoice, PrefersTheSimplerOfTheEquallyFast) {
@@ -174,31 +174,32 @@ TEST(TheChoice, PrefersTheSimplerOfTheEquallyFast) {
 
 std::optional<std::string> nothing_refused(const Configuration&) { return {}; }
 
-TEST(Star, TurnsOneKnobAtATime) {
-  const std::vector<int> settings{3, 1, 2};
-  const Design design = star(settings, nothing_refused);
+TEST(Star, TurnsOneSettingAtATime) {
+  const std::vector<int> value_counts{3, 1, 2};
+  const Design design = star(value_counts, nothing_refused);
   EXPECT_THAT(design.configurations, ElementsAre(Configuration{0, 0, 0}, Configuration{1, 0, 0},
                                                  Configuration{2, 0, 0}, Configuration{0, 0, 1}));
   EXPECT_THAT(design.skipped, IsEmpty());
 }
 
 TEST(Star, SaysWhyAConfigurationIsSkipped) {
-  const std::vector<int> settings{3, 2};
-  const Design design = star(settings, [](const Configuration& c) -> std::optional<std::string> {
-    if (c[0] == 2) return "the device has no such thing";
-    return {};
-  });
+  const std::vector<int> value_counts{3, 2};
+  const Design design =
+      star(value_counts, [](const Configuration& c) -> std::optional<std::string> {
+        if (c[0] == 2) return "the device has no such thing";
+        return {};
+      });
   EXPECT_THAT(design.configurations, SizeIs(3));
   ASSERT_THAT(design.skipped, SizeIs(1));
   EXPECT_EQ(design.skipped[0].configuration, (Configuration{2, 0}));
   EXPECT_EQ(design.skipped[0].reason, "the device has no such thing");
 }
 
-TEST(KnobRanges, CompareEachKnobWithTheDefaults) {
+TEST(SettingRanges, CompareEachSettingWithTheDefaults) {
   const std::vector<Configuration> star{{0, 0}, {1, 0}, {2, 0}, {0, 1}};
   const double none = std::nan("");
   const std::vector<Measured> measured{{10, 60}, {8, 55}, {12, 58}, {none, 45}};
-  const std::vector<KnobRange> ranges = knob_ranges(star, measured, 2);
+  const std::vector<SettingRange> ranges = setting_ranges(star, measured, 2);
   EXPECT_DOUBLE_EQ(ranges[0].time_ratio, 1.5);
   EXPECT_DOUBLE_EQ(ranges[0].psnr_db, 5);
   EXPECT_TRUE(ranges[0].matters());
@@ -208,18 +209,18 @@ TEST(KnobRanges, CompareEachKnobWithTheDefaults) {
   EXPECT_FALSE(ranges[1].matters());
 }
 
-TEST(KnobRanges, PassOverErrorsThatMeanNothing) {
+TEST(SettingRanges, PassOverErrorsThatMeanNothing) {
   const std::vector<Configuration> star{{0}, {1}, {2}};
   const std::vector<Measured> measured{{10, 36}, {20, 45}, {40, std::nan("")}};
-  const KnobRange range = knob_ranges(star, measured, 1).front();
+  const SettingRange range = setting_ranges(star, measured, 1).front();
   EXPECT_DOUBLE_EQ(range.psnr_db, 9);
   EXPECT_DOUBLE_EQ(range.time_ratio, 4);
 }
 
-TEST(Factorial, CombinesTheKnobsThatMatter) {
-  const std::vector<int> settings{3, 2, 2};
-  const std::vector<KnobRange> ranges{{0, 1.5, 5}, {1, 1.02, 9}, {2, 1.2, 3}};
-  const Design design = factorial(settings, ranges, nothing_refused);
+TEST(Factorial, CombinesTheSettingsThatMatter) {
+  const std::vector<int> value_counts{3, 2, 2};
+  const std::vector<SettingRange> ranges{{0, 1.5, 5}, {1, 1.02, 9}, {2, 1.2, 3}};
+  const Design design = factorial(value_counts, ranges, nothing_refused);
   EXPECT_THAT(design.configurations, ElementsAre(Configuration{1, 0, 1}, Configuration{2, 0, 1}));
   EXPECT_EQ(design.reduction.mattering, 2u);
   EXPECT_EQ(design.reduction.combined, 2u);
@@ -227,24 +228,26 @@ TEST(Factorial, CombinesTheKnobsThatMatter) {
 }
 
 TEST(Factorial, WithTheStarIsEveryCombinationOnce) {
-  const std::vector<int> settings{3, 4, 2, 3};
-  std::vector<KnobRange> ranges;
-  for (std::size_t knob = 0; knob < settings.size(); ++knob) ranges.push_back({knob, 2, 2});
-  const Design first = star(settings, nothing_refused);
-  const Design rest = factorial(settings, ranges, nothing_refused, {.most_configurations = 1000});
+  const std::vector<int> value_counts{3, 4, 2, 3};
+  std::vector<SettingRange> ranges;
+  for (std::size_t setting = 0; setting < value_counts.size(); ++setting)
+    ranges.push_back({setting, 2, 2});
+  const Design first = star(value_counts, nothing_refused);
+  const Design rest =
+      factorial(value_counts, ranges, nothing_refused, {.max_configurations = 1000});
   std::set<Configuration> all(first.configurations.begin(), first.configurations.end());
   for (const Configuration& c : rest.configurations) EXPECT_TRUE(all.insert(c).second);
   EXPECT_EQ(all.size(), 3u * 4 * 2 * 3);
 }
 
 TEST(Factorial, SaysWhatItsLimitsLeaveOut) {
-  const std::vector<int> settings{3, 3, 3, 3, 3};
-  std::vector<KnobRange> ranges;
-  for (std::size_t knob = 0; knob < 5; ++knob)
-    ranges.push_back({knob, 1.1 + 0.1 * double(knob), 2});
-  // Four of three settings are 81, of which the star has 9.
-  const FactorialLimits limits{.most_configurations = 71};
-  const Design design = factorial(settings, ranges, nothing_refused, limits);
+  const std::vector<int> value_counts{3, 3, 3, 3, 3};
+  std::vector<SettingRange> ranges;
+  for (std::size_t setting = 0; setting < 5; ++setting)
+    ranges.push_back({setting, 1.1 + 0.1 * double(setting), 2});
+  // Four of three values are 81, of which the star has 9.
+  const FactorialLimits limits{.max_configurations = 71};
+  const Design design = factorial(value_counts, ranges, nothing_refused, limits);
   EXPECT_EQ(design.reduction.mattering, 5u);
   EXPECT_EQ(design.reduction.wanted, 4u);
   EXPECT_EQ(design.reduction.configurations, 72u);
@@ -254,17 +257,17 @@ TEST(Factorial, SaysWhatItsLimitsLeaveOut) {
   EXPECT_THAT(design.configurations, SizeIs(20));
   for (const Configuration& c : design.configurations) EXPECT_EQ(c[0] + c[1], 0);
   EXPECT_THAT(
-      factorial(settings, ranges, nothing_refused, {.most_configurations = 72}).configurations,
+      factorial(value_counts, ranges, nothing_refused, {.max_configurations = 72}).configurations,
       SizeIs(72));
   EXPECT_THAT(
-      factorial(settings, ranges, nothing_refused, {.most_configurations = 0}).configurations,
+      factorial(value_counts, ranges, nothing_refused, {.max_configurations = 0}).configurations,
       IsEmpty());
 }
 
 TEST(Factorial, SkipsWhatCannotBeDrawn) {
-  const std::vector<int> settings{2, 2};
-  const std::vector<KnobRange> ranges{{0, 2, 2}, {1, 2, 2}};
-  const Design design = factorial(settings, ranges, [](const Configuration&) {
+  const std::vector<int> value_counts{2, 2};
+  const std::vector<SettingRange> ranges{{0, 2, 2}, {1, 2, 2}};
+  const Design design = factorial(value_counts, ranges, [](const Configuration&) {
     return std::optional<std::string>("not together");
   });
   EXPECT_THAT(design.configurations, IsEmpty());
@@ -273,16 +276,16 @@ TEST(Factorial, SkipsWhatCannotBeDrawn) {
 }
 
 TEST(Factorial, SaysOnceWhatCannotBeDrawnTogetherAndDoesNotCountIt) {
-  const std::vector<int> settings{2, 3, 2};
+  const std::vector<int> value_counts{2, 3, 2};
   const auto refuse = [](const Configuration& c) -> std::optional<std::string> {
     if (c[1] != 0 && c[2] != 0) return "fewer and more";
     return {};
   };
-  // Of 7 combinations 4 turn both of the knobs that exclude each other.
+  // Of 7 combinations 4 change both of the settings that exclude each other.
   const std::vector<Configuration> drawn{{1, 0, 1}, {1, 1, 0}, {1, 2, 0}};
-  for (const double last_ratio : {1.1, 1.9}) {  // the third knob comes last, then first
-    const std::vector<KnobRange> ranges{{0, 1.5, 5}, {1, 1.4, 5}, {2, last_ratio, 5}};
-    const Design design = factorial(settings, ranges, refuse, {.most_configurations = 3});
+  for (const double last_ratio : {1.1, 1.9}) {  // the third setting comes last, then first
+    const std::vector<SettingRange> ranges{{0, 1.5, 5}, {1, 1.4, 5}, {2, last_ratio, 5}};
+    const Design design = factorial(value_counts, ranges, refuse, {.max_configurations = 3});
     EXPECT_THAT(design.configurations, testing::UnorderedElementsAreArray(drawn));
     EXPECT_EQ(design.reduction.combined, 3u);
     std::vector<Configuration> skipped;
@@ -290,22 +293,23 @@ TEST(Factorial, SaysOnceWhatCannotBeDrawnTogetherAndDoesNotCountIt) {
     EXPECT_THAT(skipped,
                 testing::UnorderedElementsAre(Configuration{0, 1, 1}, Configuration{0, 2, 1}));
   }
-  const std::vector<KnobRange> ranges{{0, 1.5, 5}, {1, 1.4, 5}, {2, 1.3, 5}};
-  const Design fewer = factorial(settings, ranges, refuse, {.most_configurations = 2});
+  const std::vector<SettingRange> ranges{{0, 1.5, 5}, {1, 1.4, 5}, {2, 1.3, 5}};
+  const Design fewer = factorial(value_counts, ranges, refuse, {.max_configurations = 2});
   EXPECT_EQ(fewer.reduction.configurations, 3u);
   EXPECT_EQ(fewer.reduction.combined, 2u);
 }
 
-// The knob must not be called otherwise where its outcomes are looked for.
-TEST(AntialiasingKnobs, OfThemOneIsSupersampling) {
-  const std::vector<Knob> knobs = antialiasing_knobs(8);
-  const auto found = std::find_if(knobs.begin(), knobs.end(),
-                                  [](const Knob& each) { return each.key == supersampling_key; });
-  ASSERT_NE(found, knobs.end());
+// The setting must not be called otherwise where its outcomes are looked for.
+TEST(AntialiasingSettings, OfThemOneIsSupersampling) {
+  const std::vector<QualitySetting> settings = antialiasing_settings(8);
+  const auto found = std::find_if(settings.begin(), settings.end(), [](const QualitySetting& each) {
+    return each.key == supersampling_key;
+  });
+  ASSERT_NE(found, settings.end());
   Applied applied;
-  found->settings.back().apply(applied);
+  found->values.back().apply(applied);
   EXPECT_EQ(applied.quality.supersampling, 8);
-  EXPECT_EQ(found->settings.back().value, "8");
+  EXPECT_EQ(found->values.back().value, "8");
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ export interface AddedScene {
   readonly level: number | null;
 }
 
-export type Entrant =
+export type BenchCase =
   | { readonly name: string; readonly scene: number; readonly published: boolean }
   | { readonly name: string; readonly grid: readonly number[] };
 
@@ -66,7 +66,7 @@ export interface Statistics {
   readonly low_1_percent_fps: number;
 }
 
-export interface EntrantResult {
+export interface CaseResult {
   readonly name: string;
   readonly stable: boolean;
   readonly frame_ms: FrameTimes;
@@ -79,7 +79,7 @@ export interface RunResult {
   /** Of the first against itself: the difference that means nothing. */
   readonly aa_spread: number;
   readonly self_test_ms: readonly [FrameTimes, FrameTimes];
-  readonly entrants: readonly EntrantResult[];
+  readonly entrants: readonly CaseResult[];
 }
 
 /** Of the canvas, in its own pixels from its bottom left corner. */
@@ -186,7 +186,7 @@ export class BenchEngine {
   }
 
   /** Frames without a pause but the page's breaths. Rejects with ViewerError and the signal's reason. */
-  async run(entrants: readonly Entrant[], how: { readonly rounds: number; readonly leastSampleMs: number },
+  async run(entrants: readonly BenchCase[], how: { readonly rounds: number; readonly leastSampleMs: number },
             signal: AbortSignal, tell: (fraction: number) => void): Promise<RunResult> {
     this.engine.call('bench_run', { entrants, rounds: how.rounds, least_sample_ms: how.leastSampleMs });
     for (let done = false; !done;) {

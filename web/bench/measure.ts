@@ -5,7 +5,7 @@ import { nameOf, urlOf } from '../viewer/addresses.js';
 import { download } from '../viewer/download.js';
 import { lowerLevelSentence } from '../viewer/scene_summary.js';
 import { ViewerError, type SceneSource } from '../viewer/types.js';
-import type { AddedScene, BenchEngine, Cell, Entrant, Files, Pipeline, RunResult } from './bench_engine.js';
+import type { AddedScene, BenchEngine, Cell, BenchCase, Files, Pipeline, RunResult } from './bench_engine.js';
 import { clockStepMs } from './clock.js';
 import { setName, sizeText, type BenchRequest, type Size } from './request.js';
 
@@ -171,7 +171,7 @@ export class Measuring {
     const cells = gridCells(added.length, size);
     for (const cell of cells) bench.setCameras(cell.scene, request.cameras, cell);
     bench.show(cells, size, 0);
-    const entrants: Entrant[] = configurations.map(({ name }) => request.grid
+    const entrants: BenchCase[] = configurations.map(({ name }) => request.grid
       ? { name, grid: cells.map(({ scene }) => scene) }
       : { name, scene: 0, published: name === 'published' });
     const what = `${added.length > 1 ? `${added.length} scenes` : added[0]!.description.name}, ${sizeText(size)}`;

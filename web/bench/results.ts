@@ -2,7 +2,7 @@
 
 import { block, fillSentences, make } from '../page/dom.js';
 import { bytesText, millisecondsText } from '../page/numbers.js';
-import type { EntrantResult } from './bench_engine.js';
+import type { CaseResult } from './bench_engine.js';
 import { clockSentence } from './clock.js';
 import { leastSampleMs, type Measurement, type MeasuredScene } from './measure.js';
 import { sizeText } from './request.js';
@@ -14,15 +14,15 @@ const leastRounds = 3;
 
 /** Of the smallest medians of a round, as `tureen bench` has its ratios: null where the difference is none that
  *  the spreads leave, and not a number where too few rounds tell. */
-function ratio(entrant: EntrantResult, first: EntrantResult, { result }: Measurement): number | null {
+function ratio(timed: CaseResult, first: CaseResult, { result }: Measurement): number | null {
   if (first.frame_ms.length < leastRounds) return NaN;
-  const a = entrant.statistics.min_of_medians, b = first.statistics.min_of_medians;
-  const spread = Math.max(result.aa_spread, entrant.statistics.spread, first.statistics.spread);
+  const a = timed.statistics.min_of_medians, b = first.statistics.min_of_medians;
+  const spread = Math.max(result.aa_spread, timed.statistics.spread, first.statistics.spread);
   return a !== b && Math.abs(a - b) >= 2 * spread * Math.min(a, b) ? a / b : null;
 }
 
 /** The text where there are the hundred samples of which the slowest is more than chance. */
-const ofSlowest = ({ frame_ms }: EntrantResult, text: string) =>
+const ofSlowest = ({ frame_ms }: CaseResult, text: string) =>
   (frame_ms.length * frame_ms[0]!.length >= 100 ? text : '–');
 
 const counted = (count: number, what: string) => `${count} ${what}${count === 1 ? '' : 's'}`;
@@ -43,13 +43,13 @@ const timeColumns = [
   ['ratio', 'of the rounds’ smallest medians, to the first one’s'], ['at rest', 'whether its times had settled before they counted'],
 ] as const;
 
-function timesRow(entrant: EntrantResult, measurement: Measurement): HTMLElement {
-  const { statistics: ms, name, stable } = entrant, first = measurement.result.entrants[0]!;
-  const to = ratio(entrant, first, measurement);
+function timesRow(timed: CaseResult, measurement: Measurement): HTMLElement {
+  const { statistics: ms, name, stable } = timed, first = measurement.result.entrants[0]!;
+  const to = ratio(timed, first, measurement);
   return make('tr', {}, make('th', { scope: 'row' }, name), cell(millisecondsText(ms.median)),
-              cell(millisecondsText(ms.p95)), cell(ofSlowest(entrant, millisecondsText(ms.p99))),
-              cell(ofSlowest(entrant, `${ms.low_1_percent_fps.toFixed(1)} fps`)),
-              cell(entrant === first ? '1' : ratioText(to, measurement)), cell(stable ? 'yes' : 'no'));
+              cell(millisecondsText(ms.p95)), cell(ofSlowest(timed, millisecondsText(ms.p99))),
+              cell(ofSlowest(timed, `${ms.low_1_percent_fps.toFixed(1)} fps`)),
+              cell(timed === first ? '1' : ratioText(to, measurement)), cell(stable ? 'yes' : 'no'));
 }
 
 function timesGroup(scene: MeasuredScene, measurement: Measurement): HTMLElement {
@@ -58,7 +58,7 @@ function timesGroup(scene: MeasuredScene, measurement: Measurement): HTMLElement
     (result.frames_per_sample > 1 ? ` of ${result.frames_per_sample} frames a view` : '');
   const title = make('th', { scope: 'rowgroup', colspan: timeColumns.length }, `${scene.name}, ${sizeText(measurement)} `,
                      make('small', {}, `${cameraSet}: ${samples}; A/A spread ${percentText(result.aa_spread)}`));
-  return make('tbody', {}, make('tr', {}, title), ...result.entrants.map((entrant) => timesRow(entrant, measurement)));
+  return make('tbody', {}, make('tr', {}, title), ...result.entrants.map((timed) => timesRow(timed, measurement)));
 }
 
 function memoryRow(scene: MeasuredScene, { name, device_bytes, plan_ms, upload_ms }: MeasuredScene['configurations'][number]) {

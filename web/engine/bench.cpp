@@ -34,7 +34,7 @@ struct BenchScene {
 };
 
 /// Who takes part in a run: one scene, or several as one frame.
-struct Participant {
+struct BenchCase {
   std::string name;
   std::vector<Renderer*> renderers;
   std::vector<const BenchScene*> scenes;
@@ -42,7 +42,7 @@ struct Participant {
 
 struct Bench {
   std::vector<std::unique_ptr<BenchScene>> scenes;
-  std::vector<Participant> participants;
+  std::vector<BenchCase> cases;
   std::optional<BenchmarkRun> run;
 };
 
@@ -163,9 +163,10 @@ Json set_cameras(const Json& arguments) {
 
 // -- runs ---------------------------------------------------------------------------------------
 
-Participant participant_of(const Json& entrant) {
-  Participant result{.name = entrant.at("name").get<std::string>(), .renderers = {}, .scenes = {}};
-  if (const auto grid = entrant.find("grid"); grid != entrant.end()) {
+BenchCase bench_case_of(const Json& benchmark_case) {
+  BenchCase result{
+      .name = benchmark_case.at("name").get<std::string>(), .renderers = {}, .scenes = {}};
+  if (const auto grid = benchmark_case.find("grid"); grid != benchmark_case.end()) {
     for (const Json& index : *grid) {
       BenchScene& scene = scene_at(index);
       result.renderers.push_back(&scene.tureen);
@@ -173,8 +174,8 @@ Participant participant_of(const Json& entrant) {
     }
     return result;
   }
-  BenchScene& scene = scene_at(entrant.at("scene"));
-  const bool published = entrant.at("published").get<bool>();
+  BenchScene& scene = scene_at(benchmark_case.at("scene"));
+  const bool published = benchmark_case.at("published").get<bool>();
   if (published && !scene.published) throw UsageError("the published pipeline was not added");
   result.renderers.push_back(published ? &*scene.published : &scene.tureen);
   result.scenes.push_back(&scene);
@@ -182,43 +183,42 @@ Participant participant_of(const Json& entrant) {
 }
 
 /// The protocol knows one list of cameras. Theirs have numbers for names: each scene has its own.
-Entrant entrant_of(const Participant& participant) {
-  return {.name = participant.name,
+BenchmarkCase benchmark_case_of(const BenchCase& bench_case) {
+  return {.name = bench_case.name,
           .draw =
-              [&participant](const Camera& camera) {
+              [&bench_case](const Camera& camera) {
                 const std::size_t index = std::stoul(camera.name);
-                for (std::size_t i = 0; i < participant.renderers.size(); ++i)
-                  participant.renderers[i]->draw(participant.scenes[i]->cameras[index]);
+                for (std::size_t i = 0; i < bench_case.renderers.size(); ++i)
+                  bench_case.renderers[i]->draw(bench_case.scenes[i]->cameras[index]);
               },
           .finish =
-              [&participant] {
-                for (const Renderer* renderer : participant.renderers) renderer->finish();
+              [&bench_case] {
+                for (const Renderer* renderer : bench_case.renderers) renderer->finish();
               }};
 }
 
 /// {"entrants", "rounds", "least_sample_ms"}
 Json begin(const Json& arguments) {
   bench().run.reset();
-  bench().participants.clear();
+  bench().cases.clear();
   std::size_t views = 0;
-  for (const Json& entrant : arguments.at("entrants")) {
-    bench().participants.push_back(participant_of(entrant));
-    for (const BenchScene* scene : bench().participants.back().scenes) {
+  for (const Json& benchmark_case : arguments.at("entrants")) {
+    bench().cases.push_back(bench_case_of(benchmark_case));
+    for (const BenchScene* scene : bench().cases.back().scenes) {
       if (scene->cameras.empty()) throw UsageError("a scene has no cameras yet");
       if (views > 0 && scene->cameras.size() != views)
         throw UsageError("all that take part must have as many cameras");
       views = scene->cameras.size();
     }
   }
-  if (bench().participants.empty() || views == 0) throw UsageError("nobody takes part");
+  if (bench().cases.empty() || views == 0) throw UsageError("nobody takes part");
   std::vector<Camera> numbers(views);
   for (std::size_t i = 0; i < views; ++i) numbers[i].name = std::to_string(i);
-  std::vector<Entrant> entrants;
-  for (const Participant& participant : bench().participants)
-    entrants.push_back(entrant_of(participant));
+  std::vector<BenchmarkCase> cases;
+  for (const BenchCase& bench_case : bench().cases) cases.push_back(benchmark_case_of(bench_case));
   BenchmarkOptions options{.rounds = std::max(arguments.at("rounds").get<int>(), 1)};
-  options.least_sample_ms = arguments.at("least_sample_ms");
-  bench().run.emplace(entrants, numbers, options);
+  options.min_sample_ms = arguments.at("least_sample_ms");
+  bench().run.emplace(cases, numbers, options);
   return nullptr;
 }
 
@@ -255,9 +255,9 @@ Json to_json(const FrameStatistics& ms) {
 }
 
 /// Of the pictures of a frame, one below the other where it has several.
-std::string hash_of(const Participant& participant) {
+std::string hash_of(const BenchCase& bench_case) {
   Image8 all;
-  for (const Renderer* renderer : participant.renderers) {
+  for (const Renderer* renderer : bench_case.renderers) {
     const Image8 one = renderer->read_color();
     all.pixels.insert(all.pixels.end(), one.pixels.begin(), one.pixels.end());
   }
@@ -267,20 +267,20 @@ std::string hash_of(const Participant& participant) {
 Json result(const Json&) {
   const BenchmarkResult measured = std::move(run()).result();
   bench().run.reset();
-  Json self_test = Json::array(), entrants = Json::array();
+  Json self_test = Json::array(), cases = Json::array();
   for (const FrameTimes& times : measured.self_test) self_test.push_back(rounds_of(times));
-  for (std::size_t i = 0; i < measured.entrants.size(); ++i) {
-    const EntrantResult& entrant = measured.entrants[i];
-    entrants.push_back({{"name", entrant.name},
-                        {"stable", entrant.stable},
-                        {"frame_ms", rounds_of(entrant.times)},
-                        {"pixels_hash", hash_of(bench().participants[i])},
-                        {"statistics", to_json(statistics_of(entrant.times))}});
+  for (std::size_t i = 0; i < measured.cases.size(); ++i) {
+    const CaseResult& benchmark_case = measured.cases[i];
+    cases.push_back({{"name", benchmark_case.name},
+                     {"stable", benchmark_case.stable},
+                     {"frame_ms", rounds_of(benchmark_case.times)},
+                     {"pixels_hash", hash_of(bench().cases[i])},
+                     {"statistics", to_json(statistics_of(benchmark_case.times))}});
   }
   return {{"frames_per_sample", measured.frames_per_sample},
           {"aa_spread", measured.aa_spread},
           {"self_test_ms", self_test},
-          {"entrants", entrants}};
+          {"entrants", cases}};
 }
 
 /// {"cells": [{"scene", "camera", "x", "y", "width", "height"}], "width", "height"}

@@ -1,4 +1,4 @@
-#include "cli/bench_contestants.hpp"
+#include "cli/bench_cases.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -32,10 +32,10 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 /// A renderer with one plan: what `tureen render` draws with.
-class RendererContestant final : public Contestant {
+class RendererCase final : public BenchCase {
  public:
-  RendererContestant(const std::string& name, const gl::Context& context, const Scene& scene,
-                     const PlanPreferences& preferences)
+  RendererCase(const std::string& name, const gl::Context& context, const Scene& scene,
+               const PlanPreferences& preferences)
       : context_(context) {
     configuration.name = name;
     const auto& soup = std::get<TriangleSoup>(scene.primitives);
@@ -66,9 +66,9 @@ class RendererContestant final : public Contestant {
   std::unique_ptr<Renderer> renderer_;
 };
 
-class CopyContestant final : public Contestant {
+class CopyCase final : public BenchCase {
  public:
-  explicit CopyContestant(const gl::Context& context) {
+  explicit CopyCase(const gl::Context& context) {
     configuration.name = copy;
     const auto start = std::chrono::steady_clock::now();
     copy_ = std::make_unique<CopyCeiling>(context);
@@ -87,7 +87,7 @@ class CopyContestant final : public Contestant {
   std::unique_ptr<CopyCeiling> copy_;
 };
 
-std::vector<std::string> names_of(const ContestantOptions& options) {
+std::vector<std::string> names_of(const BenchCaseOptions& options) {
   std::vector<std::string> names = options.only;
   const PlanPreferences& plan = options.drawing.plan;
   if (names.empty()) {
@@ -141,25 +141,24 @@ Setting setting_of(const std::string& name, PlanPreferences plan) {
   return {plan, options};
 }
 
-std::unique_ptr<Contestant> make_contestant(const std::string& name,
-                                            const ContestantOptions& options,
-                                            const gl::Context& context, const Scene& scene) {
-  if (name == copy) return std::make_unique<CopyContestant>(context);
+std::unique_ptr<BenchCase> make_case(const std::string& name, const BenchCaseOptions& options,
+                                     const gl::Context& context, const Scene& scene) {
+  if (name == copy) return std::make_unique<CopyCase>(context);
   const Setting setting = setting_of(name, preferences_for(scene, options.drawing));
-  auto contestant = std::make_unique<RendererContestant>(name, context, scene, setting.plan);
-  contestant->configuration.options = setting.options;
-  return contestant;
+  auto bench_case = std::make_unique<RendererCase>(name, context, scene, setting.plan);
+  bench_case->configuration.options = setting.options;
+  return bench_case;
 }
 
 }  // namespace
 
-Entrant Contestant::entrant() {
+BenchmarkCase BenchCase::benchmark_case() {
   return {.name = configuration.name,
           .draw = [this](const Camera& camera) { draw(camera); },
           .finish = [this] { finish(); }};
 }
 
-void add_contestant_options(Command& command, ContestantOptions& options) {
+void add_case_options(Command& command, BenchCaseOptions& options) {
   add_drawing_options(command, options.drawing);
   add_drawing_scale(command, options.drawing);
   command
@@ -177,7 +176,7 @@ void add_contestant_options(Command& command, ContestantOptions& options) {
                    "shader, and copies as many pixels");
 }
 
-void check(const ContestantOptions& options) {
+void check(const BenchCaseOptions& options) {
   for (std::size_t i = 0; i < options.only.size(); ++i) {
     const std::string& name = options.only[i];
     if (std::find(all_names.begin(), all_names.end(), name) == all_names.end())
@@ -192,18 +191,18 @@ void check(const ContestantOptions& options) {
   }
 }
 
-Contestants make_contestants(const ContestantOptions& options, const gl::Context& context,
-                             const Scene& scene) {
-  Contestants result;
+BenchCases make_cases(const BenchCaseOptions& options, const gl::Context& context,
+                      const Scene& scene) {
+  BenchCases result;
   std::exception_ptr first;
   for (const std::string& name : names_of(options)) {
     const auto leave_out = [&](const Error& error) {
       if (!options.only.empty()) throw;  // it was asked for by name
       if (!first) first = std::current_exception();
-      result.left_out.push_back({name, error.reason()});
+      result.skipped.push_back({name, error.reason()});
     };
     try {
-      result.list.push_back(make_contestant(name, options, context, scene));
+      result.list.push_back(make_case(name, options, context, scene));
     } catch (const UsageError& error) {
       leave_out(error);
     } catch (const DeviceLimitError& error) {

@@ -17,22 +17,22 @@
 namespace tureen::cli {
 
 /// As typed.
-struct ContestantOptions {
+struct BenchCaseOptions {
   DrawingOptions drawing;
   std::vector<std::string> only;  // names; empty: the usual ones
   bool ceilings = false;
 };
 
 /// --only, --ceilings and the options that all commands share which draw.
-void add_contestant_options(Command& command, ContestantOptions& options);
+void add_case_options(Command& command, BenchCaseOptions& options);
 
 /// Throws UsageError for names that nobody has.
-void check(const ContestantOptions& options);
+void check(const BenchCaseOptions& options);
 
 /// Something that draws a camera's view on a device.
-class Contestant {
+class BenchCase {
  public:
-  virtual ~Contestant() = default;
+  virtual ~BenchCase() = default;
   virtual void draw(const Camera& camera) = 0;
   virtual void finish() const = 0;
   virtual Image8 last_frame() const = 0;
@@ -41,26 +41,26 @@ class Contestant {
 
   BenchConfiguration configuration;  // as the result describes it
 
-  Entrant entrant();
+  BenchmarkCase benchmark_case();
 };
 
 /// A configuration that cannot draw the scene, and why.
-struct LeftOut {
+struct SkippedCase {
   std::string name;
   std::string reason;
 };
 
-struct Contestants {
-  std::vector<std::unique_ptr<Contestant>> list;  // the first is what ratios refer to
-  double peak_mib = 0;  // of the process, when the first was ready to draw
-  std::vector<LeftOut> left_out;
+struct BenchCases {
+  std::vector<std::unique_ptr<BenchCase>> list;  // the first is what ratios refer to
+  double peak_mib = 0;                           // of the process, when the first was ready to draw
+  std::vector<SkippedCase> skipped;
 };
 
-/// Plans and uploads for each; the times are in Contestant::configuration. With --no-specialise or
+/// Plans and uploads for each; the times are in BenchCase::configuration. With --no-specialise or
 /// --pipeline published only that one takes part, and the ceilings where asked for. Who cannot draw
 /// this soup is left out, but UsageError and DeviceLimitError pass where --only names it; where
 /// nobody is left, the first of them.
-Contestants make_contestants(const ContestantOptions& options, const gl::Context& context,
-                             const Scene& scene);
+BenchCases make_cases(const BenchCaseOptions& options, const gl::Context& context,
+                      const Scene& scene);
 
 }  // namespace tureen::cli

@@ -1,0 +1,60 @@
+// The settings that a soup has: what each can be set to, and what that changes in its data or in
+// how finely it is drawn. The experiment (runtime/tradeoff/experiment.hpp) counts them, this says
+// what they mean.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/tradeoff/experiment.hpp"
+#include "soup/edits.hpp"
+#include "soup/quality.hpp"
+#include "soup/triangle_soup.hpp"
+
+namespace tureen::tradeoff {
+
+/// What values stand for: the soup with its edits, drawn like this.
+struct Applied {
+  Edits edits;
+  Quality quality;
+};
+
+struct SettingValue {
+  std::string value;  // for programs: "3", "base"
+  std::string words;  // for people: "lattice level 3", "base colour"
+  std::function<void(Applied&)> apply;
+};
+
+struct QualitySetting {
+  std::string key;                   // for programs: "lattice_level"
+  std::string title;                 // for people: "lattice level"
+  std::vector<SettingValue> values;  // the default first, whose apply changes nothing
+};
+
+/// The settings that do not antialias, in the order of docs/tradeoff.md: those that mean anything
+/// for this soup, with the values that change something. `visible_pixels` are
+/// count_visible_pixels() of the views, by which the triangle budget chooses.
+std::vector<QualitySetting> drawing_settings(const TriangleSoup& soup,
+                                             std::span<const std::uint64_t> visible_pixels);
+
+/// QualitySetting::key of supersampling.
+inline constexpr const char* supersampling_key = "supersampling";
+
+/// Those that decide how many samples a pixel has, and where: resolution scale, supersampling up to
+/// `max_samples` an axis.
+std::vector<QualitySetting> antialiasing_settings(int max_samples);
+
+/// How many values each setting has: what the experiment counts.
+std::vector<int> value_counts(const std::vector<QualitySetting>& settings);
+
+Applied applied_by(const std::vector<QualitySetting>& settings, const Configuration& configuration);
+
+/// The values that are not at their defaults, in words, "lattice level 2, base colour";
+/// "defaults" where there are none.
+std::string describe(const std::vector<QualitySetting>& settings,
+                     const Configuration& configuration);
+
+}  // namespace tureen::tradeoff
