@@ -1,6 +1,5 @@
-// Who takes part in `tureen bench`: the plan, with either shading stage where asked for, the same
-// pipeline without specialisations, the published pipeline, and the device's ceilings, each ready
-// to draw.
+// The cases of `tureen bench`, each ready to draw: the plan, on request with either shading stage,
+// the same pipeline without specialisations, the published pipeline, and the device's ceilings.
 #pragma once
 
 #include <memory>
@@ -26,7 +25,7 @@ struct BenchCaseOptions {
 /// --only, --ceilings and the options that all commands share which draw.
 void add_case_options(Command& command, BenchCaseOptions& options);
 
-/// Throws UsageError for names that nobody has.
+/// Throws UsageError for unknown names.
 void check(const BenchCaseOptions& options);
 
 /// Something that draws a camera's view on a device.
@@ -36,7 +35,7 @@ class BenchCase {
   virtual void draw(const Camera& camera) = 0;
   virtual void finish() const = 0;
   virtual Image8 last_frame() const = 0;
-  /// Of these views; a reason and no times where nobody can tell.
+  /// Of these views; a reason and no times where the device has no timer.
   virtual PassTimes passes(std::span<const Camera> cameras) = 0;
 
   BenchConfiguration configuration;  // as the result describes it
@@ -57,9 +56,9 @@ struct BenchCases {
 };
 
 /// Plans and uploads for each; the times are in BenchCase::configuration. With --no-specialise or
-/// --pipeline published only that one takes part, and the ceilings where asked for. Who cannot draw
-/// this soup is left out, but UsageError and DeviceLimitError pass where --only names it; where
-/// nobody is left, the first of them.
+/// --pipeline published there is only that case, and the ceilings on request. Cases that cannot
+/// draw this soup are skipped, but UsageError and DeviceLimitError pass where --only names the
+/// case, or, the first of them, where no case is left.
 BenchCases make_cases(const BenchCaseOptions& options, const gl::Context& context,
                       const Scene& scene);
 

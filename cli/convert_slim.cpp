@@ -201,7 +201,7 @@ Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& g
     scene.cameras.resize(1);
     lost.push_back(fmt::format("Slim: of {} recorded cameras only the first is kept.", cameras));
   }
-  // What reading the scene lost is stored with what compressing it loses.
+  // The file stores the losses of reading and of compressing.
   scene.info.notes = all_notes(scene.info);
   scene.info.remarks.clear();
   scene.info.notes.insert(scene.info.notes.end(), lost.begin(), lost.end());

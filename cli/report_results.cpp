@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A result of none of our kinds: a folder may hold such files.
+/// Not a result that we write: a folder may hold such files.
 struct UnknownResult : InputError {
   using InputError::InputError;
 };
@@ -49,7 +49,7 @@ void check_measurements(const JsonView& root) {
   for (const auto& [name, rows] : tables.value().items()) tables[name.c_str()].size();
 }
 
-/// The lines of a log, a list; a last one that is not complete is left out.
+/// The lines of a log as a list, without an incomplete last one.
 ReportResult training(const std::string& file, const std::string& text) {
   if (read_training_log(file).empty())
     throw InputError({file, {}, {}}, "the log holds no record yet");

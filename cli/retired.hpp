@@ -5,8 +5,8 @@
 
 namespace tureen::cli {
 
-/// What replaces the option `name` ("--csv") of `command`, or with an empty `name` the command
-/// itself, as a clause: "-o FOLDER writes ..". Empty for what never existed.
+/// The replacement for the option `name` ("--csv") of `command`, or with an empty `name` for the
+/// command itself, as a clause: "-o FOLDER writes ..". Empty for what never existed.
 std::string replacement_of(const std::string& command, const std::string& name = "");
 
 }  // namespace tureen::cli

@@ -20,8 +20,8 @@ struct ExactError {
   double coverage_mismatch = 0;
 };
 
-/// By whom an outcome was drawn: by our plan, by it with nothing left out (--no-specialise), or by
-/// the published pipeline.
+/// How an outcome was drawn: by our plan, by our plan without specialisations (--no-specialise), or
+/// by the published pipeline.
 enum class Method { specialised, generic, published };
 
 /// Of methods in their order, as files have them.
@@ -50,7 +50,7 @@ struct Skipped {
   std::string reason;
 };
 
-/// What one reference is the judge of: drawing settings, or antialiasing ones.
+/// Outcomes with one reference: of drawing settings, or of antialiasing ones.
 struct Panel {
   std::vector<tradeoff::QualitySetting> settings;
   std::vector<Outcome> outcomes;  // the defaults first
@@ -65,7 +65,7 @@ struct Panel {
   RenderError ideal;
 };
 
-/// Whether the error of an outcome says anything of its settings. Supersampling at the antialiasing
+/// Whether the error of an outcome depends on its settings. Supersampling at the antialiasing
 /// reference's own samples (tradeoff::antialiased_samples) is measured for its time.
 bool is_judged(const Panel& panel, const Outcome& outcome);
 
@@ -85,7 +85,7 @@ void find_front(Panel& panel);
 
 bool is_on_front(const Panel& panel, std::size_t outcome);
 
-/// The outcome of the same configuration with nothing left out of the plan; null where there is
+/// The outcome of the same configuration without specialisations; null where there is
 /// none, and of the published pipeline.
 const Outcome* generic_of(const Panel& panel, const Outcome& outcome);
 

@@ -17,7 +17,7 @@ namespace tureen::cli {
 
 namespace {
 
-/// What an effort stands for.
+/// The defaults of an effort.
 struct Defaults {
   std::string size;
   DefaultViews views;
@@ -48,7 +48,7 @@ BenchViewOptions view_options(const TradeoffOptions& options) {
   return views;
 }
 
-/// What the model is held against; none without a dataset. Read before anything is
+/// The photographs to compare the model with; none without a dataset. Read before anything is
 /// measured: minutes of work must not end in a refusal.
 std::vector<Photograph> test_photographs(const TradeoffOptions& options, TradeoffReport& report) {
   if (options.dataset.path.empty()) return {};
@@ -78,7 +78,7 @@ void measure_models(const TradeoffOptions& options, const Scene& scene,
       model_errors(report.study.antialiasing, soup, scene.origin, photographs, model);
 }
 
-/// What is known before anything is measured.
+/// The part of the report that is known before measuring.
 TradeoffReport head_of(const TradeoffOptions& options, const Scene& scene) {
   const auto& soup = std::get<TriangleSoup>(scene.primitives);
   TradeoffReport report;

@@ -19,7 +19,7 @@ namespace {
 using tradeoff::Configuration;
 using tradeoff::QualitySetting;
 
-/// What nothing can be drawn with, before anything is uploaded.
+/// Refuses configurations that cannot be drawn, before anything is uploaded.
 tradeoff::Refusal refusal_of(const std::vector<QualitySetting>& settings) {
   return [&settings](const Configuration& configuration) {
     return defect(tradeoff::applied_by(settings, configuration).quality);
@@ -53,7 +53,7 @@ void find_ranges(Panel& panel) {
   panel.ranges = tradeoff::setting_ranges(configurations, measured, panel.settings.size());
 }
 
-/// What follows from the star: which settings matter, all combinations of these, and the front.
+/// After the star: all combinations of the settings that matter, and the front.
 void finish(const StudyOptions& options, const std::string& task, Measurer& measurer,
             Panel& panel) {
   find_ranges(panel);

@@ -64,7 +64,7 @@ BenchConfiguration configuration(const JsonView& view) {
           .specialisations = specialisations_of(view)};
 }
 
-/// What the cases of one measurement share.
+/// The part that the cases of one measurement share.
 BenchMeasurement shared_part(const JsonView& view) {
   const JsonView cases = view["entrants"];
   if (cases.size() == 0) cases.fail("nobody took part");

@@ -27,7 +27,7 @@ class GltfSoupBuilder {
   TriangleSoup finish();
 
   bool has_vertex_colors() const { return !vertex_colors_.empty(); }
-  /// What is drawn otherwise than the file says; the same remark may stand there repeatedly.
+  /// Differences between the file and what is drawn; a remark may occur repeatedly.
   std::vector<Remark> remarks;
 
  private:

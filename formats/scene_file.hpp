@@ -11,7 +11,7 @@
 namespace tureen {
 
 /// What COLOR_0 of a foreign glTF holds. The specification says linear; common Python tools write
-/// display-referred values. `automatic` decides by the file's generator and says so in the remarks.
+/// display-referred values. `automatic` decides by the file's generator and adds a remark.
 enum class VertexColorSpace { automatic, srgb, linear };
 
 struct ReadOptions {

@@ -111,7 +111,7 @@ class Reader {
     return std::move(preset.edits);
   }
 
-  /// What the lattices take at a level at most this; faces that share all of their texels go on
+  /// Bytes of the lattices up to this level; faces that share all of their texels go on
   /// sharing them.
   static std::uint64_t texels_at_most(const LatticeTexture& texture, int level) {
     std::vector<std::uint64_t> patches;

@@ -1,4 +1,4 @@
-// What a lattice texture holds, measured: the plan specialises for it.
+// Measured traits of a lattice texture, for which the plan specialises.
 #pragma once
 
 #include <cstdint>

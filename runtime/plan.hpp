@@ -1,4 +1,4 @@
-// What is drawn for this scene on this device, and which specialisations apply. Made once, without
+// The plan: how a scene is drawn on a device, and which specialisations apply. Made once, without
 // GL; the pipelines draw by it. plan_description.hpp puts it into English. A test holds each
 // specialisation against the plan made with `specialise = false`.
 #pragma once
@@ -38,7 +38,7 @@ enum class ShadingSite {
              // background's. How fast a device can be asked to draw them at all (a ceiling)
 };
 
-/// What runs the shading pass of a deferred plan.
+/// The kind of shader that runs the shading pass of a deferred plan.
 enum class ShadingStage {
   fragment,  // a triangle over the window; the depth test rejects the background
   compute,   // a compute shader, an invocation for every pixel of the picture
@@ -111,7 +111,7 @@ struct RenderPlan {
   std::vector<AppliedSpecialisation> applied;
   bool applies(Specialisation what) const;
 
-  // What is known of the soup and of the request, for people and for tests.
+  // Facts on the soup and the request, for people and for tests.
 
   std::string appearance;            // appearance_name() of the soup
   std::size_t soup_faces = 0;        // all of them

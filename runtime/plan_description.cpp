@@ -22,7 +22,7 @@ std::string margin_of(const AppliedSpecialisation& applied) {
   return applied.what == Specialisation::shading_pass ? " (exact but for rounding)" : " (exact)";
 }
 
-/// What is drawn or computed instead.
+/// The replacement that is drawn or computed.
 std::string effect_of(const AppliedSpecialisation& applied) {
   const auto counted = [&](const char* what) {
     return formatted("%zu of %zu ", applied.count, applied.total) + what;

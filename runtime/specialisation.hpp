@@ -1,6 +1,6 @@
 // Specialisations: what a plan does not draw or compute because the scene does not need it. Each
 // has a name, so that it can be turned off alone, to measure its gain or to look for a fault.
-// docs/leaving-out.md says how each is found, why the image stays the same, and what it gains.
+// docs/leaving-out.md has the condition, the bound and the gain of each.
 #pragma once
 
 #include <cstddef>
@@ -32,8 +32,8 @@ enum class Specialisation : std::uint8_t {
 /// One specialisation, as a plan applied it.
 struct AppliedSpecialisation {
   Specialisation what = {};
-  /// What is not drawn or computed, of how many: faces, bands or hidden neurons, by its kind. Both
-  /// are 0 where nothing is counted.
+  /// Faces, bands or hidden neurons, by its kind, that are not drawn or computed, and all of them.
+  /// Both are 0 where nothing is counted.
   std::size_t count = 0, total = 0;
   /// The largest change of a colour, in steps of 8 bits: 0 (exact, but for rounding) to 0.5.
   double margin = 0;

@@ -21,7 +21,7 @@ struct UpEvidence {
   glm::dvec3 extent{0.0};  // the sides of the scene's box
 };
 
-/// What a scene tells. `subject` is subject_of(scene); the scene must outlive the evidence.
+/// A scene's evidence. `subject` is subject_of(scene); the scene must outlive the evidence.
 UpEvidence evidence_of(const Scene& scene, const Subject& subject);
 
 struct UpGuess {

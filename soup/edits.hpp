@@ -21,7 +21,7 @@ struct Edits {
   /// No face has a lattice above this level, 0..lattice::max_level: finer ones are projected
   /// (soup/lattice_levels.hpp).
   int lattice_level = lattice::max_level;
-  /// What turns texels into colour (soup/baked_color.hpp).
+  /// The way from texels to colour (soup/baked_color.hpp).
   enum class Color { network, baked, base } color = Color::network;
   /// Texels become bytes where they are floats (soup/lattice_bytes.hpp).
   bool byte_texels = false;

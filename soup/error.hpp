@@ -1,4 +1,4 @@
-// The one family of exceptions that every room throws: what went wrong, where and why, and what a
+// The one family of exceptions that every module throws: what went wrong, where and why, and what a
 // person can do about it.
 // A caller's bug is an assertion instead; no library exits or prints.
 #pragma once

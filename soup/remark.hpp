@@ -1,4 +1,4 @@
-// What a reader assumed or lost: a value that programs compare, and the sentence for people that
+// A reader's assumption or loss: a value that programs compare, and the sentence for people that
 // describe() makes of it.
 #pragma once
 
@@ -43,7 +43,7 @@ struct Remark {
     blending_cut_out,
     alpha_half_restored,  // counts: texels changed, all
     mean_colors_shown,    // names: the extension that is read from .glb alone
-    // What is not drawn.
+    // Parts that are not drawn.
     animations_dropped,
     skins_dropped,
     morph_targets_dropped,

@@ -2,7 +2,7 @@
 //
 //   { "preset": "scene", "steps": 5000, "background": [1, 1, 1] }
 //
-// What a file does not name keeps its default; config_reference() lists all fields.
+// Constants that a file does not name keep their defaults; config_reference() lists all fields.
 #pragma once
 
 #include <filesystem>

@@ -15,7 +15,7 @@
 
 namespace tureen::viewer {
 
-/// How a person wants it drawn: what a plan may leave out, and how finely.
+/// A person's choice of how to draw: the specialisations that a plan may apply, and the quality.
 struct DrawingChoice {
   PlanPreferences plan = {};
   std::optional<Quality> quality = {};  // the scene's own unless it is chosen

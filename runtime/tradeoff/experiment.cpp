@@ -8,7 +8,7 @@ namespace tureen::tradeoff {
 
 namespace {
 
-/// Whether `whole` changes every setting that `part` turns, and alike.
+/// Whether `whole` has every value of `part` that is not a default.
 bool is_part_of(const Configuration& part, const Configuration& whole) {
   for (std::size_t setting = 0; setting < part.size(); ++setting)
     if (part[setting] != 0 && part[setting] != whole[setting]) return false;

@@ -45,7 +45,7 @@ struct Design {
 /// setting has, at least 1. The defaults themselves must not be refused.
 Design star(std::span<const int> value_counts, const Refusal& refuse);
 
-/// What changing one setting through its values did.
+/// The effect of one setting over its values.
 struct SettingRange {
   std::size_t setting = 0;
   double time_ratio = 1;  // the slowest over the fastest

@@ -1,4 +1,4 @@
-// The settings that a soup has: what each can be set to, and what that changes in its data or in
+// The quality settings that a soup has: the values of each, and what these change in its data or in
 // how finely it is drawn. The experiment (runtime/tradeoff/experiment.hpp) counts them, this says
 // what they mean.
 #pragma once
@@ -16,7 +16,7 @@
 
 namespace tureen::tradeoff {
 
-/// What values stand for: the soup with its edits, drawn like this.
+/// The soup with these edits, drawn at this quality: the meaning of chosen values.
 struct Applied {
   Edits edits;
   Quality quality;
@@ -52,7 +52,7 @@ std::vector<int> value_counts(const std::vector<QualitySetting>& settings);
 
 Applied applied_by(const std::vector<QualitySetting>& settings, const Configuration& configuration);
 
-/// The values that are not at their defaults, in words, "lattice level 2, base colour";
+/// The settings that are not at their defaults, in words, "lattice level 2, base colour";
 /// "defaults" where there are none.
 std::string describe(const std::vector<QualitySetting>& settings,
                      const Configuration& configuration);

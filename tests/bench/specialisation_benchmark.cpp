@@ -1,4 +1,4 @@
-// What each specialisation gains: a scene that has its trait, drawn by the whole plan and by the
+// The gain of each specialisation: a scene that has its trait, drawn by the whole plan and by the
 // plan without this one, frame by frame in turns; and the same for real scenes and whatever their
 // plans apply. Prints a row a line, as JSON. Only the ratios hold on another machine. Software
 // OpenGL is timed by the processor time of all its threads, which other programs disturb little.

@@ -1,4 +1,4 @@
-// What is made of a result of `tureen bench`: the comparison, the files.
+// Reports of a result of `tureen bench`: the comparison, the files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -56,7 +56,7 @@ json bench() {
     "configurations": [], "measurements": [], "notes": ["</script>"], "key": "not known"})");
 }
 
-/// What the page's script finds.
+/// The data that the page's script finds.
 json data_of(const std::string& page) {
   const std::string begin = R"(<script type="application/json" id="data">)";
   const std::size_t at = page.find(begin) + begin.size();

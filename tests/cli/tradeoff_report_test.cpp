@@ -1,4 +1,4 @@
-// What becomes of a study: the JSON. The study is made up.
+// The JSON of a study, which is made up.
 #include "cli/tradeoff_report.hpp"
 
 #include <gmock/gmock.h>

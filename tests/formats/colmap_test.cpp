@@ -138,7 +138,7 @@ TEST(Colmap, FindsItsFolder) {
 
 // ---- What is refused ------------------------------------------------------------------------
 
-/// What refuses reading this camera in both forms, which differ only in the place.
+/// The error of reading this camera in both forms, which differ only in the place.
 std::array<std::optional<Refusal>, 2> camera_errors(const ColmapFixture::CameraRecord& camera) {
   ColmapFixture model;
   model.cameras = {camera};

@@ -60,7 +60,7 @@ std::uint32_t big_endian(const Bytes& bytes, std::size_t place) {
   return value;
 }
 
-/// What decoding is refused with.
+/// The error of decoding.
 std::optional<Refusal> refusal(const Bytes& png) {
   return error_of([&] { decode_image(png, "test.png"); });
 }

@@ -1,4 +1,4 @@
-// What a test of numerics measures, and the assertion that goes with it.
+// Measurements of a test of numerics, each with its assertion.
 //
 // A case is one way in which numbers go wrong, stressed by one parameter. At each value of the
 // parameter stands the error of our form, the error that it may have, and, where the catalogue of

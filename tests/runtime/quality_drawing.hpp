@@ -1,4 +1,4 @@
-// What tests of quality settings share: images drawn with one.
+// Shared by tests of quality settings: images drawn with one.
 #pragma once
 
 #include "runtime/renderer.hpp"

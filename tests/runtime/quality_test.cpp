@@ -1,4 +1,4 @@
-// What plans make of quality settings, and that frames drawn with them leave nothing behind for the
+// Plans with quality settings, and that frames drawn with them leave nothing behind for the
 // next.
 #include <gtest/gtest.h>
 

@@ -174,7 +174,7 @@ TEST(TheChoice, PrefersTheSimplerOfTheEquallyFast) {
 
 std::optional<std::string> nothing_refused(const Configuration&) { return {}; }
 
-TEST(Star, TurnsOneSettingAtATime) {
+TEST(Star, ChangesOneSettingAtATime) {
   const std::vector<int> value_counts{3, 1, 2};
   const Design design = star(value_counts, nothing_refused);
   EXPECT_THAT(design.configurations, ElementsAre(Configuration{0, 0, 0}, Configuration{1, 0, 0},

@@ -1,4 +1,4 @@
-// What tests measure, as JSON lines: tests/measure.py joins them for `./dev numerics` and
+// Measurements of tests, as JSON lines: tests/measure.py joins them for `./dev numerics` and
 // `./dev faults`.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What the page gives away: the JSON that docs/json.md explains, which `tureen report`
+// The page's downloads: the JSON that docs/json.md explains, which `tureen report`
 // reads, and a table for spreadsheets.
 
 import { clockSentence } from './clock.js';

@@ -47,8 +47,8 @@ const facts = (all) => element('dl', {}, all.filter(([, value]) => value !== und
   .flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]));
 
 /**
- * Columns are [heading with its unit, value of a row, how a number is written]. Those that no row has
- * a value for are left out, and a click on a heading sorts.
+ * Columns are [heading with its unit, value of a row, how a number is written]. A column
+ * without values is not shown, and a click on a heading sorts.
  */
 function table(label, columns, rows, isStrong = () => false) {
   if (!rows.length) return null;
