@@ -25,7 +25,7 @@ namespace tureen::cli {
 
 namespace {
 
-struct Options {
+struct BenchOptions {
   SceneArgument scene;
   BenchViewOptions views;
   BenchCaseOptions cases;
@@ -52,7 +52,7 @@ void add_measurements(BenchResult& result, std::vector<BenchMeasurement> measure
   }
 }
 
-BenchResult run(const Options& options) {
+BenchResult run(const BenchOptions& options) {
   BenchResult result;
   result.date = utc_now();
   result.program = {program_version(), program_commit(), options.arguments, program_build()};
@@ -92,14 +92,14 @@ BenchResult run(const Options& options) {
 }
 
 /// What is read: the scene, the dataset, and cameras, of which some are files.
-std::vector<std::string> inputs_of(const Options& options) {
+std::vector<std::string> inputs_of(const BenchOptions& options) {
   std::vector<std::string> inputs = options.views.cameras;
   inputs.push_back(options.scene.path);
   if (!options.views.dataset.empty()) inputs.push_back(options.views.dataset);
   return inputs;
 }
 
-ExitCode bench(const Options& options) {
+ExitCode bench(const BenchOptions& options) {
   if (options.reports.fail_slower && options.rounds < min_rounds)
     throw UsageError(
         fmt::format("--fail-slower needs at least {} rounds to estimate the spread", min_rounds));
@@ -120,7 +120,7 @@ ExitCode bench(const Options& options) {
 }  // namespace
 
 void add_bench(Command& program, std::vector<std::string> arguments) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BenchOptions>();
   options->arguments = std::move(arguments);
   Command command = program.add_command("bench", "Frame times across resolutions");
   command.footer(

@@ -44,7 +44,7 @@ constexpr std::array named_metrics{
                 "fraction of pixels off by more than --pixel-tolerance"},
 };
 
-struct Options {
+struct CompareOptions {
   std::string a, b, diff, background = "black";
   const NamedMetric* metric = &named_metrics.front();  // that --tolerance is held against
   std::optional<double> tolerance;
@@ -52,7 +52,7 @@ struct Options {
   bool json = false;
 };
 
-Json to_json(const Options& options, const Metrics& metrics, std::optional<bool> passed) {
+Json to_json(const CompareOptions& options, const Metrics& metrics, std::optional<bool> passed) {
   Json json;
   for (const NamedMetric& metric : named_metrics) json[metric.key] = metrics.*metric.value;
   json["ssim_border"] = name(options.metrics.ssim_border);
@@ -65,7 +65,7 @@ Json to_json(const Options& options, const Metrics& metrics, std::optional<bool>
   return json;
 }
 
-ExitCode compare_pictures(const Options& options) {
+ExitCode compare_pictures(const CompareOptions& options) {
   if (!options.diff.empty()) {
     require_png_name(options.diff);
     for (const std::string& input : {options.a, options.b}) require_not_input(options.diff, input);
@@ -100,7 +100,7 @@ ExitCode compare_pictures(const Options& options) {
 }  // namespace
 
 void add_compare(Command& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompareOptions>();
   Command command = program.add_command("compare", "How far two pictures are apart");
   command.footer(R"(Pictures with alpha are compared as they look on --background.
 

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ConvertOptions {
   SceneArgument scene;
   std::string output;
   bool force = false;
@@ -55,7 +55,7 @@ void require_known_extension(const fs::path& output) {
 }
 
 /// Before the scene is read, which may take a while.
-void check_output(const Options& options) {
+void check_output(const ConvertOptions& options) {
   const fs::path output = options.output;
   check_slim(options.slim, output);
   require_known_extension(output);
@@ -82,7 +82,7 @@ void apply(const Edits& edits, Scene& scene) {
 }
 
 /// Writes `file`, in the format that its name says. Says what that lost, and returns it.
-Json write(Scene scene, const Options& options, const fs::path& file) {
+Json write(Scene scene, const ConvertOptions& options, const fs::path& file) {
   if (options.slim.slim) return convert_slim(std::move(scene), options.slim, file);
   const std::vector<std::string> lost = write_scene(scene, file);
   say_list("Lost in " + options.output + ":", lost);
@@ -92,12 +92,12 @@ Json write(Scene scene, const Options& options, const fs::path& file) {
 }
 
 /// Whether a page may hold the bytes of the scene's own file.
-bool is_page_of_file(const Options& options) {
+bool is_page_of_file(const ConvertOptions& options) {
   return !options.slim.slim && options.scene.up.empty() && options.edits == Edits{} &&
          is_our_glb(options.scene.path);
 }
 
-Json write_page(const ScenePageTemplate& page, Scene scene, const Options& options) {
+Json write_page(const ScenePageTemplate& page, Scene scene, const ConvertOptions& options) {
   const fs::path output = options.output;
   const std::string name = scene.info.name.empty() ? output.stem().string() : scene.info.name;
   if (is_page_of_file(options)) {
@@ -117,7 +117,7 @@ Json write_page(const ScenePageTemplate& page, Scene scene, const Options& optio
   return figures;
 }
 
-ExitCode convert_scene(const Options& options) {
+ExitCode convert_scene(const ConvertOptions& options) {
   check_output(options);
   std::optional<ScenePageTemplate> page;
   if (is_scene_page(options.output)) page = ScenePageTemplate::find();
@@ -156,7 +156,7 @@ std::string written_formats() {
 }  // namespace
 
 void add_convert(Command& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ConvertOptions>();
   Command command = program.add_command("convert", "A scene in another format");
   command.footer("The extension of OUT says which format is written:\n" + written_formats() +
                  R"(What the format cannot hold is left out and said.

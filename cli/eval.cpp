@@ -24,7 +24,7 @@ namespace tureen::cli {
 
 namespace {
 
-struct Options {
+struct EvalOptions {
   SceneArgument scene;
   DatasetArgument dataset;
   DrawingOptions drawing;
@@ -48,7 +48,7 @@ std::vector<Photograph> photographs_of(Dataset& dataset) {
   return photographs;
 }
 
-Json report(const Options& options, const Evaluation& result) {
+Json report(const EvalOptions& options, const Evaluation& result) {
   const bool with_flip = options.evaluation.metrics.with_flip;
   Json views = Json::array();
   for (const ViewMetrics& view : result.views) views.push_back(to_json(view, with_flip));
@@ -65,7 +65,7 @@ Json report(const Options& options, const Evaluation& result) {
           {"output", result.output}};
 }
 
-ExitCode evaluate_scene(Options options) {
+ExitCode evaluate_scene(EvalOptions options) {
   // Everything that can be wrong with the arguments is said before anything is read.
   EvaluationOptions& evaluation = options.evaluation;
   if (options.background == "transparent")
@@ -130,7 +130,7 @@ ExitCode evaluate_scene(Options options) {
 }  // namespace
 
 void add_eval(Command& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<EvalOptions>();
   Command command = program.add_command("eval", "How near a scene comes to photographs");
   command.footer(
       R"(Draws the scene from where the photographs were taken and prints PSNR, SSIM and FLIP of

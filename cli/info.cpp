@@ -20,7 +20,7 @@ namespace tureen::cli {
 
 namespace {
 
-struct Options {
+struct InfoOptions {
   SceneArgument scene;
   bool strict = false;
   bool json = false;
@@ -145,7 +145,7 @@ const std::vector<NamedDevice>& named_devices() {
   return devices;
 }
 
-ExitCode inform(const Options& options) {
+ExitCode inform(const InfoOptions& options) {
   Scene scene = read(options.scene);
   const bool soft = std::holds_alternative<SoftTriangles>(scene.primitives);
   const TriangleSoup& soup = opaque_soup(scene);
@@ -239,7 +239,7 @@ ExitCode inform(const Options& options) {
 }  // namespace
 
 void add_info(Command& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<InfoOptions>();
   Command command =
       program.add_command("info", "What a scene is, what it costs, what is odd about it");
   command.footer(

@@ -28,7 +28,7 @@ namespace tureen::cli {
 
 namespace {
 
-struct Options {
+struct RenderOptions {
   SceneArgument scene;
   ViewOptions views;
   std::string output = "out.png";
@@ -59,7 +59,7 @@ Pictures draw_views(const Drawer& drawer, const gl::Capabilities& device, const 
 }
 
 Drawn draw_colors(const gl::Context& context, const Scene& scene, const TriangleSoup& soup,
-                  const Options& options, glm::vec4 background, const Views& views) {
+                  const RenderOptions& options, glm::vec4 background, const Views& views) {
   const gl::Capabilities& device = context.capabilities();
   Renderer renderer(context, soup, scene.origin,
                     {.plan = preferences_for(scene, options.drawing), .background = background});
@@ -74,7 +74,7 @@ Drawn draw_colors(const gl::Context& context, const Scene& scene, const Triangle
 }
 
 Drawn draw_inspection(const gl::Context& context, const Scene& scene, const TriangleSoup& soup,
-                      const Options& options, glm::vec4 background, const Views& views) {
+                      const RenderOptions& options, glm::vec4 background, const Views& views) {
   const gl::Capabilities& device = context.capabilities();
   Inspector inspector(context, soup, scene.origin, {.background = background});
   inspector.show(options.show.what, options.show.features);
@@ -97,7 +97,7 @@ void require_shown(const ShowOption& show, const TriangleSoup& soup) {
 }
 
 /// Throws UsageError and OutputError.
-void check_output(const Options& options, const glm::vec4& background) {
+void check_output(const RenderOptions& options, const glm::vec4& background) {
   if (!is_video_name(options.output)) {
     require_png_name(options.output);
     const int count = std::max(options.views.orbit, 1);
@@ -137,7 +137,7 @@ void say_written(const Pictures& pictures, const Views& views) {
   for (const std::string& path : paths) say("wrote " + path);
 }
 
-ExitCode render(Options options) {
+ExitCode render(RenderOptions options) {
   // Everything that can be wrong with the arguments is said before the scene is read.
   check(options.views);
   glm::vec4 background(0.0f);
@@ -187,7 +187,7 @@ ExitCode render(Options options) {
 }  // namespace
 
 void add_render(Command& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RenderOptions>();
   Command command = program.add_command("render", "Pictures of a scene");
   command.footer(
       R"(Without a view the scene's first camera draws, or else a view from the front, a little to

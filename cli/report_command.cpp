@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ReportOptions {
   std::vector<std::string> inputs;
   std::string output;  // empty: the page opens in the browser
 };
@@ -61,7 +61,7 @@ bool open_in_browser(const std::string& page) {
          waitpid(process, &status, 0) == process && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-ExitCode report(const Options& options) {
+ExitCode report(const ReportOptions& options) {
   const bool opens = options.output.empty();
   if (!opens && extension_of(options.output) != ".html")
     throw UsageError("'" + options.output + "' does not end in .html; a report is one page");
@@ -83,7 +83,7 @@ ExitCode report(const Options& options) {
 }  // namespace
 
 void add_report(Command& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReportOptions>();
   Command command = program.add_command("report", "Results as a page: tables, plots, images");
   command.footer(
       R"(Shows what bench, tradeoff and eval write with --json or -o, the logs of train, what the page

@@ -21,7 +21,7 @@ namespace tureen::cli {
 namespace {
 
 constexpr std::size_t counted_views = 200;
-constexpr int views_around = 64;
+constexpr int importance_views = 64;
 constexpr int fewest_bits = 10;
 /// Of the loss, for the positions at most. A bit of theirs takes less than texels save by what it
 /// leaves them of the loss: against a quarter of it, 15,000 triangles of lego and of the fox
@@ -55,7 +55,8 @@ TriangleSoup seen_faces(const gl::Context& context, const Scene& scene,
 /// Those that faces may be left out by: all that the loss and the weights know, and some more.
 std::vector<Camera> all_views(const Scene& scene, const std::vector<Camera>& views) {
   std::vector<Camera> all = views;
-  const auto around = hemisphere(subject_of(scene), views_around, {.width = 800, .height = 600});
+  const auto around =
+      hemisphere(subject_of(scene), importance_views, {.width = 800, .height = 600});
   all.insert(all.end(), around.begin(), around.end());
   return all;
 }

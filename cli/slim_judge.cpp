@@ -17,7 +17,7 @@ namespace tureen::cli {
 namespace {
 
 constexpr std::size_t judged_views = 24;
-constexpr std::size_t views_around = 64;
+constexpr std::size_t hemisphere_views = 64;
 constexpr int most_pixels = 800;  // a side
 
 Camera limited(const Camera& camera) {
@@ -37,7 +37,7 @@ std::vector<Camera> slim_views(const Scene& scene, std::span<const Camera> recor
     views.push_back(limited(recorded[i * recorded.size() / some]));
   if (recorded.size() >= telling_cameras || some == count) return views;
   const std::vector<Camera> around =
-      hemisphere(subject_of(scene), int(std::min(count - some, views_around)),
+      hemisphere(subject_of(scene), int(std::min(count - some, hemisphere_views)),
                  {.width = most_pixels, .height = 600});
   views.insert(views.end(), around.begin(), around.end());
   return views;

@@ -23,21 +23,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options : TradeoffOptions {
+struct TradeoffArguments : TradeoffOptions {
   std::string folder;
   std::string written_scene;  // empty: none is written
   bool force = false;
   bool json = false;
 };
 
-void write_files(const Options& options, TradeoffReport& report) {
+void write_files(const TradeoffArguments& options, TradeoffReport& report) {
   if (options.folder.empty()) return;
   for (const fs::path& file : result_files(options.folder, "tradeoff"))
     report.output.push_back(file.string());
   write_result(options.folder, "tradeoff", json_text(to_json(report)));
 }
 
-ExitCode tradeoff(const Options& options) {
+ExitCode tradeoff(const TradeoffArguments& options) {
   // Everything that can be wrong with the arguments is said before anything is read.
   check(options);
   if (!options.folder.empty()) require_writable_folder(options.folder);
@@ -64,7 +64,7 @@ ExitCode tradeoff(const Options& options) {
 }  // namespace
 
 void add_tradeoff(Command& program, std::vector<std::string> arguments) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TradeoffArguments>();
   options->arguments = std::move(arguments);
   Command command = program.add_command("tradeoff", "Error against run time, and the choice");
   command.footer(

@@ -45,7 +45,7 @@ using trainer::Config;
 using trainer::Device;
 using trainer::Preset;
 
-struct Options {
+struct TrainOptions {
   DatasetArgument dataset;
   ConfigOptions config;
   std::string output;
@@ -60,7 +60,7 @@ struct Options {
   bool json = false;
 };
 
-TrainingFiles files_of(const Options& options) {
+TrainingFiles files_of(const TrainOptions& options) {
   if (options.output.empty()) throw UsageError("-o OUT.glb is required");
   TrainingFiles files = training_files(options.output);
   if (!options.log.empty()) files.log = options.log;
@@ -76,7 +76,7 @@ Preset preset_for(const Dataset& dataset) {
 
 /// The constants of this run. One that goes on has those of its checkpoint, and what the command
 /// line names must be the same.
-Config config_of(const Options& options, Preset otherwise, const Checkpoint* checkpoint) {
+Config config_of(const TrainOptions& options, Preset otherwise, const Checkpoint* checkpoint) {
   const bool is_new = !checkpoint || options.config.name_a_base();
   const Config base = is_new ? base_config(options.config, otherwise) : checkpoint->config;
   const Config config = with_options(base, options.config);
@@ -89,7 +89,7 @@ Config config_of(const Options& options, Preset otherwise, const Checkpoint* che
   return config;
 }
 
-void check_pictures(const Options& options, const Dataset& dataset) {
+void check_pictures(const TrainOptions& options, const Dataset& dataset) {
   require_sides(options.dataset, dataset,
                 {.least = ssim_window, .most = trainer::kernels::most_picture_side});
 }
@@ -131,7 +131,7 @@ struct Result {
   std::vector<std::string> output;
 };
 
-Scene scene_of(const Options& options, const Dataset& dataset, const Config& config,
+Scene scene_of(const TrainOptions& options, const Dataset& dataset, const Config& config,
                const trainer::TrainingState& state) {
   Scene scene = to_scene(state.model);
   round_to_bytes(std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance));
@@ -176,7 +176,7 @@ std::optional<Evaluation> evaluation_of(const Scene& scene, std::span<const Phot
   return std::nullopt;
 }
 
-void say_result(const Options& options, const Dataset& dataset, const Result& result) {
+void say_result(const TrainOptions& options, const Dataset& dataset, const Result& result) {
   const trainer::TrainingState& state = result.state;
   say(fmt::format("{} triangles after {} steps in {}; {:.1f} % of the texels are clear or opaque",
                   counted(state.model.faces()), counted(std::uint64_t(state.step)),
@@ -246,7 +246,7 @@ std::optional<Scene> read_mesh(const ConfigOptions& options) {
 }
 
 /// What is there already, and is not to be lost by mistake.
-void check_existing(const Options& options, const TrainingFiles& files) {
+void check_existing(const TrainOptions& options, const TrainingFiles& files) {
   std::error_code error;
   if (const fs::path mesh = options.config.mesh(); fs::equivalent(mesh, files.scene, error))
     throw UsageError("-o would replace " + mesh.string() + ", from which --init begins",
@@ -261,7 +261,7 @@ void check_existing(const Options& options, const TrainingFiles& files) {
 /// Reads what a run begins with. Ctrl-C in it, unlike later, leaves no checkpoint, which people may
 /// expect.
 template <class Work>
-auto before_the_first_step(const Options& options, Work&& read) {
+auto before_the_first_step(const TrainOptions& options, Work&& read) {
   try {
     return read();
   } catch (const Interrupted&) {
@@ -272,7 +272,7 @@ auto before_the_first_step(const Options& options, Work&& read) {
   }
 }
 
-ExitCode train(const Options& options) {
+ExitCode train(const TrainOptions& options) {
   // Everything that can be wrong with the arguments is said before the photographs are read.
   TrainingFiles files;
   std::optional<RunLock> lock, log_lock;
@@ -354,7 +354,7 @@ ExitCode train(const Options& options) {
   return ExitCode::done;
 }
 
-void add_file_options(Command& command, Options& options) {
+void add_file_options(Command& command, TrainOptions& options) {
   command.add_option("-o,--output", options.output, "the soup").value_name("OUT.glb");
   command
       .add_option("--log", options.log,
@@ -381,7 +381,7 @@ void add_file_options(Command& command, Options& options) {
 }  // namespace
 
 void add_train(Command& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TrainOptions>();
   Command command = program.add_command("train", "Photographs to a soup");
   command.footer(
       R"(Trains triangles with lattice textures and a color MLP until they look like the
