@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 /// devices.
 constexpr std::size_t lut_width = 4096, viewer_rows = 16384;
 
-constexpr std::size_t channels = LatticeTexture::channels;
+constexpr std::size_t texel_channels = LatticeTexture::channels;
 
 /// The two images as they are filled; face t begins at texel t * per_face.
 struct Luts {
@@ -46,22 +46,22 @@ struct Luts {
     second = first;
   }
 
-  void set(std::size_t texel, const std::array<std::uint8_t, channels>& bytes) {
+  void set(std::size_t texel, const std::array<std::uint8_t, texel_channels>& bytes) {
     std::memcpy(&first.pixels[texel], bytes.data(), 4);
     std::memcpy(&second.pixels[texel], bytes.data() + 4, 4);
   }
 };
 
-std::array<std::uint8_t, channels> quantised_texel(const float* values) {
-  std::array<std::uint8_t, channels> bytes;
-  for (std::size_t c = 0; c + 1 < channels; ++c) bytes[c] = quantised_unit(values[c]);
-  bytes.back() = quantised_alpha(values[channels - 1]);
+std::array<std::uint8_t, texel_channels> quantised_texel(const float* values) {
+  std::array<std::uint8_t, texel_channels> bytes;
+  for (std::size_t c = 0; c + 1 < texel_channels; ++c) bytes[c] = quantised_unit(values[c]);
+  bytes.back() = quantised_alpha(values[texel_channels - 1]);
   return bytes;
 }
 
 /// The texel of a plain colour: blend channel and latent features are 0.
-std::array<std::uint8_t, channels> color_texel(const glm::vec4& rgba) {
-  const std::array<float, channels> values{rgba.r, rgba.g, rgba.b, 0, 0, 0, 0, rgba.a};
+std::array<std::uint8_t, texel_channels> color_texel(const glm::vec4& rgba) {
+  const std::array<float, texel_channels> values{rgba.r, rgba.g, rgba.b, 0, 0, 0, 0, rgba.a};
   return quantised_texel(values.data());
 }
 
@@ -92,20 +92,21 @@ struct FillLuts {
     Luts luts(texture.patches.size(), highest_level(texture));
     const std::size_t per_face = lattice::texel_count(luts.level);
     const bool inert = !texture.mlp;
-    std::vector<float> coarse, fine(per_face * channels);
+    std::vector<float> coarse, fine(per_face * texel_channels);
     std::size_t refined = 0, blended = 0;
     for (std::size_t t = 0; t < texture.patches.size(); ++t) {
       const LatticePatch& patch = texture.patches[t];
       const bool refine = int(patch.level) < luts.level;
       if (refine) {
-        coarse.resize(lattice::texel_count(int(patch.level)) * channels);
+        coarse.resize(lattice::texel_count(int(patch.level)) * texel_channels);
         for (std::size_t i = 0; i < coarse.size(); ++i)
-          coarse[i] = texture.value(patch.first_texel + i / channels, int(i % channels));
-        refine_lattice(int(patch.level), luts.level, int(channels), coarse, fine);
+          coarse[i] =
+              texture.value(patch.first_texel + i / texel_channels, int(i % texel_channels));
+        refine_lattice(int(patch.level), luts.level, int(texel_channels), coarse, fine);
         ++refined;
       }
       for (std::size_t k = 0; k < per_face; ++k) {
-        auto bytes = refine ? quantised_texel(&fine[k * channels])
+        auto bytes = refine ? quantised_texel(&fine[k * texel_channels])
                             : stored_texel(texture, patch.first_texel + k);
         if (inert && bytes[3] != 0) {
           bytes[3] = 0;
@@ -127,13 +128,14 @@ struct FillLuts {
   Luts operator()(const Harmonics&) const { refuse("harmonics"); }
   Luts operator()(const UvTextures&) const { refuse("UV textures"); }
 
-  static std::array<std::uint8_t, channels> stored_texel(const LatticeTexture& texture,
-                                                         std::size_t texel) {
+  static std::array<std::uint8_t, texel_channels> stored_texel(const LatticeTexture& texture,
+                                                               std::size_t texel) {
     if (const auto* floats = std::get_if<std::vector<float>>(&texture.texels))
-      return quantised_texel(&(*floats)[texel * channels]);
-    std::array<std::uint8_t, channels> bytes;
+      return quantised_texel(&(*floats)[texel * texel_channels]);
+    std::array<std::uint8_t, texel_channels> bytes;
     std::memcpy(bytes.data(),
-                &std::get<std::vector<std::uint8_t>>(texture.texels)[texel * channels], channels);
+                &std::get<std::vector<std::uint8_t>>(texture.texels)[texel * texel_channels],
+                texel_channels);
     return bytes;
   }
 

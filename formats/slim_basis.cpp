@@ -12,7 +12,6 @@ namespace tureen {
 namespace {
 
 constexpr int features = LatticeTexture::features;
-constexpr int channels = LatticeTexture::channels;
 constexpr double one = 65536.0;  // of the fixed point
 
 std::size_t at(int i) { return std::size_t(i); }
@@ -140,7 +139,7 @@ std::vector<std::int16_t> SlimBasis::values_of(std::span<const std::uint8_t> tex
     for (std::size_t j = 0; j < features; ++j) forward[i][j] = double(rows[i][j]) / one;
   forward = inverse(forward);
   std::vector<std::int16_t> result(texels.size());
-  for (std::size_t t = 0; t < texels.size(); t += channels) {
+  for (std::size_t t = 0; t < texels.size(); t += LatticeTexture::channels) {
     for (std::size_t i = 0; i < features; ++i) {
       double value = 0;
       for (std::size_t j = 0; j < features; ++j) value += forward[i][j] * double(texels[t + j]);

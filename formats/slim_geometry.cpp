@@ -30,7 +30,7 @@ constexpr std::size_t bytes_a_face = 3 * (12 + 3 * 12 + 3 * 12);
 constexpr std::uint64_t max_faces_per_byte = 16;
 static_assert(bytes_a_face <= 4096 / max_faces_per_byte);
 
-struct Models {
+struct GeometryModels {
   BitModel known[3];
   NumberModel<26> distance[3];
   // By corner and axis, and by how long the number was in the face before.
@@ -46,9 +46,9 @@ int bit_length(int value) {
 /// What encoder and decoder share. The encoder's cells and triangles are given; the decoder's are
 /// empty and come out.
 template <class Coder>
-class Walk {
+class GeometryWalk {
  public:
-  Walk(Coder& coder, std::span<const glm::ivec3> given) : coder_(coder), given_(given) {}
+  GeometryWalk(Coder& coder, std::span<const glm::ivec3> given) : coder_(coder), given_(given) {}
 
   /// False where a corner names a vertex that is not there, or one more than `limit` is made.
   bool face(const glm::uvec3& wanted, std::size_t limit, glm::uvec3& face) {
@@ -87,7 +87,7 @@ class Walk {
 
   Coder& coder_;
   std::span<const glm::ivec3> given_;
-  std::unique_ptr<Models> models_ = std::make_unique<Models>();
+  std::unique_ptr<GeometryModels> models_ = std::make_unique<GeometryModels>();
   glm::ivec3 first_{0};  // of this face, or of the one before it
   std::array<std::array<int, 3>, 3> lengths_{};
 };
@@ -155,7 +155,7 @@ std::vector<std::byte> encode_slim_geometry(const SlimGeometry& geometry, int bi
     cells.push_back(cell);
   }
   RangeEncoder coder;
-  Walk walk(coder, cells);
+  GeometryWalk walk(coder, cells);
   for (const glm::uvec3& triangle : ordered.triangles) {
     glm::uvec3 same;
     walk.face(triangle, cells.size(), same);
@@ -187,7 +187,7 @@ SlimGeometry decode_slim_geometry(std::span<const std::byte> bytes, std::size_t 
   if (!std::isfinite(grid.step)) throw damaged();
 
   RangeDecoder coder(bytes.subspan(sizeof(Grid)));
-  Walk walk(coder, std::span<const glm::ivec3>());
+  GeometryWalk walk(coder, std::span<const glm::ivec3>());
   SlimGeometry result;
   for (std::size_t t = 0; t < faces; ++t) {
     glm::uvec3 triangle;

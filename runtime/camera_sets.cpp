@@ -7,13 +7,14 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <limits>
+#include <numbers>
 #include <string>
 
 namespace tureen {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr double golden_angle = 2.39996322972865332;  // pi (3 - sqrt 5)
 
 /// Directions of the Fibonacci lattice between two heights (sines of the elevation).

@@ -5,15 +5,15 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/ext/vector_uint4_sized.hpp>
+#include <glm/geometric.hpp>
 #include <vector>
 
 namespace tureen {
 
 namespace {
 
-constexpr std::array names{
+constexpr std::array inspections{
     InspectionName{Inspection::color, "color", "final colour", "as it is drawn"},
     InspectionName{Inspection::depth, "depth", "depth", "distance along the viewing axis"},
     InspectionName{Inspection::normals, "normals", "normals", "(n + 1) / 2, towards the eye"},
@@ -94,12 +94,12 @@ Legend feature_legend(const FeatureChoice& choice) {
 
 }  // namespace
 
-std::span<const InspectionName> inspection_names() { return names; }
+std::span<const InspectionName> inspection_names() { return inspections; }
 
-const char* name_of(Inspection what) { return names[std::size_t(what)].name; }
+const char* name_of(Inspection what) { return inspections[std::size_t(what)].name; }
 
 std::optional<Inspection> inspection_named(std::string_view name) {
-  for (const InspectionName& known : names)
+  for (const InspectionName& known : inspections)
     if (name == known.name) return known.what;
   return std::nullopt;
 }

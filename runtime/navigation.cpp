@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <string>
 
 namespace tureen {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 glm::dvec3 unit_up(const glm::dvec3& up) {
   const double length = glm::length(up);

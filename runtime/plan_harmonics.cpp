@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "runtime/plan_draft.hpp"
 #include "soup/spherical_harmonics.hpp"
@@ -24,7 +25,7 @@ std::vector<double> largest_from_band(const Harmonics& sh) {
         const glm::dvec3 c = sh.coefficients[first + std::size_t(i)];
         energy += c * c;
       }
-      above += std::sqrt((2 * l + 1) / (4 * M_PI)) * glm::sqrt(energy);
+      above += std::sqrt((2 * l + 1) / (4 * std::numbers::pi)) * glm::sqrt(energy);
       largest[std::size_t(l)] = std::max({largest[std::size_t(l)], above.x, above.y, above.z});
     }
   }

@@ -6,7 +6,7 @@ namespace tureen {
 
 namespace {
 
-constexpr SpecialisationName names[] = {
+constexpr SpecialisationName specialisations[] = {
     {Specialisation::alpha_test, "alpha-test", "no alpha test for opaque faces"},
     {Specialisation::transparent_faces, "transparent-faces",
      "no faces that are transparent throughout"},
@@ -30,15 +30,15 @@ constexpr SpecialisationName names[] = {
 
 }  // namespace
 
-std::span<const SpecialisationName> specialisation_names() { return names; }
+std::span<const SpecialisationName> specialisation_names() { return specialisations; }
 
 const char* name_of(Specialisation what) {
-  assert(names[std::size_t(what)].what == what);
-  return names[std::size_t(what)].name;
+  assert(specialisations[std::size_t(what)].what == what);
+  return specialisations[std::size_t(what)].name;
 }
 
 std::optional<Specialisation> specialisation_named(std::string_view name) {
-  for (const SpecialisationName& known : names)
+  for (const SpecialisationName& known : specialisations)
     if (known.name == name) return known.what;
   return std::nullopt;
 }

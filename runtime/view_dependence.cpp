@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "soup/spherical_harmonics.hpp"
 
@@ -21,7 +22,7 @@ double direction_reach(DirectionEncoding encoding, const float* weights) {
   if (encoding == DirectionEncoding::xyz) return norm(weights, 3);
   double reach = 0;
   for (int l = 1; l <= 2; ++l)
-    reach += std::sqrt((2 * l + 1) / (4 * M_PI)) * norm(weights + l * l, 2 * l + 1);
+    reach += std::sqrt((2 * l + 1) / (4 * std::numbers::pi)) * norm(weights + l * l, 2 * l + 1);
   return reach;
 }
 

@@ -64,6 +64,13 @@ Camera resampled(const Camera& camera, int width, int height) {
   return result;
 }
 
+bool in_picture(const Camera& camera, glm::dvec3 point) {
+  const glm::dvec4 v = camera.view_from_world * glm::dvec4(point, 1.0);
+  if (!(v.z < 0)) return false;
+  const double x = camera.cx + camera.fx * v.x / -v.z, y = camera.cy - camera.fy * v.y / -v.z;
+  return x >= 0 && x <= camera.width && y >= 0 && y <= camera.height;
+}
+
 namespace {
 
 /// The rows that both projections share: x and y of NDC from the pinhole equation.

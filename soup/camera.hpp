@@ -41,6 +41,10 @@ Camera resized(const Camera& camera, int width, int height);
 /// same. Pixels stay square only where both sizes have one ratio.
 Camera resampled(const Camera& camera, int width, int height);
 
+/// Whether `point`, in world coordinates, lies in front of the camera and on its image, edges
+/// included.
+bool in_picture(const Camera& camera, glm::dvec3 point);
+
 /// Clip from view for the depth range [near, far] mapped to NDC z in [-1, 1] (OpenGL's default),
 /// with the y axis up, so that row 0 of a read-back image is the bottom row.
 glm::dmat4 clip_from_view(const Camera& camera, double near, double far);

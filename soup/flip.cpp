@@ -8,6 +8,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
+#include <numbers>
 #include <numeric>
 
 #include "soup/separable_filter.hpp"
@@ -16,7 +17,7 @@ namespace tureen {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 // --- Colour spaces --------------------------------------------------------------------------
 
@@ -171,11 +172,11 @@ void balance(std::vector<double>& weights) {
   for (double& weight : weights) weight /= weight > 0 ? positive : -negative;
 }
 
-struct Features {
+struct EdgesAndPoints {
   std::vector<double> edges, points;  // magnitude of the gradient and of the second derivatives
 };
 
-Features features_of(const Plane& luminance, double pixels_per_degree) {
+EdgesAndPoints features_of(const Plane& luminance, double pixels_per_degree) {
   const double sigma = 0.5 * feature_width_degrees * pixels_per_degree;
   const int radius = int(std::ceil(3 * sigma));
   std::vector<double> smooth = gaussian(sigma, radius);
@@ -204,7 +205,7 @@ Features features_of(const Plane& luminance, double pixels_per_degree) {
   return {magnitude(edge), magnitude(point)};
 }
 
-Features features_of(const Prepared& image, double pixels_per_degree) {
+EdgesAndPoints features_of(const Prepared& image, double pixels_per_degree) {
   Plane luminance = image.ycxcz[0];
   for (double& y : luminance.values) y = (y + 16) / 116;
   return features_of(luminance, pixels_per_degree);
@@ -222,7 +223,7 @@ FlipResult flip(const ImageF& reference, const ImageF& test, const FlipOptions& 
   const Prepared b = prepared(test, linearise, xyz_from_rgb);
   const std::vector<glm::dvec3> seen_a = perceived(a, xyz_from_rgb, ppd);
   const std::vector<glm::dvec3> seen_b = perceived(b, xyz_from_rgb, ppd);
-  const Features features_a = features_of(a, ppd), features_b = features_of(b, ppd);
+  const EdgesAndPoints features_a = features_of(a, ppd), features_b = features_of(b, ppd);
 
   // The largest difference two colours of the screen can have is that of green and blue.
   const double largest = std::pow(hyab(hunt_lab(xyz_from_rgb * glm::dvec3(0, 1, 0)),

@@ -17,7 +17,7 @@ namespace tureen::trainer {
 
 namespace {
 
-constexpr std::uint64_t random_stream = 2;
+constexpr std::uint64_t begin_stream = 2;
 
 double mean(std::span<const double> values) {
   double sum = 0;
@@ -95,13 +95,6 @@ std::vector<glm::dvec3> thinned(const std::vector<glm::dvec3>& points, std::size
   for (const std::uint32_t i : draw(random, count - chosen.size(), others.size()))
     chosen.push_back(others[i]);
   return chosen;
-}
-
-bool in_picture(const Camera& camera, glm::dvec3 point) {
-  const glm::dvec4 v = camera.view_from_world * glm::dvec4(point, 1.0);
-  if (!(v.z < 0)) return false;
-  const double x = camera.cx + camera.fx * v.x / -v.z, y = camera.cy - camera.fy * v.y / -v.z;
-  return x >= 0 && x <= camera.width && y >= 0 && y <= camera.height;
 }
 
 /// Around the cube: uniform in direction, and in the logarithm of the distance.
@@ -229,7 +222,7 @@ Model initial_model(const Dataset& dataset, const Config& config, const Scene* m
                      "random initialisation needs none");
   const auto count = std::size_t(config.initial_triangles);
   Region region = region_of_interest(dataset);
-  Random random(config.seed, random_stream);
+  Random random(config.seed, begin_stream);
   const bool at_points = has_points && config.initialisation != Initialisation::random;
   if (config.box > 0 && !at_points) region.half_side = config.box;
   const double far = at_points ? config.around_points : config.far_points;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int layer_inputs[] = {mlp_inputs, mlp_width, mlp_width};
 constexpr int layer_outputs[] = {mlp_width, mlp_width, mlp_outputs};
-constexpr std::uint64_t random_stream = 1;
+constexpr std::uint64_t weights_stream = 1;
 
 /// Calls visit(layer, its weights, its biases) for the three layers.
 template <class Float, class Visit>
@@ -31,7 +31,7 @@ void for_each_layer(std::span<Float, trainer::mlp_parameters> parameters, const 
 }  // namespace
 
 MlpParameters initial_mlp(std::uint64_t seed) {
-  Random random(seed, random_stream);
+  Random random(seed, weights_stream);
   MlpParameters parameters{};
   for_each_layer(std::span(parameters), [&](int layer, auto weights, auto) {
     const bool last = layer == 2;

@@ -59,13 +59,6 @@ double depth(const Camera& camera, glm::dvec3 point) {
   return -(camera.view_from_world * glm::dvec4(point, 1.0)).z;
 }
 
-bool in_picture(const Camera& camera, glm::dvec3 point) {
-  const glm::dvec4 v = camera.view_from_world * glm::dvec4(point, 1.0);
-  if (!(v.z < 0)) return false;
-  const double x = camera.cx + camera.fx * v.x / -v.z, y = camera.cy - camera.fy * v.y / -v.z;
-  return x >= 0 && x <= camera.width && y >= 0 && y <= camera.height;
-}
-
 double quantile(std::vector<double>& values, double fraction) {
   const auto at = values.begin() + std::ptrdiff_t(fraction * double(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
