@@ -13,18 +13,14 @@ function(tureen_include_root room out)
   set(${out} "${root}" PARENT_SCOPE)
 endfunction()
 
-# tureen_room(NAME SOURCES .. PUBLIC .. PRIVATE .. PRECOMPILE ..): the library tureen_NAME. PUBLIC
-# rooms and libraries appear in its headers, PRIVATE ones only in its sources. PRECOMPILE are large
-# headers of libraries, which are parsed once for the room; sources include what they use all the same.
+# tureen_room(NAME SOURCES .. PUBLIC .. PRIVATE ..): the library tureen_NAME. PUBLIC rooms and
+# libraries appear in its headers, PRIVATE ones only in its sources.
 function(tureen_room name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;PRECOMPILE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   tureen_include_root(${name} root)
   add_library(tureen_${name} STATIC ${ARG_SOURCES})
   target_include_directories(tureen_${name} PUBLIC "${root}")
   target_link_libraries(tureen_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} tureen_warnings)
-  if(ARG_PRECOMPILE AND NOT EMSCRIPTEN)
-    target_precompile_headers(tureen_${name} PRIVATE ${ARG_PRECOMPILE})
-  endif()
 endfunction()
 
 # Tests spend their time in what they test, so optimising them costs more than it saves.
@@ -39,6 +35,7 @@ function(tureen_test name)
   target_compile_definitions(${name} PRIVATE
     TUREEN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" TUREEN_BINARY_DIR="${PROJECT_BINARY_DIR}")
   target_precompile_headers(${name} REUSE_FROM test_precompiled)
+  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)  # tests name their helpers alike
   target_compile_options(${name} PRIVATE ${tureen_test_options})
   set(timeout 300)
   if(TUREEN_SANITIZE)

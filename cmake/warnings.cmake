@@ -6,6 +6,14 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   # last two, which are reported in the standard library.
   target_compile_options(tureen_warnings INTERFACE -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds)
 endif()
+if(CMAKE_UNITY_BUILD)
+  # One source may name what another one has in its anonymous namespace. Preset dev compiles each source
+  # by itself, with all warnings.
+  target_compile_options(tureen_warnings INTERFACE -Wno-shadow)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(tureen_warnings INTERFACE -Wshadow=local -Wno-subobject-linkage)
+  endif()
+endif()
 if(TUREEN_WERROR)
   target_compile_options(tureen_warnings INTERFACE -Werror)
 endif()
