@@ -7,7 +7,7 @@ namespace tureen::cli {
 
 namespace {
 
-Specialisation named(const std::string& name) {
+Specialisation specialisation_of(const std::string& name) {
   if (const auto known = specialisation_named(name)) return *known;
   constexpr std::array removed{"transparent-rims", "base-color", "texel-table"};
   if (std::find(removed.begin(), removed.end(), name) != removed.end())
@@ -40,7 +40,7 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
           "--keep",
           [&options](const std::vector<std::string>& names) {
             for (const std::string& name : names)
-              options.plan.specialisations = options.plan.specialisations.without(named(name));
+              options.plan.specialisations = options.plan.specialisations.without(specialisation_of(name));
           },
           "do not apply these specialisations: names from "
           "docs/leaving-out.md with commas between, as alpha-test,background")

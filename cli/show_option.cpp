@@ -9,7 +9,7 @@ namespace tureen::cli {
 
 namespace {
 
-Inspection named(const std::string& name) {
+Inspection inspection_of(const std::string& name) {
   if (const auto known = inspection_named(name)) return *known;
   std::vector<std::string> names;
   for (const InspectionName& known : inspection_names()) names.emplace_back(known.name);
@@ -34,7 +34,7 @@ FeatureChoice parse_features(const std::string& text) {
 
 ShowOption parse_show(const std::string& text) {
   const std::size_t colon = text.find(':');
-  ShowOption show{.what = named(text.substr(0, colon))};
+  ShowOption show{.what = inspection_of(text.substr(0, colon))};
   if (colon == std::string::npos) return show;
   if (show.what != Inspection::features)
     throw UsageError("--show " + text + ": only features are followed by which, as features:4-6");
