@@ -12,7 +12,7 @@ namespace tureen::cli {
 
 namespace {
 
-constexpr const char* format_name = "tureen web bench";
+constexpr const char* web_format_name = "tureen web bench";
 
 /// Eleven days, so that sums stay finite. Nobody waits so long for a frame.
 constexpr double max_ms = 1e9;
@@ -54,7 +54,7 @@ std::string hash_of(const JsonView& view) {
   return text;
 }
 
-BenchConfiguration configuration(const JsonView& view) {
+BenchConfiguration configuration_of(const JsonView& view) {
   return {.name = view["name"].text(),
           .options = {},
           .plan = texts(view["plan"]),
@@ -170,7 +170,7 @@ BenchResult result_of_scene(const JsonView& view, BenchResult result) {
 std::vector<BenchResult> read_web_bench(Input& input) {
   const nlohmann::json document = read_json(input);
   const JsonView root(document, input.name());
-  require_format(root, format_name, web_bench_version, "no download of bench.html");
+  require_format(root, web_format_name, web_bench_version, "no download of bench.html");
   const BenchResult shared = result_of_page(root);
   const JsonView scenes = root["scenes"];
   if (scenes.size() == 0) scenes.fail("is empty");

@@ -35,7 +35,6 @@ function(tureen_test name)
   target_compile_definitions(${name} PRIVATE
     TUREEN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" TUREEN_BINARY_DIR="${PROJECT_BINARY_DIR}")
   target_precompile_headers(${name} REUSE_FROM test_precompiled)
-  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)  # tests name their helpers alike
   target_compile_options(${name} PRIVATE ${tureen_test_options})
   set(timeout 300)
   if(TUREEN_SANITIZE)

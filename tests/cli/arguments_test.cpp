@@ -8,7 +8,7 @@
 #include "support/errors.hpp"
 
 namespace tureen::cli {
-namespace {
+namespace arguments_test {
 
 using test::ErrorAt;
 using testing::ElementsAre;
@@ -156,5 +156,5 @@ TEST(Arguments, ACommandMayTakeWhateverFollows) {
   EXPECT_THAT(program.rest, ElementsAre("a", "--help", "--width=x"));
 }
 
-}  // namespace
+}  // namespace arguments_test
 }  // namespace tureen::cli

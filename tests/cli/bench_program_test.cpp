@@ -10,7 +10,7 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace bench_program_test {
 
 using test::Child;
 using test::ChildResult;
@@ -262,5 +262,5 @@ TEST_F(Bench, CtrlCLeavesNoResult) {
   EXPECT_FALSE(exists("timed/bench.json"));
 }
 
-}  // namespace
+}  // namespace bench_program_test
 }  // namespace tureen

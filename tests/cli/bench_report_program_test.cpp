@@ -6,7 +6,7 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace bench_report_program_test {
 
 using test::ChildResult;
 using test::Names;
@@ -70,5 +70,5 @@ TEST_F(BenchFiles, BadArgumentsAreSaidBeforeAnythingIsMeasured) {
   EXPECT_FALSE(exists("out"));
 }
 
-}  // namespace
+}  // namespace bench_report_program_test
 }  // namespace tureen

@@ -13,7 +13,7 @@
 #include "support/errors.hpp"
 
 namespace tureen::cli {
-namespace {
+namespace bench_report_test {
 
 using test::Names;
 using ::testing::AllOf;
@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::MatchesRegex;
 using ::testing::Not;
-using tureen::testing::TemporaryFolder;
+using tureen::test::TemporaryFolder;
 
 /// Names that try to leave the place where they belong.
 const std::string awkward = "a,\"b\" <i>`c` 'd'\\";
@@ -274,5 +274,5 @@ TEST(BenchReports, ABadFileIsRefusedBeforeAnythingIsMeasured) {
               test::ErrorIn("none.json"));
 }
 
-}  // namespace
+}  // namespace bench_report_test
 }  // namespace tureen::cli

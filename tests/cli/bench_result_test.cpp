@@ -12,7 +12,7 @@
 #include "support/errors.hpp"
 
 namespace tureen::cli {
-namespace {
+namespace bench_result_test {
 
 /// Every field set, to values that no other field has.
 BenchResult example() {
@@ -253,5 +253,5 @@ TEST(Version, SaysWhetherThisIsARelease) {
 #endif
 }
 
-}  // namespace
+}  // namespace bench_result_test
 }  // namespace tureen::cli

@@ -8,7 +8,7 @@
 #include "support/errors.hpp"
 
 namespace tureen::cli {
-namespace {
+namespace bench_table_test {
 
 using test::Names;
 using testing::Contains;
@@ -129,5 +129,5 @@ TEST(BenchTable, WarnsOfSoftwareAndOfRestlessness) {
   EXPECT_EQ(bench_table(result).size(), lines.size() + 1);
 }
 
-}  // namespace
+}  // namespace bench_table_test
 }  // namespace tureen::cli

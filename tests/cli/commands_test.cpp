@@ -7,7 +7,7 @@
 #include "support/errors.hpp"
 
 namespace tureen::cli {
-namespace {
+namespace commands_test {
 
 TEST(Commands, NoOptionThatTakesANumberTakesNan) {
   const std::pair<const char*, const char*> options[] = {{"bench", "--seconds"},
@@ -36,5 +36,5 @@ TEST(Commands, NoOptionThatTakesANumberTakesNan) {
     }
 }
 
-}  // namespace
+}  // namespace commands_test
 }  // namespace tureen::cli

@@ -7,7 +7,7 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace convert_slim_program_test {
 
 namespace fs = std::filesystem;
 using test::ChildResult;
@@ -119,5 +119,5 @@ TEST_F(ConvertSlim, PhotographsOfAnotherSceneAreRefused) {
   EXPECT_THAT(said, HasSubstr("r_3.png"));
 }
 
-}  // namespace
+}  // namespace convert_slim_program_test
 }  // namespace tureen

@@ -7,7 +7,7 @@
 #include "support/errors.hpp"
 
 namespace tureen::cli {
-namespace {
+namespace drawing_options_test {
 
 PlanPreferences parsed(std::vector<std::string> arguments) {
   CommandLine line("program", "");
@@ -61,5 +61,5 @@ TEST(DrawingOptions, AnUnknownNameIsRefusedWithTheNearest) {
               test::ErrorAt("", "alpha-tset", "alpha-test"));
 }
 
-}  // namespace
+}  // namespace drawing_options_test
 }  // namespace tureen::cli

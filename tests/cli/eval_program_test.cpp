@@ -9,7 +9,7 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace eval_program_test {
 
 using test::ChildResult;
 using test::Names;
@@ -150,5 +150,5 @@ TEST_F(Eval, WithoutAContextItSaysSo) {
   EXPECT_THAT(result.err, Names("EGL"));
 }
 
-}  // namespace
+}  // namespace eval_program_test
 }  // namespace tureen

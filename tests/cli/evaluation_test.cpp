@@ -9,7 +9,7 @@
 #include "soup/error.hpp"
 
 namespace tureen::cli {
-namespace {
+namespace evaluation_test {
 
 using testing::ElementsAre;
 
@@ -87,5 +87,5 @@ TEST(Evaluate, RefusesViewsThatTheWindowDoesNotFitInto) {
                UsageError);
 }
 
-}  // namespace
+}  // namespace evaluation_test
 }  // namespace tureen::cli

@@ -21,7 +21,7 @@
 #include "support/measured.hpp"
 
 namespace tureen {
-namespace {
+namespace faults_program_test {
 
 using test::Names;
 namespace fs = std::filesystem;
@@ -284,5 +284,5 @@ TEST_F(Faults, ASignalAtAnyMomentLeavesTheOldOrTheNewWhole) {
   }
 }
 
-}  // namespace
+}  // namespace faults_program_test
 }  // namespace tureen

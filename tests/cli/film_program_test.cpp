@@ -12,7 +12,7 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace film_program_test {
 
 using test::Names;
 namespace fs = std::filesystem;
@@ -171,5 +171,5 @@ TEST_F(Film, ABadPathIsRefusedWithItsPlace) {
   EXPECT_THAT(endless.err, Names(100000, 3000000));
 }
 
-}  // namespace
+}  // namespace film_program_test
 }  // namespace tureen

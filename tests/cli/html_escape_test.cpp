@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace tureen::cli {
-namespace {
+namespace html_escape_test {
 
 using testing::StartsWith;
 
@@ -28,5 +28,5 @@ TEST(HtmlEscaped, WhatIsNoTextIsReplaced) {
   EXPECT_EQ(html_escaped(std::string("a\0b", 3)), "a" + replacement + "b");
 }
 
-}  // namespace
+}  // namespace html_escape_test
 }  // namespace tureen::cli

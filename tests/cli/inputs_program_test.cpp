@@ -8,7 +8,7 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace inputs_program_test {
 
 using test::Names;
 namespace fs = std::filesystem;
@@ -91,5 +91,5 @@ TEST_F(Inputs, ThatAreLinksToNothingAreToldSo) {
   expect({"info", "link.off"}, "link.off", "gone.off");
 }
 
-}  // namespace
+}  // namespace inputs_program_test
 }  // namespace tureen

@@ -6,7 +6,7 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace memory_program_test {
 
 using test::ChildResult;
 using test::Names;
@@ -17,7 +17,7 @@ class MaxMemory : public Program {
   void SetUp() override {
     Program::SetUp();
     write_scene();
-    testing::write_picture(folder / "photographs/a.png", testing::a_picture(64, 48));
+    test::write_picture(folder / "photographs/a.png", test::a_picture(64, 48));
     const std::string frame = R"({"file_path": "a.png",
       "transform_matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,2],[0,0,0,1]]})";
     write("photographs/transforms.json",
@@ -74,5 +74,5 @@ TEST_F(MaxMemory, NamesThatAreNotUtf8AreSaidInJson) {
   EXPECT_FALSE(nlohmann::json::parse(result.out)["triangles"].is_null());
 }
 
-}  // namespace
+}  // namespace memory_program_test
 }  // namespace tureen

@@ -11,7 +11,7 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace outputs_program_test {
 
 using test::Names;
 namespace fs = std::filesystem;
@@ -214,5 +214,5 @@ TEST_F(Outputs, AndInputsHaveNames) {
   expect({"eval", "scene.off", ""}, 2, "DATASET");
 }
 
-}  // namespace
+}  // namespace outputs_program_test
 }  // namespace tureen

@@ -15,7 +15,7 @@
 #include "soup/error.hpp"
 
 namespace tureen::cli {
-namespace {
+namespace parts_test {
 
 using testing::HasSubstr;
 
@@ -201,5 +201,5 @@ TEST(Views, ReadTheFilesOfRealDataSets) {
   EXPECT_NEAR(lego.cameras[0].fx, 1111.111, 1e-3);
 }
 
-}  // namespace
+}  // namespace parts_test
 }  // namespace tureen::cli

@@ -11,7 +11,7 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace program_test {
 
 using test::Names;
 namespace fs = std::filesystem;
@@ -412,5 +412,5 @@ TEST_F(Program, NothingIsLeftWhereAPictureCannotBeWritten) {
   EXPECT_FALSE(exists("nowhere"));
 }
 
-}  // namespace
+}  // namespace program_test
 }  // namespace tureen

@@ -6,7 +6,7 @@
 #include "formats/tureen_glb.hpp"
 
 namespace tureen::test {
-namespace {
+namespace quality_program_test {
 
 using ::testing::HasSubstr;
 
@@ -84,5 +84,5 @@ TEST_F(QualityProgram, OptionsThatAreGoneNameTheirReplacement) {
   }
 }
 
-}  // namespace
+}  // namespace quality_program_test
 }  // namespace tureen::test

@@ -16,14 +16,14 @@
 #include "support/errors.hpp"
 
 namespace tureen::cli {
-namespace {
+namespace report_page_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::SizeIs;
 using test::ErrorAt;
 using test::ErrorIn;
-using tureen::testing::TemporaryFolder;
+using tureen::test::TemporaryFolder;
 
 /// Ends a script element, opens a comment, and is no ASCII.
 const std::string hostile = "</script><!-- \xc3\xa9 \\ \" &lt;";
@@ -160,5 +160,5 @@ TEST_F(ReportPage, WritesAResultWithItsPage) {
   EXPECT_TRUE(fs::exists(folder / "new/out/eval.json"));
 }
 
-}  // namespace
+}  // namespace report_page_test
 }  // namespace tureen::cli

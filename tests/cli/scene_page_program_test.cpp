@@ -11,7 +11,7 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace scene_page_program_test {
 
 using test::Names;
 namespace fs = std::filesystem;
@@ -197,5 +197,5 @@ TEST_F(ScenePage, IsInTheHelp) {
   EXPECT_THAT(help, Names("tureen convert soup.glb soup.html"));
 }
 
-}  // namespace
+}  // namespace scene_page_program_test
 }  // namespace tureen

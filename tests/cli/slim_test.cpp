@@ -12,7 +12,7 @@
 #include "support/random.hpp"
 
 namespace tureen::cli {
-namespace {
+namespace slim_test {
 
 /// The first faces of the example, from some of its cameras at a fifth of their size.
 Scene part_of_the_example(std::size_t faces, std::size_t cameras = 8) {
@@ -280,5 +280,5 @@ TEST(Slim, ViewsAreRecordedCamerasOrAround) {
   EXPECT_EQ(slim_views(scene, scene.cameras, 200).size(), 64u);
 }
 
-}  // namespace
+}  // namespace slim_test
 }  // namespace tureen::cli

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace tureen::cli {
-namespace {
+namespace table_test {
 
 using testing::ElementsAre;
 
@@ -43,5 +43,5 @@ TEST(Table, MillisecondsHaveThreeDigitsDownToAMicrosecond) {
   EXPECT_EQ(ms_text(52), "52.0");
 }
 
-}  // namespace
+}  // namespace table_test
 }  // namespace tureen::cli

@@ -15,7 +15,7 @@
 #include "support/random_soups.hpp"
 
 namespace tureen {
-namespace {
+namespace tradeoff_program_test {
 
 using test::Child;
 using test::ChildResult;
@@ -219,5 +219,5 @@ TEST_F(Tradeoff, CtrlCLeavesNothingBehind) {
   EXPECT_FALSE(exists("report"));
 }
 
-}  // namespace
+}  // namespace tradeoff_program_test
 }  // namespace tureen

@@ -10,7 +10,7 @@
 #include "support/errors.hpp"
 
 namespace tureen::cli {
-namespace {
+namespace tradeoff_report_test {
 
 using test::Names;
 using testing::ElementsAre;
@@ -172,5 +172,5 @@ TEST(SpreadOut, TakesPhotographsEvenly) {
   EXPECT_EQ(names(1), "0");
 }
 
-}  // namespace
+}  // namespace tradeoff_report_test
 }  // namespace tureen::cli

@@ -16,7 +16,7 @@
 #include "support/measured.hpp"
 
 namespace tureen {
-namespace {
+namespace train_faults_program_test {
 
 using test::Names;
 namespace fs = std::filesystem;
@@ -276,5 +276,5 @@ TEST_F(TrainFaults, WhereNothingMayBeWrittenNothingIs) {
   EXPECT_TRUE(test::contents_of(folder / "locked") == files);
 }
 
-}  // namespace
+}  // namespace train_faults_program_test
 }  // namespace tureen

@@ -15,7 +15,7 @@
 #include "trainer/config_fields.hpp"
 
 namespace tureen::cli {
-namespace {
+namespace train_parts_test {
 
 namespace fs = std::filesystem;
 using trainer::Config;
@@ -185,5 +185,5 @@ TEST(ConfigOptions, TellTheWordsOfInitFromAFile) {
   EXPECT_EQ(with_options({}, options).initialisation, trainer::Initialisation::mesh);
 }
 
-}  // namespace
+}  // namespace train_parts_test
 }  // namespace tureen::cli

@@ -10,7 +10,7 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace train_program_test {
 
 using test::Names;
 namespace fs = std::filesystem;
@@ -351,5 +351,5 @@ TEST_F(Train, DoesNotReplaceWhatItBeginsWith) {
   EXPECT_THAT(train("ball.glb", {}, "2").err, Names("ball.glb"));
 }
 
-}  // namespace
+}  // namespace train_program_test
 }  // namespace tureen

@@ -12,7 +12,7 @@
 #include "support/errors.hpp"
 
 namespace tureen::cli {
-namespace {
+namespace training_log_test {
 
 namespace fs = std::filesystem;
 
@@ -154,5 +154,5 @@ TEST_F(Log, SaysThatItCannotBeWritten) {
   EXPECT_THROW(full.append(record(100)), OutputError);
 }
 
-}  // namespace
+}  // namespace training_log_test
 }  // namespace tureen::cli

@@ -6,7 +6,7 @@
 #include "cli/program_fixture.hpp"
 
 namespace tureen {
-namespace {
+namespace untrusted_text_program_test {
 
 using test::ChildResult;
 using testing::Each;
@@ -74,5 +74,5 @@ TEST_F(UntrustedText, OfArgumentsIsShownAlike) {
   EXPECT_THAT(result.err, StartsWith("tureen: a\\nb\\u001b[2J.glb: "));
 }
 
-}  // namespace
+}  // namespace untrusted_text_program_test
 }  // namespace tureen

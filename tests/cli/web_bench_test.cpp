@@ -13,7 +13,7 @@
 #include "support/errors.hpp"
 
 namespace tureen::cli {
-namespace {
+namespace web_bench_test {
 
 using test::error_of;
 using test::ErrorAt;
@@ -211,5 +211,5 @@ TEST(WebBench, NamesWhatIsWrong) {
   EXPECT_THAT(changed((at + "/width").c_str(), 0), wrong(first + "width", 0));
 }
 
-}  // namespace
+}  // namespace web_bench_test
 }  // namespace tureen::cli

@@ -14,7 +14,7 @@
 #include "still_life.hpp"
 
 namespace tureen::example {
-namespace {
+namespace generator_test {
 
 const Model& model() {
   static const Model made = still_life();
@@ -136,5 +136,5 @@ TEST(Glaze, MirrorsMoreAtGrazingAnglesAndNotWithoutGloss) {
   EXPECT_LT(glazed(diffuse, 0.6, 1.0, none).g, displayed(diffuse).g);
 }
 
-}  // namespace
+}  // namespace generator_test
 }  // namespace tureen::example

@@ -20,7 +20,7 @@
 #include "still_life.hpp"
 
 namespace tureen::example {
-namespace {
+namespace photograph_test {
 
 const Studio& studio() {
   static const Studio made(still_life(), draft_light);
@@ -227,5 +227,5 @@ TEST(Transforms, AreReadAsTheSameCamerasWithZUp) {
   }
 }
 
-}  // namespace
+}  // namespace photograph_test
 }  // namespace tureen::example

@@ -15,7 +15,7 @@
 #include "still_life.hpp"
 
 namespace tureen {
-namespace {
+namespace shipped_soup_test {
 
 const std::filesystem::path file = std::filesystem::path(TUREEN_SOURCE_DIR) / "examples/soup.glb";
 
@@ -56,5 +56,5 @@ TEST(ShippedSoup, LooksLikePhotographsThatItWasNotTrainedOn) {
   EXPECT_GT(psnr_from_mse(mean_squared), 33.0);
 }
 
-}  // namespace
+}  // namespace shipped_soup_test
 }  // namespace tureen

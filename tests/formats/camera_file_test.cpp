@@ -13,7 +13,7 @@
 #include "formats/truncation.hpp"
 
 namespace tureen {
-namespace {
+namespace camera_file_test {
 
 using test::error_of;
 using test::ErrorAt;
@@ -200,13 +200,13 @@ TEST(CameraFile, CamerasOfGaussianSplattingSurviveDamage) {
     read_cameras(input);
   };
   const auto whole = std::as_bytes(std::span(gaussian));
-  EXPECT_GT(testing::survive_damage(whole, read_bytes).refused, 0u);
-  EXPECT_EQ(testing::survive_truncation(whole, read_bytes).read, 0u);
+  EXPECT_GT(test::survive_damage(whole, read_bytes).refused, 0u);
+  EXPECT_EQ(test::survive_truncation(whole, read_bytes).read, 0u);
 }
 
 /// Three images in another order than that of their names, by two cameras, one with distortion.
-testing::ColmapFixture colmap_fixture() {
-  testing::ColmapFixture model = testing::upright_colmap(3);
+test::ColmapFixture colmap_fixture() {
+  test::ColmapFixture model = test::upright_colmap(3);
   std::swap(model.images[0], model.images[2]);
   model.cameras.push_back({2, 2, "SIMPLE_RADIAL", 641, 480, {502, 320, 240, 0.125}});
   model.images[1].camera = 2;
@@ -214,9 +214,9 @@ testing::ColmapFixture colmap_fixture() {
 }
 
 TEST(CameraFile, ReadsAModelByColmapInBothForms) {
-  const testing::TemporaryFolder folder;
-  testing::write_binary(folder / "binary", colmap_fixture());
-  testing::write_text(folder / "dataset/sparse/0", colmap_fixture());
+  const test::TemporaryFolder folder;
+  test::write_binary(folder / "binary", colmap_fixture());
+  test::write_text(folder / "dataset/sparse/0", colmap_fixture());
   for (const char* name : {"binary", "binary/images.bin", "binary/cameras.bin", "dataset",
                            "dataset/sparse/0", "dataset/sparse/0/images.txt"}) {
     SCOPED_TRACE(name);
@@ -239,10 +239,10 @@ TEST(CameraFile, ReadsAModelByColmapInBothForms) {
 }
 
 TEST(CameraFile, OtherFilesAndFoldersAreNoCameraFiles) {
-  const testing::TemporaryFolder folder;
-  testing::write_text(folder / "cameras.txt", "1 PINHOLE 8 6 10 9 4 3");  // without images
-  testing::write_text(folder / "scene.off", "OFF\n0 0 0\n");
-  testing::write_text(folder / "cameras.json", " \n[");
+  const test::TemporaryFolder folder;
+  test::write_text(folder / "cameras.txt", "1 PINHOLE 8 6 10 9 4 3");  // without images
+  test::write_text(folder / "scene.off", "OFF\n0 0 0\n");
+  test::write_text(folder / "cameras.json", " \n[");
   EXPECT_FALSE(is_camera_file(folder / ""));
   EXPECT_FALSE(is_camera_file(folder / "cameras.txt"));
   EXPECT_FALSE(is_camera_file(folder / "scene.off"));
@@ -252,10 +252,10 @@ TEST(CameraFile, OtherFilesAndFoldersAreNoCameraFiles) {
 }
 
 TEST(CameraFile, AModelByColmapIsRefusedWithItsFile) {
-  const testing::TemporaryFolder folder;
-  testing::ColmapFixture model = colmap_fixture();
+  const test::TemporaryFolder folder;
+  test::ColmapFixture model = colmap_fixture();
   model.images[0].camera = 9;
-  testing::write_text(folder / "model", model);
+  test::write_text(folder / "model", model);
   EXPECT_THAT(error_of([&] { read_cameras(folder / "model"); }), ErrorAt("model/images.txt", 9));
 }
 
@@ -264,8 +264,8 @@ TEST(CameraFile, TransformsSurviveDamage) {
       std::string("{\"fl_x\": 9, \"fl_y\": 8, \"cx\": 4, \"cy\": 3, \"w\": 8, ") +
       "\"h\": 6, \"k1\": 0.1, \"k4\": 0, \"camera_model\": \"OPENCV\", " +
       "\"frames\": [{\"file_path\": \"a\", " + identity + "}]}";
-  const auto survival = testing::survive_damage(
-      std::as_bytes(std::span(whole)), [](std::span<const std::byte> bytes) {
+  const auto survival =
+      test::survive_damage(std::as_bytes(std::span(whole)), [](std::span<const std::byte> bytes) {
         Input input = Input::memory("cameras.json", bytes);
         read_cameras(input);
       });
@@ -282,5 +282,5 @@ TEST(CameraFile, SurvivesEveryTruncation) {
     EXPECT_THAT(failure(whole.substr(0, length)), ErrorIn("cameras.json")) << length;
 }
 
-}  // namespace
+}  // namespace camera_file_test
 }  // namespace tureen

@@ -9,7 +9,7 @@
 #include "support/random.hpp"
 
 namespace tureen {
-namespace {
+namespace camera_path_file_test {
 
 using test::error_of;
 using test::ErrorAt;
@@ -129,14 +129,14 @@ TEST(CameraPathFile, SurvivesDamage) {
   CameraPathData path = random_path(random);
   path.keyframes.resize(1);
   const std::string whole = path_to_json(path);
-  const auto survival = testing::survive_damage(std::as_bytes(std::span(whole)),
-                                                [](std::span<const std::byte> bytes) {
-                                                  Input input = Input::memory("path.json", bytes);
-                                                  read_path(input);
-                                                });
+  const auto survival =
+      test::survive_damage(std::as_bytes(std::span(whole)), [](std::span<const std::byte> bytes) {
+        Input input = Input::memory("path.json", bytes);
+        read_path(input);
+      });
   EXPECT_GT(survival.read, 0u);
   EXPECT_GT(survival.refused, 0u);
 }
 
-}  // namespace
+}  // namespace camera_path_file_test
 }  // namespace tureen

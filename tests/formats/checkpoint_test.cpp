@@ -11,14 +11,14 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace checkpoint_test {
 
+using test::as_bytes;
 using test::error_of;
 using test::ErrorAt;
 using test::Refusal;
-using testing::as_bytes;
-using testing::TensorFixture;
-using testing::TorchFixture;
+using test::TensorFixture;
+using test::TorchFixture;
 
 Scene read(const TorchFixture& fixture) {
   const std::string bytes = fixture.bytes();
@@ -303,10 +303,10 @@ TEST(Checkpoint, SurvivesTruncationAndDamage) {
     }
   };
   for (const std::string& bytes : {DiffSoup{0}.file().bytes(), triangle_splatting(1, 3).bytes()}) {
-    EXPECT_EQ(testing::survive_truncation(as_bytes(bytes), read_sound).read, 0u);
-    EXPECT_GT(testing::survive_damage(as_bytes(bytes), read_sound).refused, 1000u);
+    EXPECT_EQ(test::survive_truncation(as_bytes(bytes), read_sound).read, 0u);
+    EXPECT_GT(test::survive_damage(as_bytes(bytes), read_sound).refused, 1000u);
   }
 }
 
-}  // namespace
+}  // namespace checkpoint_test
 }  // namespace tureen

@@ -10,9 +10,9 @@
 #include "formats/truncation.hpp"
 
 namespace tureen {
-namespace {
+namespace colmap_test {
 
-using namespace tureen::testing;
+using namespace tureen::test;
 
 Input input_of_bytes(std::span<const std::byte> bytes, const std::string& name) {
   return Input::memory(name, bytes);
@@ -323,5 +323,5 @@ TEST(Colmap, SurvivesRandomDamage) {
   EXPECT_GT(survival.refused, 0u);
 }
 
-}  // namespace
+}  // namespace colmap_test
 }  // namespace tureen

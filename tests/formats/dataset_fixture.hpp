@@ -13,7 +13,7 @@
 
 #include "formats/png.hpp"
 
-namespace tureen::testing {
+namespace tureen::test {
 
 inline void write_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes) {
   std::filesystem::create_directories(path.parent_path());
@@ -183,4 +183,4 @@ inline void write_text(const std::filesystem::path& folder, const ColmapFixture&
   write_text(folder / "points3D.txt", text_points(model));
 }
 
-}  // namespace tureen::testing
+}  // namespace tureen::test

@@ -10,9 +10,9 @@
 #include "soup/box_scale.hpp"
 
 namespace tureen {
-namespace {
+namespace dataset_test {
 
-using namespace tureen::testing;
+using namespace tureen::test;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::Not;
@@ -502,5 +502,5 @@ TEST(DatasetData, LegoHasItsOwnSplitAndAlpha) {
   }
 }
 
-}  // namespace
+}  // namespace dataset_test
 }  // namespace tureen

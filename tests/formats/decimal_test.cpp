@@ -13,7 +13,7 @@
 #include <string>
 
 namespace tureen {
-namespace {
+namespace decimal_test {
 
 std::uint32_t bits_of(float value) {
   std::uint32_t bits;
@@ -226,5 +226,5 @@ TEST(FormatFloat, RoundTripsRandomBits_seed3) {
   }
 }
 
-}  // namespace
+}  // namespace decimal_test
 }  // namespace tureen

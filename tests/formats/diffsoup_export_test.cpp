@@ -17,15 +17,15 @@
 #include "soup/lattice.hpp"
 
 namespace tureen {
-namespace {
+namespace diffsoup_export_test {
 
 using test::error_of;
 using test::ErrorAt;
 using test::Names;
 using test::Refusal;
+using test::TemporaryFolder;
 using ::testing::Contains;
 using ::testing::IsEmpty;
-using testing::TemporaryFolder;
 namespace fs = std::filesystem;
 
 ColorMlp random_mlp(std::mt19937& random) {
@@ -71,7 +71,7 @@ Scene random_scene(unsigned seed, std::size_t faces, int level) {
 }
 
 const LatticeTexture& texture_of(const Scene& scene) {
-  return std::get<LatticeTexture>(testing::soup_of(scene).appearance);
+  return std::get<LatticeTexture>(test::soup_of(scene).appearance);
 }
 
 void write_text(const fs::path& path, const std::string& text) {
@@ -115,13 +115,13 @@ TEST_P(DiffSoupLevel, RoundTripKeepsValuesToHalfAByteAndTheSideOfEveryAlpha) {
   EXPECT_THAT(write_diffsoup_export(scene, folder / "scene"), IsEmpty());
   ASSERT_TRUE(is_diffsoup_export(folder / "scene"));
   const Scene copy = read_diffsoup_export(folder / "scene");
-  EXPECT_EQ(defect(testing::soup_of(copy)), std::nullopt);
+  EXPECT_EQ(defect(test::soup_of(copy)), std::nullopt);
   EXPECT_EQ(copy.info.name, "scene");
   EXPECT_EQ(copy.info.background, scene.info.background);
   EXPECT_NEAR(glm::distance(copy.info.up, scene.info.up), 0, 1e-6);
   EXPECT_THAT(copy.info.remarks, IsEmpty());
-  EXPECT_EQ(testing::soup_of(copy).positions, testing::soup_of(scene).positions);
-  EXPECT_EQ(testing::soup_of(copy).triangles, testing::soup_of(scene).triangles);
+  EXPECT_EQ(test::soup_of(copy).positions, test::soup_of(scene).positions);
+  EXPECT_EQ(test::soup_of(copy).triangles, test::soup_of(scene).triangles);
   const LatticeTexture &before = texture_of(scene), &after = texture_of(copy);
   ASSERT_EQ(before.texel_count(), after.texel_count());
   for (std::size_t i = 0; i < before.texel_count(); ++i) {
@@ -198,7 +198,7 @@ TEST(DiffSoupExport, OtherLayoutsOfTheMeshAreRead) {
       "property uchar tag\r\nproperty double z\r\nproperty float y\r\nproperty float x\r\n"
       "element face 1\r\nproperty list int ushort vertex_index\r\nproperty float area\r\n"
       "end_header\r\n";
-  for (const glm::vec3& p : testing::soup_of(scene).positions) {
+  for (const glm::vec3& p : test::soup_of(scene).positions) {
     const double z = double(p.z);
     mesh += 'T';
     mesh.append(reinterpret_cast<const char*>(&z), 8);
@@ -208,8 +208,8 @@ TEST(DiffSoupExport, OtherLayoutsOfTheMeshAreRead) {
   mesh += std::string("\3\0\0\0\2\0\0\0\1\0", 10) + "area";
   write_text(folder / "a/mesh.ply", mesh);
   const Scene copy = read_diffsoup_export(folder / "a");
-  EXPECT_EQ(testing::soup_of(copy).positions, testing::soup_of(scene).positions);
-  EXPECT_EQ(testing::soup_of(copy).triangles[0], glm::uvec3(2, 0, 1));
+  EXPECT_EQ(test::soup_of(copy).positions, test::soup_of(scene).positions);
+  EXPECT_EQ(test::soup_of(copy).triangles[0], glm::uvec3(2, 0, 1));
 }
 
 TEST(DiffSoupExport, TheHalfThatTruncationLostIsRestoredAndCounted) {
@@ -286,7 +286,7 @@ TEST(DiffSoupExport, PlainColoursBecomeLevelZero) {
   EXPECT_THAT(write_diffsoup_export(scene, folder / "v"), ::testing::SizeIs(2))
       << "a network is added, the origin is moved";
   const Scene vertex = read_diffsoup_export(folder / "v");
-  EXPECT_EQ(testing::soup_of(vertex).positions[3], glm::vec3(11, 21, 30));
+  EXPECT_EQ(test::soup_of(vertex).positions[3], glm::vec3(11, 21, 30));
   // Face 1 is (2, 1, 3), its texels are those of its third, first and second vertex.
   EXPECT_EQ(std::get<std::vector<std::uint8_t>>(texture_of(vertex).texels),
             (std::vector<std::uint8_t>{255, 255, 255, 0, 0, 0, 0, 0,    //
@@ -394,7 +394,7 @@ TEST(DiffSoupExport, AHeaderThatOnlyLooksLikeOneIsRefused) {
   const std::string odd =
       small.substr(0, 8) + std::string("\0\0\0\012CgBI", 8) + promised + "CRC." + small.substr(8);
   const auto odd_bytes = std::as_bytes(std::span(odd));
-  write_file(path, testing::with_png_sums({odd_bytes.begin(), odd_bytes.end()}));
+  write_file(path, test::with_png_sums({odd_bytes.begin(), odd_bytes.end()}));
   Input input = Input::open(path);
   ASSERT_EQ(read_image(input).width, 1) << "the decoder no longer passes over the chunk";
   EXPECT_THAT(refusal(folder / "a"), ErrorAt("a/lut1.png@8"));
@@ -451,25 +451,25 @@ TEST_P(DiffSoupDamage, TruncationAndDamageAreSurvived) {
   const auto read = [&](std::span<const std::byte> bytes) {
     write_text(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     const Scene copy = read_diffsoup_export(folder / "a");
-    EXPECT_EQ(defect(testing::soup_of(copy)), std::nullopt);
+    EXPECT_EQ(defect(test::soup_of(copy)), std::nullopt);
     same = same && texture_of(copy).texels == expected;
   };
   // Written to disk each time: every length and byte of short files, 400 of the long one. The mesh
   // alone is damaged in every way below.
   const std::size_t step = 1 + good.size() / 400;
-  testing::Survival cut;
+  test::Survival cut;
   for (std::size_t length = 0; length < good.size(); length += step)
-    testing::expect_survival(std::as_bytes(std::span(good)).first(length), read,
-                             "cut to " + std::to_string(length), cut);
+    test::expect_survival(std::as_bytes(std::span(good)).first(length), read,
+                          "cut to " + std::to_string(length), cut);
   // All but a JSON's last line break and the checksum of a PNG's last chunk is needed.
   EXPECT_LE(cut.read, 4u);
   EXPECT_TRUE(same) << "a truncated file was read as something else";
-  testing::Survival damaged;
+  test::Survival damaged;
   for (std::size_t i = 0; i < good.size(); i += step) {
     std::string bad = good;
     bad[i] = static_cast<char>(~bad[i]);
-    testing::expect_survival(std::as_bytes(std::span(bad)), read, "byte " + std::to_string(i),
-                             damaged);
+    test::expect_survival(std::as_bytes(std::span(bad)), read, "byte " + std::to_string(i),
+                          damaged);
   }
   EXPECT_GT(damaged.refused, 0u);
 }
@@ -484,9 +484,9 @@ TEST(DiffSoupMesh, TruncationAndDamageAreSurvived) {
     for (const glm::uvec3& triangle : mesh.triangles)
       for (int k = 0; k < 3; ++k) EXPECT_LT(triangle[k], mesh.positions.size());
   };
-  EXPECT_EQ(testing::survive_truncation(std::as_bytes(std::span(good)), read).read, 0u);
-  EXPECT_GT(testing::survive_damage(std::as_bytes(std::span(good)), read).refused, 1000u);
+  EXPECT_EQ(test::survive_truncation(std::as_bytes(std::span(good)), read).read, 0u);
+  EXPECT_GT(test::survive_damage(std::as_bytes(std::span(good)), read).refused, 1000u);
 }
 
-}  // namespace
+}  // namespace diffsoup_export_test
 }  // namespace tureen

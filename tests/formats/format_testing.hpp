@@ -13,7 +13,7 @@
 #include "soup/scene.hpp"
 #include "support/errors.hpp"
 
-namespace tureen::testing {
+namespace tureen::test {
 
 using test::error_of;
 using test::ErrorAt;
@@ -56,4 +56,4 @@ inline const std::vector<glm::vec4>& vertex_rgba(const Scene& scene) {
   return std::get<VertexColors>(soup_of(scene).appearance).rgba;
 }
 
-}  // namespace tureen::testing
+}  // namespace tureen::test

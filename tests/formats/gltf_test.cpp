@@ -22,7 +22,7 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace gltf_test {
 
 using nlohmann::json;
 using test::error_of;
@@ -576,13 +576,13 @@ TEST_F(Gltf, SurvivesTruncationAndDamage) {
   const auto read_bytes = [&](std::span<const std::byte> damaged) {
     EXPECT_FALSE(defect(soup_of(read_gltf_or_glb(save("damaged.glb", damaged)))));
   };
-  EXPECT_EQ(testing::survive_truncation(bytes, read_bytes).read, 0u);
-  testing::Survival survival;
+  EXPECT_EQ(test::survive_truncation(bytes, read_bytes).read, 0u);
+  test::Survival survival;
   std::vector<std::byte> damaged(bytes);
   for (std::size_t i = 0; i < bytes.size(); ++i)
     for (const unsigned flip : {0x01u, 0x08u, 0x40u, 0xffu}) {
       damaged[i] = bytes[i] ^ std::byte(flip);
-      testing::expect_survival(damaged, read_bytes, "byte " + std::to_string(i), survival);
+      test::expect_survival(damaged, read_bytes, "byte " + std::to_string(i), survival);
       damaged[i] = bytes[i];
     }
   EXPECT_GT(survival.refused, bytes.size());
@@ -645,5 +645,5 @@ TEST_F(Gltf, ReadsTheFicus) {
   EXPECT_THAT(scene.info.remarks, Contains(Remark{Remark::Kind::vertex_colors_srgb_by_generator}));
 }
 
-}  // namespace
+}  // namespace gltf_test
 }  // namespace tureen

@@ -16,7 +16,7 @@
 #include "formats/memory_limit.hpp"
 #include "formats/memory_meter.hpp"
 
-namespace tureen::testing {
+namespace tureen::test {
 
 using Bytes = std::vector<std::byte>;
 
@@ -73,4 +73,4 @@ void expect_refused(Read&& read, const std::string& what,
   EXPECT_THAT(error, expected) << what;
 }
 
-}  // namespace tureen::testing
+}  // namespace tureen::test

@@ -16,13 +16,13 @@
 #include "formats/scene_file.hpp"
 
 namespace tureen {
-namespace {
+namespace hostile_files_test {
 
 using test::error_of;
 using test::ErrorIn;
 namespace fs = std::filesystem;
-using testing::TemporaryFolder;
-using testing::within_bounds;
+using test::TemporaryFolder;
+using test::within_bounds;
 
 /// The folder of hostile files beside the repository, where there is one.
 fs::path hostile_files() { return TUREEN_SOURCE_DIR "/../shared/data/hostile"; }
@@ -178,5 +178,5 @@ TEST(HostileFiles, OfOthersEndAsTheyShouldAndNothingIsWritten) {
   for (const auto& [name, verdict] : verdicts()) EXPECT_TRUE(tried.contains(name)) << "no " << name;
 }
 
-}  // namespace
+}  // namespace hostile_files_test
 }  // namespace tureen

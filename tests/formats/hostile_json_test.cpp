@@ -21,18 +21,18 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace hostile_json_test {
 
 using test::ErrorIn;
 using test::Names;
 namespace fs = std::filesystem;
+using test::Bytes;
+using test::bytes_of;
 using test::error_of;
+using test::TemporaryFolder;
+using test::text_of;
+using test::within_bounds;
 using ::testing::AnyOf;
-using testing::Bytes;
-using testing::bytes_of;
-using testing::TemporaryFolder;
-using testing::text_of;
-using testing::within_bounds;
 
 struct JsonReader {
   const char* name;
@@ -41,8 +41,8 @@ struct JsonReader {
 
 void read_in_folder(const fs::path& folder, const fuzz::FolderFiles& files, const char* name,
                     const std::string& text) {
-  for (const auto& [file, bytes] : files) testing::write_bytes(folder / file, bytes);
-  testing::write_text(folder / name, text);
+  for (const auto& [file, bytes] : files) test::write_bytes(folder / file, bytes);
+  test::write_text(folder / name, text);
   read_scene(folder);
 }
 
@@ -111,7 +111,7 @@ const std::array<JsonReader, 17> json_readers{{
      }},
     {"small files",
      [](const std::string& text, const fs::path&) {
-       Input input = testing::input_of(text, "a.json");
+       Input input = test::input_of(text, "a.json");
        read_json(input, RepeatedKeys::refused);
      }},
 }};
@@ -256,5 +256,5 @@ TEST(HostileJson, X2_ListsOfWrongLengthsAreRefused) {
   for (const auto& [name, text] : documents) EXPECT_GT(refused[name], 0u) << name;
 }
 
-}  // namespace
+}  // namespace hostile_json_test
 }  // namespace tureen

@@ -29,18 +29,18 @@
 #include "trainer/model.hpp"
 
 namespace tureen {
-namespace {
+namespace hostile_sizes_test {
 
+using test::Bytes;
+using test::bytes_of;
 using test::error_of;
 using test::ErrorAt;
 using test::ErrorIn;
+using test::expect_refused;
 using test::Names;
+using test::TemporaryFolder;
+using test::text_of;
 using ::testing::AnyOf;
-using testing::Bytes;
-using testing::bytes_of;
-using testing::expect_refused;
-using testing::TemporaryFolder;
-using testing::text_of;
 
 constexpr std::array<std::uint64_t, 5> false_sizes{
     std::uint64_t(1) << 31, (std::uint64_t(1) << 32) - 1, std::uint64_t(1) << 32,
@@ -53,7 +53,7 @@ TEST(HostileSizes, InTexts) {
                                     "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n" + n + " 0 1 2\n"})
       expect_refused(
           [&] {
-            Input input = testing::input_of(text, "a.off");
+            Input input = test::input_of(text, "a.off");
             read_off(input);
           },
           text, AnyOf(ErrorIn("a.off", n), ErrorAt("a.off:6")));
@@ -75,7 +75,7 @@ TEST(HostileSizes, InTexts) {
                                  "end_header\n" + vertices;
         expect_refused(
             [&] {
-              Input input = testing::input_of(text, "a.ply");
+              Input input = test::input_of(text, "a.ply");
               read_ply(input);
             },
             text, ErrorIn("a.ply", n));
@@ -181,10 +181,10 @@ TEST(HostileSizes, OfCheckpointsOfTraining) {
 
 TEST(HostileSizes, InTheJsonOfOurFile) {
   std::set<std::string> tried;
-  using testing::glb_json;
-  using testing::with_glb_json;
-  for (const testing::GlbKind& kind : testing::glb_kinds()) {
-    const Bytes bytes = testing::glb_bytes(testing::random_scene(kind, 1, 2), kind.name);
+  using test::glb_json;
+  using test::with_glb_json;
+  for (const test::GlbKind& kind : test::glb_kinds()) {
+    const Bytes bytes = test::glb_bytes(test::random_scene(kind, 1, 2), kind.name);
     const nlohmann::json whole = glb_json(bytes);
     const auto refuse = [&](const std::string& pointer, std::uint64_t size) {
       const nlohmann::json::json_pointer at(pointer);
@@ -240,7 +240,7 @@ TEST(HostileSizes, InTheJsonOfForeignFiles) {
 }
 
 TEST(HostileSizes, OfTensors) {
-  using testing::TensorFixture;
+  using test::TensorFixture;
   std::vector<std::uint64_t> sizes{std::uint64_t(1) << 30, 0x7fffffff,
                                    (std::uint64_t(1) << 63) - 1};
   sizes.insert(sizes.end(), false_sizes.begin(), false_sizes.end());
@@ -260,10 +260,10 @@ TEST(HostileSizes, OfTensors) {
     damaged.push_back(points());
     damaged.back().stored = size;
     for (std::size_t i = 0; i < damaged.size(); ++i) {
-      testing::TorchFixture torch;
+      test::TorchFixture torch;
       torch.add("triangles_points", damaged[i]);
       const std::string bytes = torch.bytes();
-      expect_refused([&] { read_checkpoint(Input::memory("a.pt", testing::as_bytes(bytes))); },
+      expect_refused([&] { read_checkpoint(Input::memory("a.pt", test::as_bytes(bytes))); },
                      "tensor " + std::to_string(i) + " of " + std::to_string(size),
                      // Beyond 63 bits there is no such integer in a pickle that we read.
                      size >> 63 ? Names("LONG1", 9) : Names("triangles_points"));
@@ -274,7 +274,7 @@ TEST(HostileSizes, OfTensors) {
 /// Sizes of 64 bits stand in the directory's extra field and in the record behind the directory.
 TEST(HostileSizes, OfArchives) {
   const auto damaged = [](bool deflate, const char* signature, std::size_t at, std::uint64_t size) {
-    testing::ZipFixture zip;
+    test::ZipFixture zip;
     zip.zip64 = true;
     zip.entries.push_back({"a/data.pkl", std::string(300, 'x'), deflate});
     std::string bytes = zip.bytes();
@@ -296,13 +296,13 @@ TEST(HostileSizes, OfArchives) {
   for (const auto& field : fields)
     for (const std::uint64_t size : false_sizes) {
       const std::string bytes = damaged(field.deflate, field.signature, field.at, size);
-      expect_refused([&] { ZipArchive(Input::memory("a.pt", testing::as_bytes(bytes))); },
+      expect_refused([&] { ZipArchive(Input::memory("a.pt", test::as_bytes(bytes))); },
                      field.signature + std::to_string(field.at) + " = " + std::to_string(size),
                      field.names_size ? ErrorIn("a.pt", size) : ErrorIn("a.pt"));
     }
   EXPECT_EQ(error_of([&] {
               const std::string bytes = damaged(false, "PK\1\2", extra, 300);
-              ZipArchive(Input::memory("a.pt", testing::as_bytes(bytes)));
+              ZipArchive(Input::memory("a.pt", test::as_bytes(bytes)));
             }),
             std::nullopt)
       << "without damage it is read";
@@ -412,15 +412,14 @@ TEST(HostileSizes, InTheJsonOfRunsAndMeasurements) {
 
 TEST(HostileSizes, InTheFilesOfAFolder) {
   const TemporaryFolder folder;
-  for (const auto& [name, bytes] : fuzz::diffsoup_files())
-    testing::write_bytes(folder / name, bytes);
+  for (const auto& [name, bytes] : fuzz::diffsoup_files()) test::write_bytes(folder / name, bytes);
   const auto whole = nlohmann::json::parse(text_of(Input::open(folder / "meta.json").read_rest()));
   for (const char* key : {"num_faces", "num_verts", "level"}) {
     ASSERT_TRUE(whole.contains(key));
     for (const std::uint64_t size : false_sizes) {
       nlohmann::json changed = whole;
       changed[key] = size;
-      testing::write_text(folder / "meta.json", changed.dump());
+      test::write_text(folder / "meta.json", changed.dump());
       expect_refused(
           [&] { read_scene(folder / ""); }, key + std::to_string(size),
           std::string_view(key) == "level" ? Names("level", 7) : Names("meta.json", size));
@@ -431,13 +430,13 @@ TEST(HostileSizes, InTheFilesOfAFolder) {
 TEST(HostileSizes, OfMobileNerf) {
   const TemporaryFolder folder;
   for (const auto& [name, bytes] : fuzz::mobilenerf_files())
-    testing::write_bytes(folder / name, bytes);
+    test::write_bytes(folder / name, bytes);
   const auto whole = nlohmann::json::parse(text_of(Input::open(folder / "mlp.json").read_rest()));
   ASSERT_TRUE(whole.contains("obj_num"));
   for (const std::uint64_t size : false_sizes) {
     nlohmann::json changed = whole;
     changed["obj_num"] = size;
-    testing::write_text(folder / "mlp.json", changed.dump());
+    test::write_text(folder / "mlp.json", changed.dump());
     expect_refused([&] { read_scene(folder / ""); }, std::to_string(size),
                    ErrorIn("mlp.json", "obj_num"));
   }
@@ -448,13 +447,13 @@ TEST(HostileSizes, OfSlimFiles) {
   std::set<std::string> tried;
   for (const fuzz::Fixture& fixture : fuzz::fixtures()) {
     if (fixture.name == "slim.glb") {
-      const nlohmann::json whole = testing::glb_json(fixture.bytes);
+      const nlohmann::json whole = test::glb_json(fixture.bytes);
       for (const char* key : {"vertex_count", "face_count"})
         for (const std::uint64_t size : false_sizes) {
           tried.insert(key);
           nlohmann::json changed = whole;
           changed["extensions"]["TUREEN_triangle_soup"][key] = size;
-          const Bytes damaged = testing::with_glb_json(fixture.bytes, changed);
+          const Bytes damaged = test::with_glb_json(fixture.bytes, changed);
           expect_refused([&] { fuzz::gltf(damaged); }, key + std::to_string(size),
                          ErrorIn("fuzz.glb"));
         }
@@ -478,5 +477,5 @@ TEST(HostileSizes, OfSlimFiles) {
                                                      "slim_texels"));
 }
 
-}  // namespace
+}  // namespace hostile_sizes_test
 }  // namespace tureen

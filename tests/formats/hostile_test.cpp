@@ -33,20 +33,20 @@
 #include "support/random.hpp"
 
 namespace tureen {
-namespace {
+namespace hostile_test {
 
 using test::ErrorAt;
 using test::ErrorIn;
 using test::Names;
 namespace fs = std::filesystem;
+using test::Bytes;
+using test::bytes_of;
+using test::Cost;
 using test::error_of;
-using testing::Bytes;
-using testing::bytes_of;
-using testing::Cost;
-using testing::MemoryMeter;
-using testing::TemporaryFolder;
-using testing::uncounted;
-using testing::within_bounds;
+using test::MemoryMeter;
+using test::TemporaryFolder;
+using test::uncounted;
+using test::within_bounds;
 
 // ---- Damage
 
@@ -69,7 +69,7 @@ TEST_P(Hostile, DamageEndsInAnErrorOrAScene) {
   constexpr std::uint64_t limit = 8 << 20;
   std::size_t fixtures = 0;
   Cost most;
-  testing::Survival cut, flipped;
+  test::Survival cut, flipped;
   for (const fuzz::Fixture& fixture : fuzz::fixtures()) {
     if (fixture.target != target.name) continue;
     ++fixtures;
@@ -81,7 +81,7 @@ TEST_P(Hostile, DamageEndsInAnErrorOrAScene) {
       most = {std::max(most.bytes, cost.bytes), std::max(most.seconds, cost.seconds)};
     };
     const std::size_t cut_before = cut.read + cut.refused;
-    testing::survive_truncation(fixture.bytes, read, cut);
+    test::survive_truncation(fixture.bytes, read, cut);
     EXPECT_EQ(cut.read + cut.refused - cut_before, fixture.bytes.size());
 
     const unsigned seed = 1;
@@ -95,9 +95,9 @@ TEST_P(Hostile, DamageEndsInAnErrorOrAScene) {
         victim = random.chance(0.7) ? victim ^ static_cast<std::byte>(1u << random.below(8))
                                     : static_cast<std::byte>(random.below(256));
       }
-      testing::expect_survival(
-          bytes, read, "seed " + std::to_string(seed) + ", flips number " + std::to_string(i),
-          flipped);
+      test::expect_survival(bytes, read,
+                            "seed " + std::to_string(seed) + ", flips number " + std::to_string(i),
+                            flipped);
       if (HasFailure()) return;
     }
     EXPECT_EQ(flipped.read + flipped.refused - flipped_before, std::size_t(flips()));
@@ -124,10 +124,10 @@ TEST(HostileCrashes, FoundByFuzzersEndInAnErrorOrAScene) {
     for (const auto& entry : fs::directory_iterator(folder)) {
       ++files;
       const Bytes bytes = Input::open(entry.path()).read_rest();
-      testing::Survival survival;
+      test::Survival survival;
       within_bounds(
           32 << 20,
-          [&] { testing::expect_survival(bytes, target.read, entry.path().string(), survival); },
+          [&] { test::expect_survival(bytes, target.read, entry.path().string(), survival); },
           entry.path().string());
     }
   }
@@ -186,7 +186,7 @@ TEST(HostileBombs, ManyPicturesInOneScene) {
           .width = 1000, .height = 1000, .color_type = 0, .rows = std::string(1001u * 1000u, '\0')}
           .bytes();
   const TemporaryFolder folder;
-  testing::write_bytes(folder / "a.png", picture);
+  test::write_bytes(folder / "a.png", picture);
   nlohmann::json gltf = nlohmann::json::parse(R"({"asset": {"version": "2.0"},
     "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
     "accessors": [{"componentType": 5126, "count": 3, "type": "VEC3"},
@@ -198,7 +198,7 @@ TEST(HostileBombs, ManyPicturesInOneScene) {
     gltf["meshes"][0]["primitives"].push_back(
         {{"attributes", {{"POSITION", 0}, {"TEXCOORD_0", 1}}}, {"material", i}});
   }
-  testing::write_text(folder / "a.gltf", gltf.dump());
+  test::write_text(folder / "a.gltf", gltf.dump());
   within_bounds(
       64 << 20,
       [&] {
@@ -211,7 +211,7 @@ TEST(HostileBombs, ManyPicturesInOneScene) {
 // Row X4 of the catalogue of numerical hazards; its pickles are in pickle_test.cpp.
 TEST(HostileBombs, X4_AnArchiveThatInflatesBeyondItsSizes) {
   const std::string zeros(32 << 20, '\0');
-  const std::string packed = testing::ZipFixture::deflated(zeros);
+  const std::string packed = test::ZipFixture::deflated(zeros);
   EXPECT_LT(packed.size(), 1u << 20);
   // Says what it holds, says less, and says more than deflate can.
   const std::pair<std::uint64_t, test::NamesMatcher> claims[] = {
@@ -219,7 +219,7 @@ TEST(HostileBombs, X4_AnArchiveThatInflatesBeyondItsSizes) {
       {1000, Names(2)},
       {0x7fffffff, Names("a/data.pkl")}};
   for (const auto& [claimed, says] : claims) {
-    testing::ZipFixture zip;
+    test::ZipFixture zip;
     zip.entries.push_back({"a/data.pkl", zeros, true});
     std::string bytes = zip.bytes();
     const auto size = std::uint32_t(claimed);
@@ -239,7 +239,7 @@ TEST(HostileBombs, X4_AnArchiveThatInflatesBeyondItsSizes) {
 
 TEST(HostileBombs, X4_PicklesThatDoubleThemselves) {
   // A list of two of the list before, forty times over: 2^40 elements for whoever walks it.
-  testing::PickleFixture pickle;
+  test::PickleFixture pickle;
   pickle.op("]q").op(std::string(1, '\0'));
   for (int i = 1; i < 40; ++i) {
     pickle.op("](h").op(std::string(1, char(i - 1))).op("h").op(std::string(1, char(i - 1)));
@@ -274,7 +274,7 @@ class Tripwire {
 
 TEST(Tripwire, TellsOfAFileThatIsOpened) {
   const TemporaryFolder folder;
-  testing::write_text(folder / "a", "text");
+  test::write_text(folder / "a", "text");
   const Tripwire wire(folder / "a");
   EXPECT_FALSE(wire.was_opened());
   Input::open(folder / "a").read_rest();
@@ -298,10 +298,10 @@ std::string gltf_with_uri(const std::string& list, const std::string& uri) {
 class HostileNames : public ::testing::Test {
  protected:
   void SetUp() override {
-    testing::write_picture(folder / "outside.png", testing::a_picture(8, 6));
-    testing::write_bytes(folder / "outside.bin", Bytes(36));
-    testing::write_picture(folder / "scene/inside.png", testing::a_picture(8, 6));
-    testing::write_bytes(folder / "scene/inside.bin", Bytes(36));
+    test::write_picture(folder / "outside.png", test::a_picture(8, 6));
+    test::write_bytes(folder / "outside.bin", Bytes(36));
+    test::write_picture(folder / "scene/inside.png", test::a_picture(8, 6));
+    test::write_bytes(folder / "scene/inside.bin", Bytes(36));
     fs::create_symlink(folder / "outside.png", folder / "scene/link.png");
     fs::create_symlink(folder / "outside.bin", folder / "scene/link.bin");
     fs::create_symlink(folder / "", folder / "scene/up");
@@ -311,7 +311,7 @@ class HostileNames : public ::testing::Test {
 
 TEST_F(HostileNames, OfAGltfDoNotLeadOutOfItsFolder) {
   const Tripwire picture(folder / "outside.png"), bytes(folder / "outside.bin");
-  testing::write_text(folder / "scene/a.gltf", gltf_with_uri("images", "inside.png"));
+  test::write_text(folder / "scene/a.gltf", gltf_with_uri("images", "inside.png"));
   EXPECT_EQ(error_of([&] { read_scene(folder / "scene/a.gltf"); }), std::nullopt);
   for (const auto& [list, extension] : {std::pair("images", ".png"), std::pair("buffers", ".bin")})
     for (const std::string& name :
@@ -319,7 +319,7 @@ TEST_F(HostileNames, OfAGltfDoNotLeadOutOfItsFolder) {
           std::string("..\\outside"), (folder / "outside").string(),
           "file://" + (folder / "outside").string(), std::string("link"), std::string("up/outside"),
           std::string("up/scene/../outside")}) {
-      testing::write_text(folder / "scene/a.gltf", gltf_with_uri(list, name + extension));
+      test::write_text(folder / "scene/a.gltf", gltf_with_uri(list, name + extension));
       EXPECT_THAT(error_of([&] { read_scene(folder / "scene/a.gltf"); }), ErrorIn("a.gltf", list))
           << name;
     }
@@ -331,10 +331,9 @@ TEST_F(HostileNames, OfAFolderOfFixedNamesDoNotLeadOutOfIt) {
   const auto lead_out = [&](const fuzz::FolderFiles& files) {
     for (const auto& [name, content] : files) {
       fs::remove_all(folder / "fixed");
-      for (const auto& [file, bytes] : files)
-        testing::write_bytes(folder / ("fixed/" + file), bytes);
+      for (const auto& [file, bytes] : files) test::write_bytes(folder / ("fixed/" + file), bytes);
       EXPECT_EQ(error_of([&] { read_scene(folder / "fixed"); }), std::nullopt);
-      testing::write_bytes(folder / "elsewhere", content);
+      test::write_bytes(folder / "elsewhere", content);
       fs::remove(folder / ("fixed/" + name));
       fs::create_symlink("../elsewhere", folder / ("fixed/" + name));
       const Tripwire wire(folder / "elsewhere");
@@ -342,7 +341,7 @@ TEST_F(HostileNames, OfAFolderOfFixedNamesDoNotLeadOutOfIt) {
           << name;
       EXPECT_FALSE(wire.was_opened()) << name;
       // A link within the folder is as good as a file.
-      testing::write_bytes(folder / "fixed/other", content);
+      test::write_bytes(folder / "fixed/other", content);
       fs::remove(folder / ("fixed/" + name));
       fs::create_symlink("other", folder / ("fixed/" + name));
       EXPECT_EQ(error_of([&] { read_scene(folder / "fixed"); }), std::nullopt) << name;
@@ -357,13 +356,13 @@ TEST_F(HostileNames, OfPhotographsDoNotLeadOutOfTheDataset) {
   for (const char* name : {"../outside.png", "x/../../outside.png", "link.png", "up/outside.png"}) {
     const std::string frame = std::string(R"({"file_path": ")") + name + R"(",
       "transform_matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,2],[0,0,0,1]]})";
-    testing::write_text(folder / "scene/transforms.json",
-                        R"({"camera_angle_x": 0.7, "frames": [)" + frame + "," + frame + "]}");
+    test::write_text(folder / "scene/transforms.json",
+                     R"({"camera_angle_x": 0.7, "frames": [)" + frame + "," + frame + "]}");
     EXPECT_THAT(error_of([&] { read_dataset(folder / "scene"); }), Names(name)) << name;
     fs::remove(folder / "scene/transforms.json");
-    testing::ColmapFixture model = testing::upright_colmap(2);
+    test::ColmapFixture model = test::upright_colmap(2);
     for (auto& image : model.images) image.name = std::string("../") + name;
-    testing::write_text(folder / "scene/sparse/0", model);
+    test::write_text(folder / "scene/sparse/0", model);
     fs::create_directories(folder / "scene/images");
     EXPECT_THAT(error_of([&] { read_dataset(folder / "scene"); }),
                 Names(std::string("../") + name));
@@ -374,28 +373,28 @@ TEST_F(HostileNames, OfPhotographsDoNotLeadOutOfTheDataset) {
 
 TEST_F(HostileNames, ThatAreNotUtf8EndInAnErrorOrAreReadAsTheyAre) {
   const std::string odd = "\xff\xfe\xc3(.off";
-  testing::write_text(folder / odd, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-  EXPECT_EQ(testing::soup_of(read_scene(folder / odd)).triangles.size(), 1u);
-  testing::write_text(folder / odd, "OFF\n3 1 0\n");
+  test::write_text(folder / odd, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  EXPECT_EQ(test::soup_of(read_scene(folder / odd)).triangles.size(), 1u);
+  test::write_text(folder / odd, "OFF\n3 1 0\n");
   EXPECT_THAT(error_of([&] { read_scene(folder / odd); }), ErrorIn(odd));
   // In JSON they are no JSON.
-  testing::write_text(folder / "scene/a.gltf",
-                      "{\"asset\": {\"version\": \"2.0\"}, \"images\": [{\"uri\": \"\xff.png\"}]}");
+  test::write_text(folder / "scene/a.gltf",
+                   "{\"asset\": {\"version\": \"2.0\"}, \"images\": [{\"uri\": \"\xff.png\"}]}");
   EXPECT_THAT(error_of([&] { read_scene(folder / "scene/a.gltf"); }), ErrorIn("a.gltf"));
   // COLMAP's names are bytes.
-  testing::ColmapFixture model = testing::upright_colmap(2);
+  test::ColmapFixture model = test::upright_colmap(2);
   model.images[0].name = "\xff\xfe.png";
-  testing::write_binary(folder / "scene/sparse/0", model);
+  test::write_binary(folder / "scene/sparse/0", model);
   for (const std::string& name : {model.images[0].name, model.images[1].name})
-    testing::write_picture(folder / ("scene/images/" + name), testing::a_picture(8, 6));
+    test::write_picture(folder / ("scene/images/" + name), test::a_picture(8, 6));
   const Dataset dataset = read_dataset(folder / "scene");
   EXPECT_EQ(dataset.test.size() + dataset.train.size(), 2u);
   cameras_to_json(std::array{dataset.train[0].camera, dataset.test[0].camera});
   // A name of 5000 letters, of which the message shows some.
-  testing::write_text(folder / "long.ply", "ply\nformat ascii 1.0\nelement " +
-                                               std::string(5000, '\xff') + " 1 1\nend_header\n");
+  test::write_text(folder / "long.ply", "ply\nformat ascii 1.0\nelement " +
+                                            std::string(5000, '\xff') + " 1 1\nend_header\n");
   EXPECT_LT(error_of([&] { read_scene(folder / "long.ply"); })->reason.size(), 1000u);
 }
 
-}  // namespace
+}  // namespace hostile_test
 }  // namespace tureen

@@ -12,7 +12,7 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace jpeg_tables_test {
 
 using test::error_of;
 using test::ErrorAt;
@@ -94,5 +94,5 @@ TEST(JpegTables, BehindAPictureAreNoneOfIt) {
   EXPECT_GT(pictures, 0);
 }
 
-}  // namespace
+}  // namespace jpeg_tables_test
 }  // namespace tureen

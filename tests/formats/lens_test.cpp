@@ -9,7 +9,7 @@
 #include <random>
 
 namespace tureen {
-namespace {
+namespace lens_test {
 
 /// Off centre, pixels that are not square, so that nothing can be swapped unnoticed.
 Camera a_camera() {
@@ -197,5 +197,5 @@ TEST(Lens, WhatLeavesTooLittleKnowsNothing) {
   }
 }
 
-}  // namespace
+}  // namespace lens_test
 }  // namespace tureen

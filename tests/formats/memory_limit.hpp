@@ -5,7 +5,7 @@
 
 #include "formats/memory_budget.hpp"
 
-namespace tureen::testing {
+namespace tureen::test {
 
 class MemoryLimit {
  public:
@@ -18,4 +18,4 @@ class MemoryLimit {
   const std::uint64_t before_ = max_memory();
 };
 
-}  // namespace tureen::testing
+}  // namespace tureen::test

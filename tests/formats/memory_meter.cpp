@@ -50,10 +50,10 @@ void operator delete[](void* block, std::size_t) noexcept { release(block); }
 void operator delete(void* block, const std::nothrow_t&) noexcept { release(block); }
 void operator delete[](void* block, const std::nothrow_t&) noexcept { release(block); }
 
-namespace tureen::testing {
+namespace tureen::test {
 
 MemoryMeter::MemoryMeter() : before_(live) { most = before_; }
 
 std::size_t MemoryMeter::peak() const { return most - before_; }
 
-}  // namespace tureen::testing
+}  // namespace tureen::test

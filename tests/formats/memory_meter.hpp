@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-namespace tureen::testing {
+namespace tureen::test {
 
 /// The most of them since it was made, beyond those of then.
 class MemoryMeter {
@@ -16,4 +16,4 @@ class MemoryMeter {
   std::size_t before_;
 };
 
-}  // namespace tureen::testing
+}  // namespace tureen::test

@@ -12,10 +12,10 @@
 #include "fuzz/targets.hpp"
 
 namespace tureen {
-namespace {
+namespace memory_test {
 
+using test::MemoryLimit;
 using test::Names;
-using testing::MemoryLimit;
 
 TEST(MemorySize, IsReadAsPeopleWriteIt) {
   EXPECT_EQ(parse_memory_size("1"), 1u);
@@ -162,5 +162,5 @@ TEST(MaxMemory, EveryReaderKeepsToItAndSaysSo) {
     }
 }
 
-}  // namespace
+}  // namespace memory_test
 }  // namespace tureen

@@ -14,15 +14,15 @@
 #include "formats/truncation.hpp"
 
 namespace tureen {
-namespace {
+namespace mobilenerf_test {
 
 using test::error_of;
 using test::ErrorAt;
+using test::input_of;
+using test::soup_of;
+using test::TemporaryFolder;
 using ::testing::Contains;
-using testing::input_of;
 using ::testing::IsEmpty;
-using testing::soup_of;
-using testing::TemporaryFolder;
 namespace fs = std::filesystem;
 
 void write_text(const fs::path& path, const std::string& text) {
@@ -222,8 +222,8 @@ TEST(Obj, TruncationAndDamageAreSurvived) {
       for (int k = 0; k < 3; ++k) EXPECT_LT(triangle[k], mesh.positions.size());
   };
   const auto bytes = std::as_bytes(std::span(one_quad));
-  EXPECT_GT(testing::survive_truncation(bytes, read).refused, 0u);
-  EXPECT_GT(testing::survive_damage(bytes, read).refused, 0u);
+  EXPECT_GT(test::survive_truncation(bytes, read).refused, 0u);
+  EXPECT_GT(test::survive_damage(bytes, read).refused, 0u);
 }
 
 TEST(MobileNerf, AMeshOfAnotherProgramIsToldWhatAnObjIsReadAs) {
@@ -238,14 +238,14 @@ TEST(MobileNerf, TruncatedFilesAreSurvived) {
   for (const char* name : {"shape0.obj", "shape0.pngfeat0.png", "mlp.json"}) {
     std::ifstream file(folder / name, std::ios::binary);
     const std::string good{std::istreambuf_iterator<char>(file), {}};
-    testing::Survival survival;
+    test::Survival survival;
     for (std::size_t length = 0; length < good.size(); length += 1 + good.size() / 400) {
       const auto read = [&](std::span<const std::byte> bytes) {
         write_text(folder / name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
         EXPECT_EQ(defect(soup_of(read_mobilenerf(folder / ""))), std::nullopt);
       };
-      testing::expect_survival(std::as_bytes(std::span(good)).first(length), read,
-                               std::string(name) + " cut to " + std::to_string(length), survival);
+      test::expect_survival(std::as_bytes(std::span(good)).first(length), read,
+                            std::string(name) + " cut to " + std::to_string(length), survival);
     }
     EXPECT_GT(survival.refused, 0u) << name;
     write_text(folder / name, good);
@@ -271,5 +271,5 @@ TEST(MobileNerf, TheDrums) {
   EXPECT_LT(double(holes) / double(image.pixels.size()), 0.99);
 }
 
-}  // namespace
+}  // namespace mobilenerf_test
 }  // namespace tureen

@@ -13,9 +13,9 @@
 #include "soup/spherical_harmonics.hpp"
 
 namespace tureen {
-namespace {
+namespace off_test {
 
-using namespace testing;
+using namespace test;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 
@@ -309,5 +309,5 @@ TEST(Off, HostileFilesEndWell) {
   EXPECT_EQ(face_rgba(scene)[3], glm::vec4(0.3f, 0.4f, 0.0f, 0.75f));
 }
 
-}  // namespace
+}  // namespace off_test
 }  // namespace tureen

@@ -7,13 +7,13 @@
 #include "formats/truncation.hpp"
 
 namespace tureen {
-namespace {
+namespace pickle_test {
 
+using test::as_bytes;
 using test::error_of;
 using test::ErrorAt;
+using test::PickleFixture;
 using test::Refusal;
-using testing::as_bytes;
-using testing::PickleFixture;
 using Kind = Pickle::Kind;
 
 constexpr std::string_view allowed[] = {"torch.FloatStorage"};
@@ -159,5 +159,5 @@ TEST(Pickle, MemoryIsBounded) {
   EXPECT_THAT(refusal(std::string(Pickle::max_bytes + 1, 'N')), ErrorAt("data.pkl"));
 }
 
-}  // namespace
+}  // namespace pickle_test
 }  // namespace tureen

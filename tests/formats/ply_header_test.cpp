@@ -7,13 +7,13 @@
 #include "formats/format_testing.hpp"
 
 namespace tureen {
-namespace {
+namespace ply_header_test {
 
 using test::error_of;
 using test::ErrorAt;
 using test::ErrorIn;
+using test::input_of;
 using test::Refusal;
-using testing::input_of;
 
 PlyHeader read(const std::string& text) {
   Input input = input_of(text, "a.ply");
@@ -128,5 +128,5 @@ TEST(PlyHeader, TakesVeryManyElements) {
   EXPECT_THAT(message(text + "element e0 0\nend_header\n"), ErrorAt("a.ply:60003", "e0"));
 }
 
-}  // namespace
+}  // namespace ply_header_test
 }  // namespace tureen

@@ -18,9 +18,9 @@
 #include "formats/truncation.hpp"
 
 namespace tureen {
-namespace {
+namespace ply_test {
 
-using namespace testing;
+using namespace test;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 
@@ -488,5 +488,5 @@ TEST(Ply, HostileFilesEndWell) {
   EXPECT_EQ(triangles["positions-colors4-normals-texcoords-float-indices-int-be-unaligned"], 3u);
 }
 
-}  // namespace
+}  // namespace ply_test
 }  // namespace tureen

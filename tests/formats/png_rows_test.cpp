@@ -9,7 +9,7 @@
 #include "formats/png.hpp"
 
 namespace tureen {
-namespace {
+namespace png_rows_test {
 
 namespace fs = std::filesystem;
 
@@ -74,5 +74,5 @@ TEST(PngRows, AreAsSmallAsWholePictures) {
   fs::remove(path);
 }
 
-}  // namespace
+}  // namespace png_rows_test
 }  // namespace tureen

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace tureen::testing {
+namespace tureen::test {
 
 /// Writes over the checksum of every chunk; nothing of what is no PNG, or behind where it is cut
 /// short.
@@ -29,4 +29,4 @@ inline std::vector<std::byte> with_png_sums(std::vector<std::byte> png) {
   return png;
 }
 
-}  // namespace tureen::testing
+}  // namespace tureen::test

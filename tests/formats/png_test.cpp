@@ -16,7 +16,7 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace png_test {
 
 using test::error_of;
 using test::ErrorAt;
@@ -123,5 +123,5 @@ TEST(Png, SmoothPicturesShrink) {
   EXPECT_LT(encode_png(image).size(), image.pixels.size() * 4 / 100);
 }
 
-}  // namespace
+}  // namespace png_test
 }  // namespace tureen

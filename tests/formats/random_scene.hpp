@@ -10,7 +10,7 @@
 #include "soup/scene.hpp"
 #include "soup/spherical_harmonics.hpp"
 
-namespace tureen::testing {
+namespace tureen::test {
 
 class RandomScene {
  public:
@@ -262,4 +262,4 @@ inline std::string difference(const Scene& a, const Scene& b) {
   return "";
 }
 
-}  // namespace tureen::testing
+}  // namespace tureen::test

@@ -7,7 +7,7 @@
 #include <random>
 
 namespace tureen {
-namespace {
+namespace range_coder_test {
 
 TEST(RangeCoder, BitsOfAnyProbabilityComeBack) {
   const unsigned seed = 21;
@@ -118,5 +118,5 @@ TEST(RangeCoder, EveryMissingByteIsNoticed) {
   }
 }
 
-}  // namespace
+}  // namespace range_coder_test
 }  // namespace tureen

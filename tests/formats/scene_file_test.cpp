@@ -10,9 +10,9 @@
 #include "formats/format_testing.hpp"
 
 namespace tureen {
-namespace {
+namespace scene_file_test {
 
-using namespace testing;
+using namespace test;
 using ::testing::Contains;
 using ::testing::Not;
 
@@ -128,5 +128,5 @@ TEST(SceneFile, WritesByExtension) {
               ErrorAt("", ".xyz", ".off", ".coff"));
 }
 
-}  // namespace
+}  // namespace scene_file_test
 }  // namespace tureen

@@ -7,7 +7,7 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace shown_text_test {
 
 using test::Names;
 using testing::EndsWith;
@@ -64,5 +64,5 @@ TEST(ShownText, CutsNoCharacterInTwo) {
   }
 }
 
-}  // namespace
+}  // namespace shown_text_test
 }  // namespace tureen

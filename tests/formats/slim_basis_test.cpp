@@ -10,7 +10,7 @@
 #include "soup/lattice.hpp"
 
 namespace tureen {
-namespace {
+namespace slim_basis_test {
 
 constexpr int features = LatticeTexture::features;
 constexpr int channels = LatticeTexture::channels;
@@ -31,7 +31,7 @@ FeatureMatrix random_sensitivity(std::mt19937& random) {
 }
 
 TEST(SlimBasis, IdentityLosesNothing) {
-  testing::RandomScene random(81);
+  test::RandomScene random(81);
   const LatticeTexture texture = random.lattice_texture(5, 3, false);
   const auto& texels = std::get<std::vector<std::uint8_t>>(texture.texels);
   const SlimBasis basis = SlimBasis::identity();
@@ -46,7 +46,7 @@ TEST(SlimBasis, ValuesSayTheFeatures) {
   const unsigned seed = 82;
   SCOPED_TRACE(::testing::Message() << "seed " << seed);
   std::mt19937 engine(seed);
-  testing::RandomScene random(seed);
+  test::RandomScene random(seed);
   const LatticeTexture texture = random.lattice_texture(20, 3, false);
   const auto& texels = std::get<std::vector<std::uint8_t>>(texture.texels);
   const SlimBasis basis = slim_basis(texture, random_sensitivity(engine), 2.0);
@@ -65,7 +65,7 @@ TEST(SlimBasis, EveryAxisMovesTheColourAlike) {
   const unsigned seed = 83;
   SCOPED_TRACE(::testing::Message() << "seed " << seed);
   std::mt19937 engine(seed);
-  testing::RandomScene random(seed);
+  test::RandomScene random(seed);
   const LatticeTexture texture = random.lattice_texture(20, 3, false);
   const FeatureMatrix sensitivity = random_sensitivity(engine);
   const double step = 6;
@@ -119,7 +119,7 @@ TEST(SlimBasis, AxesAreThoseOfTheTexelsThatCount) {
 }
 
 TEST(SlimBasis, AColourThatNothingMovesStillHasABasis) {
-  testing::RandomScene random(84);
+  test::RandomScene random(84);
   const LatticeTexture texture = random.lattice_texture(3, 2, false);
   const auto& texels = std::get<std::vector<std::uint8_t>>(texture.texels);
   const SlimBasis basis = slim_basis(texture, FeatureMatrix{}, 4.0);
@@ -130,5 +130,5 @@ TEST(SlimBasis, AColourThatNothingMovesStillHasABasis) {
                 0.5 + 7 * 0.5 * 0.25);
 }
 
-}  // namespace
+}  // namespace slim_basis_test
 }  // namespace tureen

@@ -12,9 +12,9 @@
 #include "soup/error.hpp"
 
 namespace tureen {
-namespace {
+namespace slim_geometry_test {
 
-using testing::RandomScene;
+using test::RandomScene;
 
 SlimGeometry random_geometry(unsigned seed, std::size_t faces, bool shared) {
   RandomScene random(seed);
@@ -99,9 +99,9 @@ TEST(SlimGeometryBytes, SurviveDamage) {
     for (const glm::uvec3& triangle : back.triangles)
       for (int k = 0; k < 3; ++k) ASSERT_LT(triangle[k], vertices);
   };
-  const auto cut = testing::survive_truncation(bytes, read);
+  const auto cut = test::survive_truncation(bytes, read);
   EXPECT_EQ(cut.read, 0u);
-  const auto damaged = testing::survive_damage(bytes, read);
+  const auto damaged = test::survive_damage(bytes, read);
   EXPECT_GT(damaged.refused, 0u);
 }
 
@@ -110,11 +110,11 @@ TEST(SlimGeometryBytes, SurviveAnything) {
   SCOPED_TRACE(::testing::Message() << "seed " << seed);
   std::mt19937 random(seed);
   const auto read = [](std::span<const std::byte> b) { decode_slim_geometry(b, 60, 30, "slim"); };
-  testing::Survival survival;
+  test::Survival survival;
   for (int run = 0; run < 300; ++run) {
     std::vector<std::byte> bytes(random() % 600);
     for (std::byte& b : bytes) b = std::byte(random());
-    testing::expect_survival(bytes, read, "random bytes " + std::to_string(run), survival);
+    test::expect_survival(bytes, read, "random bytes " + std::to_string(run), survival);
   }
   EXPECT_GT(survival.refused, 0u);
 }
@@ -125,5 +125,5 @@ TEST(SlimGeometryBytes, FewCannotAskForMuch) {
   EXPECT_THROW(decode_slim_geometry(bytes, 1000, 30, "slim"), InputError);
 }
 
-}  // namespace
+}  // namespace slim_geometry_test
 }  // namespace tureen

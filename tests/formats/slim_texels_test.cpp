@@ -11,9 +11,9 @@
 #include "soup/lattice.hpp"
 
 namespace tureen {
-namespace {
+namespace slim_texels_test {
 
-using testing::RandomScene;
+using test::RandomScene;
 
 constexpr int channels = LatticeTexture::channels;
 constexpr int alpha = LatticeTexture::features;
@@ -259,11 +259,11 @@ TEST(SlimTexelBytes, SurviveDamage) {
     for (const LatticePatch& patch : back.patches)
       ASSERT_LE(patch.first_texel + lattice::texel_count(int(patch.level)), back.texel_count());
   };
-  const auto cut = testing::survive_truncation(bytes, read);
+  const auto cut = test::survive_truncation(bytes, read);
   EXPECT_EQ(cut.read, 0u);
   EXPECT_EQ(cut.refused, bytes.size());
   // Most damage makes other texels, which nobody can tell from wrong ones.
-  const auto damaged = testing::survive_damage(bytes, read);
+  const auto damaged = test::survive_damage(bytes, read);
   EXPECT_GT(damaged.read, 0u);
 }
 
@@ -272,11 +272,11 @@ TEST(SlimTexelBytes, SurviveAnything) {
   SCOPED_TRACE(::testing::Message() << "seed " << seed);
   std::mt19937 random(seed);
   const auto read = [](std::span<const std::byte> b) { decode_slim_texels(b, 50, "slim"); };
-  testing::Survival survival;
+  test::Survival survival;
   for (int run = 0; run < 100; ++run) {
     std::vector<std::byte> bytes(random() % 1000);
     for (std::byte& b : bytes) b = std::byte(random());
-    testing::expect_survival(bytes, read, "random bytes " + std::to_string(run), survival);
+    test::expect_survival(bytes, read, "random bytes " + std::to_string(run), survival);
   }
   EXPECT_GT(survival.refused, 0u);
 }
@@ -287,5 +287,5 @@ TEST(SlimTexelBytes, FewCannotAskForMuch) {
   EXPECT_THROW(decode_slim_texels(bytes, 300 * 64 + 1, "slim"), InputError);
 }
 
-}  // namespace
+}  // namespace slim_texels_test
 }  // namespace tureen

@@ -10,11 +10,11 @@
 #include "formats/format_testing.hpp"
 
 namespace tureen {
-namespace {
+namespace text_scanner_test {
 
 using test::error_of;
 using test::ErrorAt;
-using testing::input_of;
+using test::input_of;
 
 TEST(TextScanner, ReadsLineByLine) {
   const std::string text = "  word 1.5\t-7 # comment\r\n\n\r# only a comment\n3\v4\f5";
@@ -104,5 +104,5 @@ TEST(TextScanner, SeesTheSameNumbersAsAStreamAcrossWindows_seed4) {
   EXPECT_EQ(scanner.remaining(), 0u);
 }
 
-}  // namespace
+}  // namespace text_scanner_test
 }  // namespace tureen

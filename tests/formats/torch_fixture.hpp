@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace tureen::testing {
+namespace tureen::test {
 
 inline void append_little(std::string& out, std::uint64_t value, int bytes) {
   for (int i = 0; i < bytes; ++i) out += static_cast<char>(i < 8 ? value >> (8 * i) & 0xff : 0);
@@ -267,4 +267,4 @@ class TorchFixture {
   std::vector<std::string> storages_;
 };
 
-}  // namespace tureen::testing
+}  // namespace tureen::test

@@ -13,7 +13,7 @@
 
 #include "soup/error.hpp"
 
-namespace tureen::testing {
+namespace tureen::test {
 
 /// How the damaged inputs ended. Whatever ended in neither way has failed the test already.
 struct Survival {
@@ -76,4 +76,4 @@ Survival survive_damage(std::span<const std::byte> bytes, Read&& read) {
   return survival;
 }
 
-}  // namespace tureen::testing
+}  // namespace tureen::test

@@ -17,7 +17,7 @@
 #include "formats/random_scene.hpp"
 #include "formats/tureen_glb.hpp"
 
-namespace tureen::testing {
+namespace tureen::test {
 
 struct GlbKind {
   const char* name;
@@ -136,4 +136,4 @@ inline std::vector<std::byte> with_glb_json(std::span<const std::byte> bytes,
   return result;
 }
 
-}  // namespace tureen::testing
+}  // namespace tureen::test

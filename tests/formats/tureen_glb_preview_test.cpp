@@ -15,12 +15,12 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace tureen_glb_preview_test {
 
 using test::error_of;
 using test::ErrorIn;
-using testing::fill_soup;
-using testing::RandomScene;
+using test::fill_soup;
+using test::RandomScene;
 using Bytes = std::span<const std::byte>;
 
 /// Half a step of 16 bits in linear light, and a hundredth for the arithmetic, where the transfer
@@ -48,14 +48,14 @@ TriangleSoup soup_of(const Scene& scene) {
   return soft ? to_opaque(*soft, 0.0f).soup : std::get<TriangleSoup>(scene.primitives);
 }
 
-class GlbPreview : public ::testing::TestWithParam<testing::GlbKind> {};
+class GlbPreview : public ::testing::TestWithParam<test::GlbKind> {};
 
 TEST_P(GlbPreview, ShowsWhatTheWholeFileSays) {
   for (const unsigned seed : {1u, 2u}) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    const Scene whole = testing::random_scene(GetParam(), seed, 23);
+    const Scene whole = test::random_scene(GetParam(), seed, 23);
     const TriangleSoup soup = soup_of(whole);
-    const std::vector<std::byte> bytes = testing::glb_bytes(whole, GetParam().name);
+    const std::vector<std::byte> bytes = test::glb_bytes(whole, GetParam().name);
     const auto size = size_of(bytes);
     ASSERT_TRUE(size && *size > beginning_of(bytes) && *size < bytes.size());
     EXPECT_EQ(size_of(Bytes(bytes).first(std::size_t(*size))), size);
@@ -64,10 +64,10 @@ TEST_P(GlbPreview, ShowsWhatTheWholeFileSays) {
     ASSERT_TRUE(preview);
     const TriangleSoup shown = std::get<TriangleSoup>(preview->primitives);
     EXPECT_FALSE(defect(shown));
-    EXPECT_TRUE(testing::same_bits(shown.positions, soup.positions));
-    EXPECT_TRUE(testing::same_bits(shown.triangles, soup.triangles));
+    EXPECT_TRUE(test::same_bits(shown.positions, soup.positions));
+    EXPECT_TRUE(test::same_bits(shown.triangles, soup.triangles));
     preview->primitives = whole.primitives;
-    EXPECT_EQ(testing::difference(*preview, whole), "") << "beside the primitives";
+    EXPECT_EQ(test::difference(*preview, whole), "") << "beside the primitives";
 
     const auto expect_color = [](const glm::vec4& color, const glm::vec3& wanted) {
       for (int k = 0; k < 3; ++k) EXPECT_NEAR(color[k], wanted[k], color_tolerance);
@@ -87,14 +87,14 @@ TEST_P(GlbPreview, ShowsWhatTheWholeFileSays) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Appearance, GlbPreview, ::testing::ValuesIn(testing::glb_kinds()),
+INSTANTIATE_TEST_SUITE_P(Appearance, GlbPreview, ::testing::ValuesIn(test::glb_kinds()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 /// The ways in which a mesh lies in a file: with triangles of its own or none, as a copy beside the
 /// soup's vertices, of vertices that have a colour each.
-std::vector<testing::GlbKind> mesh_kinds() {
-  std::vector<testing::GlbKind> kinds = testing::glb_kinds();
-  const auto is_other = [](const testing::GlbKind& kind) {
+std::vector<test::GlbKind> mesh_kinds() {
+  std::vector<test::GlbKind> kinds = test::glb_kinds();
+  const auto is_other = [](const test::GlbKind& kind) {
     const std::string name = kind.name;
     return name != "face_bytes" && name != "lattice_bytes_mlp_shared" &&
            name != "vertex_bytes_shared";
@@ -107,8 +107,8 @@ std::vector<testing::GlbKind> mesh_kinds() {
 class GlbPreviewMesh : public GlbPreview {};
 
 TEST_P(GlbPreviewMesh, AsksForMoreAtEveryLengthThatIsTooShort) {
-  const Scene whole = testing::random_scene(GetParam(), 3, 1);
-  const std::vector<std::byte> bytes = testing::glb_bytes(whole, GetParam().name);
+  const Scene whole = test::random_scene(GetParam(), 3, 1);
+  const std::vector<std::byte> bytes = test::glb_bytes(whole, GetParam().name);
   const std::uint64_t size = size_of(bytes).value();
   const std::size_t beginning = beginning_of(bytes);
   for (std::size_t length = 0; length < bytes.size(); ++length) {
@@ -127,7 +127,7 @@ TEST_P(GlbPreviewMesh, SurvivesDamage) {
   RandomScene random(4);
   Scene scene;
   GetParam().fill(random, scene, 1);
-  const std::vector<std::byte> bytes = testing::glb_bytes(scene, GetParam().name);
+  const std::vector<std::byte> bytes = test::glb_bytes(scene, GetParam().name);
   const std::size_t size = std::size_t(size_of(bytes).value());
   std::size_t shown = 0;
   const auto read = [&](Bytes damaged) {
@@ -136,7 +136,7 @@ TEST_P(GlbPreviewMesh, SurvivesDamage) {
     ++shown;
     EXPECT_FALSE(defect(std::get<TriangleSoup>(preview->primitives)));
   };
-  const testing::Survival survival = testing::survive_damage(Bytes(bytes).first(size), read);
+  const test::Survival survival = test::survive_damage(Bytes(bytes).first(size), read);
   EXPECT_GT(survival.refused, size);
   EXPECT_GT(shown, 0u);
 }
@@ -150,10 +150,10 @@ TEST(GlbPreviewFile, OtherFilesHaveNone) {
   Scene scene;
   RandomScene random(5);
   fill_soup(scene, random.geometry(3, false), FaceColors{random.colors(3, true)});
-  const std::vector<std::byte> bytes = testing::glb_bytes(scene, "foreign");
-  auto json = testing::glb_json(bytes);
+  const std::vector<std::byte> bytes = test::glb_bytes(scene, "foreign");
+  auto json = test::glb_json(bytes);
   json.erase("extensions");
-  const std::vector<std::byte> foreign = testing::with_glb_json(bytes, json);
+  const std::vector<std::byte> foreign = test::with_glb_json(bytes, json);
   EXPECT_EQ(size_of(foreign), 0u);
   EXPECT_FALSE(preview_of(foreign));
 
@@ -170,7 +170,7 @@ TEST(GlbPreviewFile, SlimFilesAndEmptySoupsHaveNone) {
   TriangleSoup soup = random.geometry(4, true);
   soup.appearance = random.lattice_texture(4, 1, false);
   scene.primitives = soup;
-  const auto path = testing::temporary_glb("slim_preview");
+  const auto path = test::temporary_glb("slim_preview");
   write_slim_glb(scene, encode_slim(soup, {}), path);
   const std::vector<std::byte> slim = Input::open(path).read_rest();
   std::filesystem::remove(path);
@@ -178,7 +178,7 @@ TEST(GlbPreviewFile, SlimFilesAndEmptySoupsHaveNone) {
   EXPECT_FALSE(preview_of(slim));
 
   fill_soup(scene, {}, FaceColors{});
-  const std::vector<std::byte> empty = testing::glb_bytes(scene, "empty_preview");
+  const std::vector<std::byte> empty = test::glb_bytes(scene, "empty_preview");
   EXPECT_EQ(size_of(empty), 0u);
   EXPECT_FALSE(preview_of(empty));
 }
@@ -191,16 +191,16 @@ TEST(GlbPreviewFile, RefusesWhatIsWrongAlready) {
   TriangleSoup lattice = random.geometry(5, true);
   lattice.appearance = random.lattice_texture(5, 2, false);
   scene.primitives = std::move(lattice);
-  const std::vector<std::byte> bytes = testing::glb_bytes(scene, "wrong_preview");
+  const std::vector<std::byte> bytes = test::glb_bytes(scene, "wrong_preview");
   const auto refusal = [](Bytes damaged) {
     // All but the last byte: the file is still arriving.
     return error_of([&] { preview_of(damaged.first(damaged.size() - 1)); });
   };
   const auto expect_refused_json = [&](const std::function<void(nlohmann::json&)>& change,
                                        const auto&... values) {
-    auto json = testing::glb_json(bytes);
+    auto json = test::glb_json(bytes);
     change(json);
-    EXPECT_THAT(refusal(testing::with_glb_json(bytes, json)), ErrorIn("arriving.glb", values...));
+    EXPECT_THAT(refusal(test::with_glb_json(bytes, json)), ErrorIn("arriving.glb", values...));
   };
   const auto expect_refused_word = [&](std::size_t offset, std::uint32_t value,
                                        const auto&... values) {
@@ -249,11 +249,11 @@ TEST(GlbPreviewFile, DoesNotLookAtWhatHasNotArrived) {
   TriangleSoup soup = random.geometry(5, false);
   soup.appearance = random.lattice_texture(5, 2, false);
   scene.primitives = std::move(soup);
-  std::vector<std::byte> bytes = testing::glb_bytes(scene, "texels_preview");
+  std::vector<std::byte> bytes = test::glb_bytes(scene, "texels_preview");
   const std::size_t size = std::size_t(size_of(bytes).value());
   std::fill(bytes.begin() + std::ptrdiff_t(size), bytes.end(), std::byte(0));
   EXPECT_TRUE(preview_of(bytes));
 }
 
-}  // namespace
+}  // namespace tureen_glb_preview_test
 }  // namespace tureen

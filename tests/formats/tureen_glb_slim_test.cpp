@@ -16,11 +16,11 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace tureen_glb_slim_test {
 
 using test::error_of;
 using test::Names;
-using testing::RandomScene;
+using test::RandomScene;
 
 Scene random_scene(unsigned seed, std::size_t faces, std::optional<int> level, bool shared) {
   RandomScene random(seed);
@@ -54,11 +54,11 @@ Scene read_back(std::span<const std::byte> bytes) {
 }
 
 std::vector<std::byte> without_checksums(std::span<const std::byte> bytes) {
-  auto json = testing::glb_json(bytes);
+  auto json = test::glb_json(bytes);
   auto& extension = json["extensions"][tureen_extension];
   EXPECT_EQ(extension.erase("slim_geometry_crc32"), 1u);
   EXPECT_EQ(extension["appearance"].erase("slim_texels_crc32"), 1u);
-  return testing::with_glb_json(bytes, json);
+  return test::with_glb_json(bytes, json);
 }
 
 TEST(SlimGlb, IsReadAsTheEncoderSaid) {
@@ -74,14 +74,14 @@ TEST(SlimGlb, IsReadAsTheEncoderSaid) {
     EXPECT_FALSE(defect(promised));
     const Scene back = read_back(written(scene, slim, std::to_string(seed)));
     scene.primitives = std::move(promised);
-    EXPECT_EQ(testing::difference(scene, back), "");
+    EXPECT_EQ(test::difference(scene, back), "");
   }
 }
 
 TEST(SlimGlb, TellsOtherViewersThatItIsNotForThem) {
   Scene scene = random_scene(98, 4, 1, false);
   const SlimSoup slim = encode_slim(std::get<TriangleSoup>(scene.primitives), {});
-  const auto json = testing::glb_json(written(scene, slim, "required"));
+  const auto json = test::glb_json(written(scene, slim, "required"));
   EXPECT_EQ(json["extensionsRequired"], nlohmann::json::array({tureen_extension}));
   EXPECT_EQ(json["extensions"][tureen_extension]["version"], tureen_slim_version);
   EXPECT_FALSE(json.contains("meshes"));
@@ -120,8 +120,8 @@ TEST(SlimGlb, SurvivesDamage) {
     const Scene back = read_back(b);
     ASSERT_FALSE(defect(std::get<TriangleSoup>(back.primitives)));
   };
-  EXPECT_EQ(testing::survive_truncation(bytes, read).read, 0u);
-  EXPECT_GT(testing::survive_damage(bytes, read).refused, 0u);
+  EXPECT_EQ(test::survive_truncation(bytes, read).read, 0u);
+  EXPECT_GT(test::survive_damage(bytes, read).refused, 0u);
 }
 
 TEST(SlimGlb, DamageIsToldByChecksums) {
@@ -149,16 +149,16 @@ TEST(SlimGlb, CountsThatDoNotFitAreRefused) {
   Scene scene = random_scene(101, 5, 1, false);
   const SlimSoup slim = encode_slim(std::get<TriangleSoup>(scene.primitives), {});
   const auto bytes = written(scene, slim, "counts");
-  const auto json = testing::glb_json(bytes);
+  const auto json = test::glb_json(bytes);
   for (const auto& [key, value] :
        {std::pair("face_count", 4000000000u), std::pair("vertex_count", 4000000000u),
         std::pair("vertex_count", 14u)}) {
     auto changed = json;
     changed["extensions"][tureen_extension][key] = value;
-    EXPECT_NE(error_of([&] { read_back(testing::with_glb_json(bytes, changed)); }), std::nullopt)
+    EXPECT_NE(error_of([&] { read_back(test::with_glb_json(bytes, changed)); }), std::nullopt)
         << key << " of " << value;
   }
 }
 
-}  // namespace
+}  // namespace tureen_glb_slim_test
 }  // namespace tureen

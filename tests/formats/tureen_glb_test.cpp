@@ -19,72 +19,72 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace tureen_glb_test {
 
 using test::error_of;
 using test::ErrorIn;
-using testing::fill_soup;
+using test::fill_soup;
+using test::RandomScene;
 using ::testing::HasSubstr;
-using testing::RandomScene;
 
 Scene read_back(std::span<const std::byte> bytes) {
   Input input = Input::memory("memory.glb", bytes);
   return read_tureen_glb(input);
 }
 
-class TureenGlb : public ::testing::TestWithParam<testing::GlbKind> {};
+class TureenGlb : public ::testing::TestWithParam<test::GlbKind> {};
 
 TEST_P(TureenGlb, ComesBackToTheBit) {
   for (const unsigned seed : {1u, 2u, 3u})
     for (const std::size_t faces : {std::size_t(1), std::size_t(17)}) {
       SCOPED_TRACE("seed " + std::to_string(seed) + ", faces " + std::to_string(faces));
-      const Scene scene = testing::random_scene(GetParam(), seed, faces);
-      const Scene back = read_back(testing::glb_bytes(scene, GetParam().name));
-      EXPECT_EQ(testing::difference(scene, back), "");
+      const Scene scene = test::random_scene(GetParam(), seed, faces);
+      const Scene back = read_back(test::glb_bytes(scene, GetParam().name));
+      EXPECT_EQ(test::difference(scene, back), "");
     }
 }
 
 TEST_P(TureenGlb, EmptyComesBackToo) {
-  const Scene scene = testing::random_scene(GetParam(), 4, 0);
-  EXPECT_EQ(testing::difference(scene, read_back(testing::glb_bytes(scene, GetParam().name))), "");
+  const Scene scene = test::random_scene(GetParam(), 4, 0);
+  EXPECT_EQ(test::difference(scene, read_back(test::glb_bytes(scene, GetParam().name))), "");
 }
 
 TEST_P(TureenGlb, SurvivesTruncationAndDamage) {
   RandomScene random(5);
   Scene scene;
   GetParam().fill(random, scene, 1);
-  const auto bytes = testing::glb_bytes(scene, GetParam().name);
+  const auto bytes = test::glb_bytes(scene, GetParam().name);
   const auto read = [](std::span<const std::byte> damaged) {
     const Scene back = read_back(damaged);
     if (const auto* soup = std::get_if<TriangleSoup>(&back.primitives)) {
       EXPECT_FALSE(defect(*soup));
     }
   };
-  EXPECT_EQ(testing::survive_truncation(bytes, read).read, 0u);
+  EXPECT_EQ(test::survive_truncation(bytes, read).read, 0u);
   // The frame, the JSON and the first bytes of the binary chunk: what follows are mere values.
   std::uint32_t json_size = 0;
   std::memcpy(&json_size, bytes.data() + 12, 4);
   std::vector<std::byte> head(bytes);
-  testing::Survival survival;
+  test::Survival survival;
   const std::size_t reach = std::min<std::size_t>(bytes.size(), 20 + json_size + 200);
   for (std::size_t i = 0; i < reach; ++i)
     for (const unsigned flip : {0x01u, 0x02u, 0x04u, 0x10u, 0x40u, 0x80u, 0xffu}) {
       head[i] = bytes[i] ^ std::byte(flip);
-      testing::expect_survival(
-          head, read, "byte " + std::to_string(i) + " xor " + std::to_string(flip), survival);
+      test::expect_survival(head, read,
+                            "byte " + std::to_string(i) + " xor " + std::to_string(flip), survival);
       head[i] = bytes[i];
     }
   EXPECT_GT(survival.refused, reach);
 }
 
 TEST_P(TureenGlb, DrawsTheMeanColoursAsLinear16Bit) {
-  const Scene scene = testing::random_scene(GetParam(), 6, 9);
+  const Scene scene = test::random_scene(GetParam(), 6, 9);
   // Soft triangles show the mean of their harmonics, however transparent they are.
   const auto* soft = std::get_if<SoftTriangles>(&scene.primitives);
   const TriangleSoup soup =
       soft ? to_opaque(*soft, 0.0f).soup : std::get<TriangleSoup>(scene.primitives);
-  const auto bytes = testing::glb_bytes(scene, GetParam().name);
-  const auto json = testing::glb_json(bytes);
+  const auto bytes = test::glb_bytes(scene, GetParam().name);
+  const auto json = test::glb_json(bytes);
   const auto& primitive = json["meshes"][0]["primitives"][0];
   const auto& position = json["accessors"][primitive["attributes"]["POSITION"].get<int>()];
   const auto& color = json["accessors"][primitive["attributes"]["COLOR_0"].get<int>()];
@@ -119,7 +119,7 @@ TEST_P(TureenGlb, DrawsTheMeanColoursAsLinear16Bit) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Appearance, TureenGlb, ::testing::ValuesIn(testing::glb_kinds()),
+INSTANTIATE_TEST_SUITE_P(Appearance, TureenGlb, ::testing::ValuesIn(test::glb_kinds()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(TureenGlbFile, KeepsNanPositionsAndHugeValues) {
@@ -129,7 +129,7 @@ TEST(TureenGlbFile, KeepsNanPositionsAndHugeValues) {
   soup.positions[1].y = std::numeric_limits<float>::quiet_NaN();
   soup.positions[4].x = -std::numeric_limits<float>::infinity();
   fill_soup(scene, std::move(soup), FaceColors{{{-0.0f, 2.0f, 0.5f, 1.0f}, {0, 0, 0, 1}}});
-  EXPECT_EQ(testing::difference(scene, read_back(testing::glb_bytes(scene, "nan"))), "");
+  EXPECT_EQ(test::difference(scene, read_back(test::glb_bytes(scene, "nan"))), "");
 }
 
 TEST(TureenGlbFile, SplitsManyTexelsIntoStrips) {
@@ -137,17 +137,17 @@ TEST(TureenGlbFile, SplitsManyTexelsIntoStrips) {
   Scene scene = random.scene();
   // 130 faces of level 7 are 1,090,050 texels: a full strip of 2^20 and a partial one.
   fill_soup(scene, random.geometry(130, false), random.lattice_texture(130, 7, false));
-  const auto bytes = testing::glb_bytes(scene, "strips");
-  EXPECT_EQ(testing::glb_json(bytes)["extensions"][tureen_extension]["appearance"]["strips"].size(),
+  const auto bytes = test::glb_bytes(scene, "strips");
+  EXPECT_EQ(test::glb_json(bytes)["extensions"][tureen_extension]["appearance"]["strips"].size(),
             2u);
-  EXPECT_EQ(testing::difference(scene, read_back(bytes)), "");
+  EXPECT_EQ(test::difference(scene, read_back(bytes)), "");
 }
 
 TEST(TureenGlbFile, StoresColoursThatAreBytesAsBytes) {
   RandomScene random(9);
   Scene scene;
   fill_soup(scene, random.geometry(3, false), FaceColors{random.colors(3, true)});
-  const auto json = testing::glb_json(testing::glb_bytes(scene, "bytes"));
+  const auto json = test::glb_json(test::glb_bytes(scene, "bytes"));
   const int rgba = json["extensions"][tureen_extension]["appearance"]["rgba"];
   EXPECT_EQ(json["accessors"][rgba]["componentType"], 5121);
 }
@@ -156,12 +156,12 @@ TEST(TureenGlbFile, RefusesWhatItCannotHoldOrKnow) {
   RandomScene random(10);
   Scene scene = random.scene();
   fill_soup(scene, random.geometry(2, false), FaceColors{random.colors(2, true)});
-  const auto bytes = testing::glb_bytes(scene, "refused");
+  const auto bytes = test::glb_bytes(scene, "refused");
   const auto expect_refusal = [&](const std::function<void(nlohmann::json&)>& change,
                                   const auto&... values) {
-    auto json = testing::glb_json(bytes);
+    auto json = test::glb_json(bytes);
     change(json);
-    EXPECT_THAT(error_of([&] { read_back(testing::with_glb_json(bytes, json)); }),
+    EXPECT_THAT(error_of([&] { read_back(test::with_glb_json(bytes, json)); }),
                 ErrorIn("memory.glb", values...));
   };
   const char* x = tureen_extension;
@@ -188,14 +188,14 @@ TEST(TureenGlbFile, RefusesWhatItCannotHoldOrKnow) {
   // What is not read is not written.
   const Scene good = scene;
   scene.cameras[0].width = 65537;
-  EXPECT_THROW(write_tureen_glb(scene, testing::temporary_glb("never")), UsageError);
+  EXPECT_THROW(write_tureen_glb(scene, test::temporary_glb("never")), UsageError);
   scene = good;
   scene.info.up = glm::vec3(0);
-  EXPECT_THROW(write_tureen_glb(scene, testing::temporary_glb("never")), UsageError);
+  EXPECT_THROW(write_tureen_glb(scene, test::temporary_glb("never")), UsageError);
   scene = good;
   scene.cameras[0].fx = std::numeric_limits<double>::infinity();
-  EXPECT_THROW(write_tureen_glb(scene, testing::temporary_glb("never")), UsageError);
-  EXPECT_FALSE(std::filesystem::exists(testing::temporary_glb("never")));
+  EXPECT_THROW(write_tureen_glb(scene, test::temporary_glb("never")), UsageError);
+  EXPECT_FALSE(std::filesystem::exists(test::temporary_glb("never")));
 }
 
 // -- quality, and what files of earlier versions say of their data --------------------------------
@@ -217,13 +217,13 @@ Scene scene_of_levels() {
 
 /// The bytes of this scene with a preset in its JSON.
 std::vector<std::byte> with_preset(const Scene& scene, const nlohmann::json& preset) {
-  const auto bytes = testing::glb_bytes(scene, "preset");
-  auto json = testing::glb_json(bytes);
+  const auto bytes = test::glb_bytes(scene, "preset");
+  auto json = test::glb_json(bytes);
   auto& extension = json["extensions"][tureen_extension];
   extension["preset"] = preset;
   if (preset.contains("keeps_face"))
     extension["preset"]["keeps_face"] = extension["appearance"]["levels"];
-  return testing::with_glb_json(bytes, json);
+  return test::with_glb_json(bytes, json);
 }
 
 const nlohmann::json earlier_preset = {{"lattice_level", 2},    {"color", "harmonics"},
@@ -235,9 +235,9 @@ TEST(TureenGlbQuality, ComesBack) {
     SCOPED_TRACE(describe(quality));
     Scene scene = scene_of_levels();
     scene.quality = quality;
-    const auto bytes = testing::glb_bytes(scene, "quality");
-    EXPECT_EQ(testing::difference(scene, read_back(bytes)), "");
-    const auto extension = testing::glb_json(bytes)["extensions"][tureen_extension];
+    const auto bytes = test::glb_bytes(scene, "quality");
+    EXPECT_EQ(test::difference(scene, read_back(bytes)), "");
+    const auto extension = test::glb_json(bytes)["extensions"][tureen_extension];
     EXPECT_EQ(extension.contains("preset"), quality != Quality{});
   }
 }
@@ -264,17 +264,16 @@ TEST(TureenGlbQuality, TheSchemaNamesEveryKeyThatIsWritten) {
   for (const Quality& quality : qualities) {
     Scene scene = scene_of_levels();
     scene.quality = quality;
-    expect_names(
-        testing::glb_json(testing::glb_bytes(scene, "quality"))["extensions"][tureen_extension],
-        names);
+    expect_names(test::glb_json(test::glb_bytes(scene, "quality"))["extensions"][tureen_extension],
+                 names);
   }
 }
 
 TEST(TureenGlbQuality, WhatCannotBeDrawnIsNotWritten) {
   Scene scene = scene_of_levels();
   scene.quality.supersampling = 9;
-  EXPECT_THROW(write_tureen_glb(scene, testing::temporary_glb("never")), UsageError);
-  EXPECT_FALSE(std::filesystem::exists(testing::temporary_glb("never")));
+  EXPECT_THROW(write_tureen_glb(scene, test::temporary_glb("never")), UsageError);
+  EXPECT_FALSE(std::filesystem::exists(test::temporary_glb("never")));
 }
 
 TEST(TureenGlbEarlierPreset, IsReadAsAnEdit) {
@@ -316,7 +315,7 @@ TEST(TureenGlbEarlierPreset, SettingsThatAreGoneAreIgnoredWithANote) {
 TEST(TureenGlbEarlierPreset, WhatNoVersionHadIsIgnored) {
   const Scene scene = scene_of_levels();
   const auto bytes = with_preset(scene, {{"colour_of_the_frame", {"red", 1}}});
-  EXPECT_EQ(testing::difference(scene, read_back(bytes)), "");
+  EXPECT_EQ(test::difference(scene, read_back(bytes)), "");
 }
 
 TEST(TureenGlbEarlierPreset, BadValuesAreRefusedWithTheirPlace) {
@@ -334,11 +333,11 @@ TEST(TureenGlbEarlierPreset, BadValuesAreRefusedWithTheirPlace) {
   EXPECT_THAT(refusal({{"supersampling", 0}}), ErrorIn("memory.glb", "preset", 1, 8));
   EXPECT_THAT(refusal(7), ErrorIn("memory.glb", "preset"));
   // An accessor of another kind, and one that is not there.
-  const auto bytes = testing::glb_bytes(scene, "preset");
+  const auto bytes = test::glb_bytes(scene, "preset");
   for (const int accessor : {0, 999999}) {
-    auto json = testing::glb_json(bytes);
+    auto json = test::glb_json(bytes);
     json["extensions"][tureen_extension]["preset"]["keeps_face"] = accessor;
-    EXPECT_THROW(read_back(testing::with_glb_json(bytes, json)), InputError) << accessor;
+    EXPECT_THROW(read_back(test::with_glb_json(bytes, json)), InputError) << accessor;
   }
 }
 
@@ -369,17 +368,17 @@ TEST(TureenGlbEarlierPreset, SurvivesTruncationAndDamage) {
     EXPECT_FALSE(defect(std::get<TriangleSoup>(back.primitives)));
     EXPECT_FALSE(defect(back.quality));
   };
-  EXPECT_EQ(testing::survive_truncation(bytes, read).read, 0u);
+  EXPECT_EQ(test::survive_truncation(bytes, read).read, 0u);
   // Every byte of the preset's own JSON.
   const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const std::size_t first = text.find("\"preset\""), last = text.find('}', first);
   ASSERT_NE(last, std::string::npos);
   std::vector<std::byte> damaged(bytes);
-  testing::Survival survival;
+  test::Survival survival;
   for (std::size_t i = first; i <= last; ++i)
     for (const unsigned flip : {0x01u, 0x02u, 0x04u, 0x10u, 0x40u, 0x80u, 0xffu}) {
       damaged[i] = bytes[i] ^ std::byte(flip);
-      testing::expect_survival(damaged, read, "byte " + std::to_string(i), survival);
+      test::expect_survival(damaged, read, "byte " + std::to_string(i), survival);
       damaged[i] = bytes[i];
     }
   EXPECT_GT(survival.refused, 0u);
@@ -391,17 +390,17 @@ TEST(TureenGlbFile, RefusesImagesNamedTwice) {
   TriangleSoup soup = random.geometry(2, false);
   UvTextures textures = random.uv_textures(soup, false);
   fill_soup(scene, std::move(soup), std::move(textures));
-  const auto bytes = testing::glb_bytes(scene, "twice");
-  auto json = testing::glb_json(bytes);
+  const auto bytes = test::glb_bytes(scene, "twice");
+  auto json = test::glb_json(bytes);
   json["extensions"][tureen_extension]["appearance"]["images"] = {0, 0, 1};
-  EXPECT_THAT(error_of([&] { read_back(testing::with_glb_json(bytes, json)); }),
+  EXPECT_THAT(error_of([&] { read_back(test::with_glb_json(bytes, json)); }),
               ErrorIn("memory.glb"));
 }
 
 TEST(TureenGlbFile, SaysWhenATextIsNotUtf8) {
   Scene scene;
   scene.info.name = "caf\xE9";
-  const auto path = testing::temporary_glb("latin");
+  const auto path = test::temporary_glb("latin");
   const auto losses = write_tureen_glb(scene, path);
   ASSERT_EQ(losses.size(), 1u);
   EXPECT_THAT(losses[0], HasSubstr("UTF-8"));
@@ -414,7 +413,7 @@ TEST(TureenGlbFile, ReportsProgressUpToOne) {
   RandomScene random(12);
   Scene scene;
   fill_soup(scene, random.geometry(5, true), FaceColors{random.colors(5, false)});
-  const auto bytes = testing::glb_bytes(scene, "progress");
+  const auto bytes = test::glb_bytes(scene, "progress");
   std::vector<double> seen;
   Input input = Input::memory("memory.glb", bytes);
   read_tureen_glb(input, {.progress = [&](double fraction) { seen.push_back(fraction); }});
@@ -423,5 +422,5 @@ TEST(TureenGlbFile, ReportsProgressUpToOne) {
   EXPECT_EQ(seen.back(), 1.0);
 }
 
-}  // namespace
+}  // namespace tureen_glb_test
 }  // namespace tureen

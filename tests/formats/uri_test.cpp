@@ -10,7 +10,7 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace uri_test {
 
 using test::Names;
 
@@ -82,5 +82,5 @@ TEST_F(ConfinedUri, RefusesWhatLeadsOut) {
   EXPECT_NE(refused(""), "");
 }
 
-}  // namespace
+}  // namespace uri_test
 }  // namespace tureen

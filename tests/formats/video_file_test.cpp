@@ -12,7 +12,7 @@
 #include "soup/error.hpp"
 
 namespace tureen {
-namespace {
+namespace video_file_test {
 
 using test::error_of;
 using test::ErrorAt;
@@ -89,7 +89,7 @@ class Video : public ::testing::Test {
   void SetUp() override {
     if (!have_ffmpeg()) GTEST_SKIP() << ffmpeg_missing;
   }
-  testing::TemporaryFolder folder;
+  test::TemporaryFolder folder;
 };
 
 TEST_F(Video, ShowsTheFramesThatWereWritten) {
@@ -132,7 +132,7 @@ TEST_F(Video, ThatIsNotFinishedLeavesNothingAndKeepsTheOldOne) {
 }
 
 TEST(VideoFile, TellsWhatFfmpegComplainsAbout) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fs::create_directories(folder / "bin");
   write_program(folder / "bin/ffmpeg", "echo 'Unknown encoder' >&2\nexit 1");
   const Path path((folder / "bin").string() + ":/usr/bin:/bin");
@@ -152,7 +152,7 @@ TEST(VideoFile, TellsWhatFfmpegComplainsAbout) {
 }
 
 TEST(VideoFile, IsRefusedWithAdviceWhereFfmpegIsMissing) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const Path path((folder / "").string());
   EXPECT_FALSE(have_ffmpeg());
   try {
@@ -170,12 +170,12 @@ TEST(VideoFile, NamesAndFoldersAreLookedAtFirst) {
   EXPECT_FALSE(is_video_name("frame_%04d.png"));
   EXPECT_FALSE(is_video_name("mp4"));
   EXPECT_THROW(VideoFile("film.avi", {64, 48, 30}), UsageError);
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fs::create_directories(folder / "bin");
   write_program(folder / "bin/ffmpeg", "cat");
   const Path path((folder / "bin").string() + ":/usr/bin:/bin");
   EXPECT_THROW(VideoFile(folder / "none/film.mp4", {64, 48, 30}), OutputError);
 }
 
-}  // namespace
+}  // namespace video_file_test
 }  // namespace tureen

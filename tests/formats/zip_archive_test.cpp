@@ -7,13 +7,13 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace zip_archive_test {
 
+using test::as_bytes;
 using test::error_of;
 using test::ErrorAt;
 using test::Refusal;
-using testing::as_bytes;
-using testing::ZipFixture;
+using test::ZipFixture;
 
 std::string text_of(ZipArchive& zip, const ZipEntry& entry, std::uint64_t offset,
                     std::size_t count) {
@@ -67,7 +67,7 @@ TEST(Zip, WhatIsRefusedIsNamed) {
   const std::size_t record = good.find("PK\1\2");
   const auto patched = [&](std::size_t offset, std::uint64_t value, int count) {
     std::string bytes = good, field;
-    testing::append_little(field, value, count);
+    test::append_little(field, value, count);
     return bytes.replace(record + offset, field.size(), field);
   };
   EXPECT_EQ(refusal(good), std::nullopt);
@@ -80,7 +80,7 @@ TEST(Zip, WhatIsRefusedIsNamed) {
   const std::string packed = ZipFixture{{{"entry", "12345", true}}}.bytes();
   const auto claimed = [&](std::uint64_t size) {
     std::string bytes = packed, field;
-    testing::append_little(field, size, 4);
+    test::append_little(field, size, 4);
     return bytes.replace(bytes.find("PK\1\2") + 24, 4, field);
   };
   EXPECT_EQ(refusal(claimed(5)), std::nullopt);
@@ -100,9 +100,9 @@ TEST_P(Zip, SurvivesTruncationAndDamage) {
     ZipArchive zip(Input::memory("a.zip", damaged));
     for (const ZipEntry& entry : zip.entries()) zip.read_all(entry, 1u << 20);
   };
-  EXPECT_EQ(testing::survive_truncation(as_bytes(bytes), read).read, 0u);
-  EXPECT_GT(testing::survive_damage(as_bytes(bytes), read).refused, 0u);
+  EXPECT_EQ(test::survive_truncation(as_bytes(bytes), read).read, 0u);
+  EXPECT_GT(test::survive_damage(as_bytes(bytes), read).refused, 0u);
 }
 
-}  // namespace
+}  // namespace zip_archive_test
 }  // namespace tureen

@@ -30,10 +30,10 @@ namespace tureen::fuzz {
 
 namespace {
 
-using testing::as_bytes;
-using testing::RandomScene;
-using testing::TensorFixture;
-using testing::TorchFixture;
+using test::as_bytes;
+using test::RandomScene;
+using test::TensorFixture;
+using test::TorchFixture;
 using Content = std::vector<std::byte>;
 
 Content content(std::string_view text) {
@@ -85,10 +85,10 @@ Scene slim_scene() {
 
 void add_glb(Collection& all) {
   // Each appearance once: on shared vertices only the geometry is another one.
-  for (const testing::GlbKind& kind : testing::glb_kinds()) {
+  for (const test::GlbKind& kind : test::glb_kinds()) {
     const std::string name = kind.name;
     if (name.find("_shared") != std::string::npos && name != "uv_shared") continue;
-    const Content bytes = testing::glb_bytes(testing::random_scene(kind, 1, 2), name);
+    const Content bytes = test::glb_bytes(test::random_scene(kind, 1, 2), name);
     all.add("gltf", name + ".glb", bytes);
     if (name == "face_bytes" || name == "vertex_floats") all.add("preview", name + ".glb", bytes);
   }
@@ -228,13 +228,13 @@ void add_torch(Collection& all) {
   TorchFixture large = connected_triangles();
   large.zip64 = true;
   all.add("checkpoint", "connected_zip64.pt", large.bytes());
-  testing::ZipFixture zip;
+  test::ZipFixture zip;
   zip.entries = {{"a/stored", "some bytes that are stored"},
                  {"a/deflated", std::string(300, 'x') + "y", true}};
   all.add("zip", "two.zip", zip.bytes());
   zip.zip64 = true;
   all.add("zip", "two_zip64.zip", zip.bytes());
-  testing::PickleFixture pickle;
+  test::PickleFixture pickle;
   pickle.op("}(")
       .text("feat_acc")
       .integer(-3)
@@ -272,14 +272,14 @@ void add_cameras(Collection& all) {
       "camera_path", "loop.json",
       path_to_json({.keyframes = {{cameras[0], 0, 2.5}, {cameras[1], 1.5, 0}}, .loop_seconds = 4}));
 
-  testing::ColmapFixture model = testing::upright_colmap(2);
+  test::ColmapFixture model = test::upright_colmap(2);
   model.cameras.push_back({2, 4, "OPENCV", 8, 6, {10, 9, 4, 3, 0.1, 0.01, 1e-3, 1e-4}});
-  all.add("colmap_binary", "cameras", with_first_byte(0, testing::binary_cameras(model)));
-  all.add("colmap_binary", "images", with_first_byte(1, testing::binary_images(model)));
-  all.add("colmap_binary", "points", with_first_byte(2, testing::binary_points(model)));
-  all.add("colmap_text", "cameras", with_first_byte(0, content(testing::text_cameras(model))));
-  all.add("colmap_text", "images", with_first_byte(1, content(testing::text_images(model))));
-  all.add("colmap_text", "points", with_first_byte(2, content(testing::text_points(model))));
+  all.add("colmap_binary", "cameras", with_first_byte(0, test::binary_cameras(model)));
+  all.add("colmap_binary", "images", with_first_byte(1, test::binary_images(model)));
+  all.add("colmap_binary", "points", with_first_byte(2, test::binary_points(model)));
+  all.add("colmap_text", "cameras", with_first_byte(0, content(test::text_cameras(model))));
+  all.add("colmap_text", "images", with_first_byte(1, content(test::text_images(model))));
+  all.add("colmap_text", "points", with_first_byte(2, content(test::text_points(model))));
 }
 
 // ---- Pictures
@@ -303,7 +303,7 @@ Content progressive_jpeg() {
 }
 
 Content baseline_jpeg() {
-  const Image8 picture = testing::a_picture(20, 12, 3);
+  const Image8 picture = test::a_picture(20, 12, 3);
   std::string text;
   stbi_write_jpg_to_func(
       [](void* to, void* data, int size) {
@@ -314,7 +314,7 @@ Content baseline_jpeg() {
 }
 
 void add_images(Collection& all) {
-  all.add("image", "rgba.png", encode_png(testing::a_picture(9, 7)));
+  all.add("image", "rgba.png", encode_png(test::a_picture(9, 7)));
   std::string row;
   for (int i = 0; i < 8 * 5; ++i) row += static_cast<char>(37 * i);
   all.add(

@@ -37,7 +37,7 @@ std::string network_json() {
 }  // namespace
 
 FolderFiles diffsoup_files() {
-  testing::RandomScene random(5);
+  test::RandomScene random(5);
   TriangleSoup soup = random.geometry(2, false);
   LatticeTexture texture = random.lattice_texture(2, 1, false);
   texture.mlp = random.diffsoup_mlp();

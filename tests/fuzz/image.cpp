@@ -7,7 +7,7 @@
 namespace tureen::fuzz {
 
 void image(Bytes bytes) {
-  decode_image(testing::with_png_sums({bytes.begin(), bytes.end()}), "fuzz.png");
+  decode_image(test::with_png_sums({bytes.begin(), bytes.end()}), "fuzz.png");
 }
 
 }  // namespace tureen::fuzz

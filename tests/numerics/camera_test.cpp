@@ -14,7 +14,7 @@
 #include "support/random_soups.hpp"
 
 namespace tureen::test {
-namespace {
+namespace camera_test {
 
 /// How the device is held against the oracle at what a camera is stressed by.
 class Comparison {
@@ -185,5 +185,5 @@ TEST(Numerics, C4_SomethingVeryFarHidesNothingNear) {
   }
 }
 
-}  // namespace
+}  // namespace camera_test
 }  // namespace tureen::test

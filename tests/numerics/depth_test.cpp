@@ -13,7 +13,7 @@
 #include "trainer/stages.hpp"
 
 namespace tureen::test {
-namespace {
+namespace depth_test {
 
 constexpr int side = 16;
 constexpr float extent = 60;  // of the scene, so that the eye is within it
@@ -179,5 +179,5 @@ TEST(Numerics, D2_WinnersDoNotDependOnTheNearPlane) {
   }
 }
 
-}  // namespace
+}  // namespace depth_test
 }  // namespace tureen::test

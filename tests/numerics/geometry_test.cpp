@@ -26,7 +26,7 @@
 #include "trainer/stages.hpp"
 
 namespace tureen::test {
-namespace {
+namespace geometry_test {
 
 using Faces = std::vector<std::uint32_t>;
 
@@ -579,5 +579,5 @@ TEST(Numerics, G9_OfCoincidentFacesTheLowerOneShowsEveryTime) {
   }
 }
 
-}  // namespace
+}  // namespace geometry_test
 }  // namespace tureen::test

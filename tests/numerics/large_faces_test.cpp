@@ -15,7 +15,7 @@
 #include "trainer/cuda/device_picture.hpp"
 
 namespace tureen::test {
-namespace {
+namespace large_faces_test {
 
 /// Draws one vertex as a point, the way faces are drawn, and reads which face it belongs to. There
 /// are no buffers, so that faces may be as many as they like: vertices are all at the origin.
@@ -104,5 +104,5 @@ TEST(Numerics, T7b_FacesBeyondTwoToThe24KeepTheirNames) {
   }
 }
 
-}  // namespace
+}  // namespace large_faces_test
 }  // namespace tureen::test

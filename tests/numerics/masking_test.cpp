@@ -14,7 +14,7 @@
 #include "trainer/stages.hpp"
 
 namespace tureen::test {
-namespace {
+namespace masking_test {
 
 using trainer::kernels::FragmentRole;
 using trainer::kernels::logit_score;
@@ -233,5 +233,5 @@ TEST(Numerics, S5_LossAndScoreShareTheirDraw) {
   }
 }
 
-}  // namespace
+}  // namespace masking_test
 }  // namespace tureen::test

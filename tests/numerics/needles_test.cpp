@@ -21,7 +21,7 @@
 #include "support/shader_probe.hpp"
 
 namespace tureen::test {
-namespace {
+namespace needles_test {
 
 constexpr int side = 192;
 constexpr double low = 0.4, high = 0.6;  // of all features
@@ -226,5 +226,5 @@ TEST(Numerics, G1b_NeedlesHaveANormal) {
   }
 }
 
-}  // namespace
+}  // namespace needles_test
 }  // namespace tureen::test

@@ -25,7 +25,7 @@
 #include "trainer/trainer.hpp"
 
 namespace tureen::test {
-namespace {
+namespace optimiser_test {
 
 namespace kernels = trainer::kernels;
 
@@ -483,5 +483,5 @@ TEST(Numerics, O7_FlatPicturesHaveNoNegativeVariance) {
   }
 }
 
-}  // namespace
+}  // namespace optimiser_test
 }  // namespace tureen::test

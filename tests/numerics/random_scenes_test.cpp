@@ -19,7 +19,7 @@
 #include "trainer/stages.hpp"
 
 namespace tureen::test {
-namespace {
+namespace random_scenes_test {
 
 constexpr int width = 240, height = 180;
 
@@ -158,5 +158,5 @@ TEST(Numerics, H10_RandomScenesLookTheSameToAllThree) {
   EXPECT_EQ(shown[Hazard::behind_the_eye], 0);
 }
 
-}  // namespace
+}  // namespace random_scenes_test
 }  // namespace tureen::test

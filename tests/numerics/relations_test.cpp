@@ -19,7 +19,7 @@
 #include "support/random_soups.hpp"
 
 namespace tureen::test {
-namespace {
+namespace relations_test {
 
 constexpr int width = 240, height = 180;
 constexpr double pixels = double(width) * height;
@@ -502,5 +502,5 @@ TEST(Numerics, H9_AMillionCoplanarFaces) {
   }
 }
 
-}  // namespace
+}  // namespace relations_test
 }  // namespace tureen::test

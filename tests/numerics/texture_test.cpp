@@ -28,7 +28,7 @@
 
 namespace tureen::test {
 
-namespace {
+namespace texture_test {
 
 /// A number that is rounded to a half after every operation.
 struct Half {
@@ -553,5 +553,5 @@ TEST(Numerics, T9_AGreyRampArrivesBitByBit) {
                   .tolerance = 0});
 }
 
-}  // namespace
+}  // namespace texture_test
 }  // namespace tureen::test

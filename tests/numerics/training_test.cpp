@@ -23,7 +23,7 @@
 #include "trainer/trainer.hpp"
 
 namespace tureen::test {
-namespace {
+namespace training_test {
 
 using trainer::Backend;
 using trainer::Config;
@@ -523,5 +523,5 @@ TEST(Numerics, R9_FacesInOnePlane) {
   }
 }
 
-}  // namespace
+}  // namespace training_test
 }  // namespace tureen::test

@@ -23,7 +23,7 @@
 #include "support/shader_probe.hpp"
 
 namespace tureen::test {
-namespace {
+namespace view_direction_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -469,5 +469,5 @@ TEST(Numerics, V5_APrimitiveAtTheEyeHasAColour) {
   }
 }
 
-}  // namespace
+}  // namespace view_direction_test
 }  // namespace tureen::test

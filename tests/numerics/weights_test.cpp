@@ -29,7 +29,7 @@
 #include "trainer/stages.hpp"
 
 namespace tureen::test {
-namespace {
+namespace weights_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -405,5 +405,5 @@ TEST(Numerics, M5_AlphasOfExactlyOneHalfLeaveNoHoles) {
   }
 }
 
-}  // namespace
+}  // namespace weights_test
 }  // namespace tureen::test

@@ -11,7 +11,7 @@
 #include <utility>
 
 namespace tureen {
-namespace {
+namespace benchmark_test {
 
 using testing::Each;
 using testing::ElementsAre;
@@ -193,5 +193,5 @@ TEST(Benchmark, ProcessorTimePassesWithWorkAndNotWithWaiting) {
   EXPECT_GE(waited, start);
 }
 
-}  // namespace
+}  // namespace benchmark_test
 }  // namespace tureen

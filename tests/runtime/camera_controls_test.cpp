@@ -16,7 +16,7 @@
 #include "support/random.hpp"
 
 namespace tureen {
-namespace {
+namespace camera_controls_test {
 
 using test::Random;
 
@@ -660,5 +660,5 @@ TEST(CameraControls, NothingLeavesForeverInOneDirection) {
   EXPECT_EQ(controls.target(), glm::dvec3(0));
 }
 
-}  // namespace
+}  // namespace camera_controls_test
 }  // namespace tureen

@@ -12,7 +12,7 @@
 #include "support/random.hpp"
 
 namespace tureen {
-namespace {
+namespace camera_path_test {
 
 using test::Random;
 
@@ -403,5 +403,5 @@ TEST(CameraSpline, RotationVectorsGoThereAndBack) {
   }
 }
 
-}  // namespace
+}  // namespace camera_path_test
 }  // namespace tureen

@@ -13,7 +13,7 @@
 #include "runtime/oracle/hits.hpp"
 
 namespace tureen {
-namespace {
+namespace camera_sets_test {
 
 constexpr glm::dvec3 origin(1000, -50, 7);
 const Lens lens{.width = 160, .height = 90};
@@ -191,5 +191,5 @@ TEST(AdversarialViews, ASoupWithoutFacesHasViewsToo) {
   EXPECT_EQ(adversarial_views(soup, origin, {}, lens).size(), 4u);
 }
 
-}  // namespace
+}  // namespace camera_sets_test
 }  // namespace tureen

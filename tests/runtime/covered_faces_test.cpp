@@ -14,7 +14,7 @@
 #include "support/random_soups.hpp"
 
 namespace tureen::test {
-namespace {
+namespace covered_faces_test {
 
 /// What most rasterisers have.
 constexpr int subpixel_bits = 8;
@@ -244,5 +244,5 @@ INSTANTIATE_TEST_SUITE_P(All, CoveredFacesPicture, testing::ValuesIn(picture_cas
                                   to_string(test.param.kind);
                          });
 
-}  // namespace
+}  // namespace covered_faces_test
 }  // namespace tureen::test

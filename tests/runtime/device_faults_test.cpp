@@ -17,7 +17,7 @@
 #include "support/errors.hpp"
 
 namespace tureen::test {
-namespace {
+namespace device_faults_test {
 
 using testing::Throws;
 using testing::ThrowsMessage;
@@ -220,5 +220,5 @@ TEST(OlderDrivers, TooOldOrNoneAtAllIsToldWithTheVersion) {
       Throws<ContextError>());
 }
 
-}  // namespace
+}  // namespace device_faults_test
 }  // namespace tureen::test

@@ -9,7 +9,7 @@
 #include "support/random_soups.hpp"
 
 namespace tureen {
-namespace {
+namespace device_forecast_test {
 
 class DeviceForecastOf : public testing::TestWithParam<test::Kind> {};
 
@@ -79,5 +79,5 @@ TEST(DeviceForecast, CapacityGrowsWithWhatTheDeviceCan) {
   EXPECT_EQ(texel_capacity({16384, 8192, false}), std::uint64_t(1) << 32) << "indices have 32 bits";
 }
 
-}  // namespace
+}  // namespace device_forecast_test
 }  // namespace tureen

@@ -9,7 +9,7 @@
 #include "support/random_soups.hpp"
 
 namespace tureen {
-namespace {
+namespace edits_agreement_test {
 
 using test::Drawn;
 using test::expect_agreement;
@@ -114,5 +114,5 @@ TEST(FewerFaces, AreDrawnAsTheOracleHasThem) {
   }
 }
 
-}  // namespace
+}  // namespace edits_agreement_test
 }  // namespace tureen

@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace tureen {
-namespace {
+namespace frame_statistics_test {
 
 TEST(FrameStatistics, MedianOfOddAndEvenCounts) {
   EXPECT_EQ(median(std::vector<double>{7}), 7);
@@ -127,5 +127,5 @@ TEST(Verdicts, FewRoundsHaveNoSpread) {
   EXPECT_EQ(verdict_on(best(100, 0, min_rounds), best(900, 0, min_rounds), 0), Verdict::faster);
 }
 
-}  // namespace
+}  // namespace frame_statistics_test
 }  // namespace tureen

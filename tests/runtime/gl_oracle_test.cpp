@@ -14,7 +14,7 @@
 #include "support/random_soups.hpp"
 
 namespace tureen {
-namespace {
+namespace gl_oracle_test {
 
 using oracle::Attributes;
 using test::AgreementLimits;
@@ -261,5 +261,5 @@ TEST(GlOracleSingle, TheCutoutCloudThatCoversEverythingAgrees) {
                    {.most_face_mismatch = 3e-5});
 }
 
-}  // namespace
+}  // namespace gl_oracle_test
 }  // namespace tureen

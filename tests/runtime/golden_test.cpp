@@ -12,7 +12,7 @@
 #include "support/golden_scenes.hpp"
 
 namespace tureen::test {
-namespace {
+namespace golden_test {
 
 Image8 draw_golden(const gl::ContextRequest& request, Kind kind, RenderOptions options) {
   const gl::Context context = gl::Context::create(request);
@@ -110,5 +110,5 @@ TEST(Golden, ForwardAndDeferredAgree) {
   }
 }
 
-}  // namespace
+}  // namespace golden_test
 }  // namespace tureen::test

@@ -15,7 +15,7 @@
 #include "soup/spherical_harmonics.hpp"
 
 namespace tureen::test {
-namespace {
+namespace half_step_test {
 
 constexpr double half_step = 1.0 / 510;
 // How much of the bound a soup takes. The networks below attain at least 0.97 of their bounds (a
@@ -389,5 +389,5 @@ TEST(BoundsOfRandomNetworks, ViewDependence) {
   }
 }
 
-}  // namespace
+}  // namespace half_step_test
 }  // namespace tureen::test

@@ -22,7 +22,7 @@
 #include "support/random_soups.hpp"
 
 namespace tureen::test {
-namespace {
+namespace inspection_test {
 
 using oracle::Hit;
 using testing::AllOf;
@@ -544,5 +544,5 @@ TEST(Legends, NameColorsWhereNumbersHideInThem) {
   EXPECT_TRUE(legend(Inspection::color, scale, {}).empty());
 }
 
-}  // namespace
+}  // namespace inspection_test
 }  // namespace tureen::test

@@ -7,7 +7,7 @@
 #include <random>
 
 namespace tureen {
-namespace {
+namespace navigation_test {
 
 constexpr double pi = 3.14159265358979323846;
 
@@ -109,5 +109,5 @@ TEST(Navigation, TheSubjectOfASceneIsItsBoundsInTheWorld) {
   EXPECT_EQ(subject_of(scene).high, glm::dvec3(101, 202, 303));
 }
 
-}  // namespace
+}  // namespace navigation_test
 }  // namespace tureen

@@ -13,7 +13,7 @@
 #include "support/random_soups.hpp"
 
 namespace tureen {
-namespace {
+namespace oracle_geometry_test {
 
 using oracle::Attributes;
 using oracle::Coverage;
@@ -349,5 +349,5 @@ TEST(OracleRays, ViewDirectionsAreUnitAndPointBackToTheEye) {
   EXPECT_GT(hits, 100);
 }
 
-}  // namespace
+}  // namespace oracle_geometry_test
 }  // namespace tureen

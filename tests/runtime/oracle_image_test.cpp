@@ -13,7 +13,7 @@
 #include "support/random_soups.hpp"
 
 namespace tureen {
-namespace {
+namespace oracle_image_test {
 
 using oracle::Coverage;
 
@@ -289,5 +289,5 @@ TEST(CutoutCloud, CoversWhatItPromises) {
   EXPECT_GE(fraction(test::CloudCoverage::all), 0.9999);
 }
 
-}  // namespace
+}  // namespace oracle_image_test
 }  // namespace tureen

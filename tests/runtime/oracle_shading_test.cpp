@@ -12,7 +12,7 @@
 #include "support/random_soups.hpp"
 
 namespace tureen {
-namespace {
+namespace oracle_shading_test {
 
 const glm::dvec3 to_eye(0, 0, 1);
 const glm::dvec3 eye(0, 0, 5);
@@ -251,5 +251,5 @@ TEST(OracleShading, FeatureTexturesFeedTheirMlpAndIgnoreTheFactor) {
                evaluate(*textures.mlp, features, direction));
 }
 
-}  // namespace
+}  // namespace oracle_shading_test
 }  // namespace tureen

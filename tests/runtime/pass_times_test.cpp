@@ -13,7 +13,7 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace pass_times_test {
 
 using test::Names;
 
@@ -149,5 +149,5 @@ TEST_P(Ceilings, TheCopyIsAPicturesWorthOfPixels) {
 INSTANTIATE_TEST_SUITE_P(Contexts, Ceilings, testing::ValuesIn(test::every_context),
                          [](const auto& each) { return each.param.name; });
 
-}  // namespace
+}  // namespace pass_times_test
 }  // namespace tureen

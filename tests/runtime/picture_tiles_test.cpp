@@ -14,7 +14,7 @@
 #include "support/random_soups.hpp"
 
 namespace tureen::test {
-namespace {
+namespace picture_tiles_test {
 
 // -- how a picture is cut, without GL -----------------------------------------------------------
 
@@ -211,5 +211,5 @@ TEST(PictureTiles, AResolutionScaleIsRefused) {
   EXPECT_THROW(tiles_of(renderer, context.capabilities()), UsageError);
 }
 
-}  // namespace
+}  // namespace picture_tiles_test
 }  // namespace tureen::test

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace tureen {
-namespace {
+namespace plan_description_test {
 
 using testing::ElementsAre;
 
@@ -46,5 +46,5 @@ TEST(PlanDescription, EverySpecialisationBeginsWithItsName) {
         describe(AppliedSpecialisation{known.what}).starts_with(std::string(known.name) + ": "));
 }
 
-}  // namespace
+}  // namespace plan_description_test
 }  // namespace tureen

@@ -15,7 +15,7 @@
 #include "support/errors.hpp"
 
 namespace tureen::test {
-namespace {
+namespace plan_test {
 
 using testing::Contains;
 
@@ -295,5 +295,5 @@ INSTANTIATE_TEST_SUITE_P(All, SpecialisedKinds, testing::ValuesIn(kinds_and_seed
                                   std::to_string(test.param.seed);
                          });
 
-}  // namespace
+}  // namespace plan_test
 }  // namespace tureen::test

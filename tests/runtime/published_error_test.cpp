@@ -7,7 +7,7 @@
 #include "support/cutout_cloud.hpp"
 
 namespace tureen {
-namespace {
+namespace published_error_test {
 
 class PublishedError : public testing::TestWithParam<test::CloudCoverage> {};
 
@@ -44,5 +44,5 @@ INSTANTIATE_TEST_SUITE_P(Cloud, PublishedError,
                                       : std::string("covers_forty_percent");
                          });
 
-}  // namespace
+}  // namespace published_error_test
 }  // namespace tureen

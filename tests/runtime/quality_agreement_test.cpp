@@ -11,7 +11,7 @@
 #include "support/random_soups.hpp"
 
 namespace tureen {
-namespace {
+namespace quality_agreement_test {
 
 using test::Drawn;
 using test::Kind;
@@ -139,5 +139,5 @@ INSTANTIATE_TEST_SUITE_P(Soup, ResolutionScale,
                                           testing::ValuesIn(test::all_kinds)),
                          name_of);
 
-}  // namespace
+}  // namespace quality_agreement_test
 }  // namespace tureen

@@ -8,7 +8,7 @@
 #include "support/contexts.hpp"
 
 namespace tureen::test {
-namespace {
+namespace quality_test {
 
 // -- the plan -------------------------------------------------------------------------------------
 
@@ -120,5 +120,5 @@ TEST_P(Frames, AreCopiedAtFullSize) {
 INSTANTIATE_TEST_SUITE_P(Everywhere, Frames, testing::ValuesIn(every_context),
                          [](const auto& i) { return i.param.name; });
 
-}  // namespace
+}  // namespace quality_test
 }  // namespace tureen::test

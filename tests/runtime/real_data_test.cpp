@@ -11,7 +11,7 @@
 #include "support/agreement.hpp"
 
 namespace tureen {
-namespace {
+namespace real_data_test {
 
 using test::Drawn;
 
@@ -88,5 +88,5 @@ TEST(RealDataPair, GlbAndOffShowTheSamePlant) {
   }
 }
 
-}  // namespace
+}  // namespace real_data_test
 }  // namespace tureen

@@ -15,7 +15,7 @@
 #include "support/random_soups.hpp"
 
 namespace tureen::test {
-namespace {
+namespace renderer_test {
 
 Image8 draw(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
             const Camera& camera, const RenderOptions& options = {}) {
@@ -363,5 +363,5 @@ TEST(Context, AnExternalContextIsTakenOverAsItIs) {
   EXPECT_EQ(external.capabilities().renderer, owner.capabilities().renderer);
 }
 
-}  // namespace
+}  // namespace renderer_test
 }  // namespace tureen::test

@@ -12,7 +12,7 @@
 #include "support/errors.hpp"
 
 namespace tureen::test {
-namespace {
+namespace resampling_test {
 
 /// The weighted mean of samples as the shaders should take it: colours count as much as they are
 /// opaque, and as they are where nothing is.
@@ -121,5 +121,5 @@ TEST(ResamplingLimits, MoreSamplesThanTheDeviceDrawsAreRefusedAndTheNextFrameIsD
   EXPECT_EQ(renderer.read_color().pixels, before.pixels);
 }
 
-}  // namespace
+}  // namespace resampling_test
 }  // namespace tureen::test

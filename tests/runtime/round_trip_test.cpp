@@ -12,12 +12,12 @@
 #include "support/random_soups.hpp"
 
 namespace tureen {
-namespace {
+namespace round_trip_test {
 
 using test::Drawn;
 using test::Kind;
-using tureen::testing::soup_of;
-using tureen::testing::TemporaryFolder;
+using tureen::test::soup_of;
+using tureen::test::TemporaryFolder;
 
 gl::Context& context() {
   static gl::Context shared = gl::Context::create({});
@@ -144,5 +144,5 @@ TEST(CutoutCloud, ReadFromOurGlbDrawsTheSamePixels) {
   expect_the_same_pixels(scene, written_and_read(scene, folder / "cloud.glb"));
 }
 
-}  // namespace
+}  // namespace round_trip_test
 }  // namespace tureen

@@ -16,7 +16,7 @@
 #include "support/shader_probe.hpp"
 
 namespace tureen::test {
-namespace {
+namespace shader_math_test {
 
 class ShaderMath : public testing::TestWithParam<NamedContext> {
  protected:
@@ -146,5 +146,5 @@ TEST_P(ShaderMath, TriangleColorsAreThoseOfInspections) {
 INSTANTIATE_TEST_SUITE_P(Contexts, ShaderMath, testing::ValuesIn(every_context),
                          [](const auto& test) { return std::string(test.param.name); });
 
-}  // namespace
+}  // namespace shader_math_test
 }  // namespace tureen::test

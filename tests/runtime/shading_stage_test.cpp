@@ -7,7 +7,7 @@
 #include "support/contexts.hpp"
 
 namespace tureen::test {
-namespace {
+namespace shading_stage_test {
 
 PlanPreferences deferred(ShadingStage stage) {
   return {.site = ShadingSite::deferred, .shading_stage = stage};
@@ -130,5 +130,5 @@ TEST(ShadingStagePlan, IsComputeOnlyWhereThePlanIsDeferred) {
   EXPECT_THROW(make_plan(one_level, limits, published), UsageError);
 }
 
-}  // namespace
+}  // namespace shading_stage_test
 }  // namespace tureen::test

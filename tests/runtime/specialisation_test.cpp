@@ -12,7 +12,7 @@
 #include "support/trait_soups.hpp"
 
 namespace tureen::test {
-namespace {
+namespace specialisation_test {
 
 RenderPlan plan_of(const TriangleSoup& soup,
                    SpecialisationSet specialisations = SpecialisationSet::all()) {
@@ -159,5 +159,5 @@ TEST(SpecialisationNames, OnlyWhatIsAskedForIsLeftOut) {
   EXPECT_EQ(plan.applied, std::vector{AppliedSpecialisation{Specialisation::background}});
 }
 
-}  // namespace
+}  // namespace specialisation_test
 }  // namespace tureen::test

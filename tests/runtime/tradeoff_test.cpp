@@ -14,7 +14,7 @@
 #include "support/random.hpp"
 
 namespace tureen::tradeoff {
-namespace {
+namespace tradeoff_test {
 
 using test::Names;
 using testing::ElementsAre;
@@ -312,5 +312,5 @@ TEST(AntialiasingSettings, OfThemOneIsSupersampling) {
   EXPECT_EQ(found->values.back().value, "8");
 }
 
-}  // namespace
+}  // namespace tradeoff_test
 }  // namespace tureen::tradeoff

@@ -10,7 +10,7 @@
 #include "formats/scene_file.hpp"
 
 namespace tureen {
-namespace {
+namespace up_axis_test {
 
 /// Cameras around an arc, held upright along `up` and looking down by 30 degrees.
 std::vector<Camera> arc(const glm::dvec3& up, double turns) {
@@ -125,5 +125,5 @@ TEST(UpAxis, AxesHaveNames) {
   EXPECT_EQ(axis_name({0, 0, 0}), "nothing");
 }
 
-}  // namespace
+}  // namespace up_axis_test
 }  // namespace tureen

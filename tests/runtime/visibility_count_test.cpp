@@ -13,7 +13,7 @@
 #include "support/random_soups.hpp"
 
 namespace tureen {
-namespace {
+namespace visibility_count_test {
 
 gl::Context& context() {
   static gl::Context shared = gl::Context::create({});
@@ -147,5 +147,5 @@ TEST(VisibilityCount, LeavingOutWhatIsNotSeenChangesNothing) {
   }
 }
 
-}  // namespace
+}  // namespace visibility_count_test
 }  // namespace tureen

@@ -10,7 +10,7 @@
 #include "soup/quantise.hpp"
 
 namespace tureen {
-namespace {
+namespace baked_color_test {
 
 constexpr unsigned seed = 20262;
 
@@ -153,5 +153,5 @@ TEST(BakedColor, TexelsThatNobodySeesKeepTheirBase) {
     EXPECT_EQ(color_of(baked, texel) == color_of(texture, texel), texel >= 3) << texel;
 }
 
-}  // namespace
+}  // namespace baked_color_test
 }  // namespace tureen

@@ -7,7 +7,7 @@
 #include <random>
 
 namespace tureen {
-namespace {
+namespace box_scale_test {
 
 TEST(BoxScale, AveragesByArea) {
   Image8 image(3, 2, glm::u8vec4(0, 0, 0, 255));
@@ -74,5 +74,5 @@ TEST(BoxScale, AgreesWithItsDefinitionOnRandomPictures) {
   }
 }
 
-}  // namespace
+}  // namespace box_scale_test
 }  // namespace tureen

@@ -7,7 +7,7 @@
 #include <glm/vec4.hpp>
 
 namespace tureen {
-namespace {
+namespace camera_test {
 
 glm::dvec2 pixel_of(const Camera& camera, glm::dvec3 world) {
   const glm::dvec4 clip =
@@ -53,5 +53,5 @@ TEST(Camera, ReversedDepthIsOneAtTheNearPlaneAndZeroAtInfinity) {
   EXPECT_NEAR(depth(1e12), 0.0, 1e-12);
 }
 
-}  // namespace
+}  // namespace camera_test
 }  // namespace tureen

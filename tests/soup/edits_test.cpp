@@ -11,7 +11,7 @@
 #include "soup/lattice_levels.hpp"
 
 namespace tureen {
-namespace {
+namespace edits_test {
 
 constexpr unsigned seed = 2611;
 
@@ -109,5 +109,5 @@ TEST(Edits, WhatMakesNoSenseHasADefect) {
   EXPECT_TRUE(defect({.lattice_level = -1}, soup));
 }
 
-}  // namespace
+}  // namespace edits_test
 }  // namespace tureen

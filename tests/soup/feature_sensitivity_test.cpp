@@ -8,7 +8,7 @@
 #include "soup/lattice.hpp"
 
 namespace tureen {
-namespace {
+namespace feature_sensitivity_test {
 
 constexpr int features = LatticeTexture::features;
 const std::vector<glm::dvec3> eyes{{0, 0, 5}, {3, 0, 4}};
@@ -97,5 +97,5 @@ TEST(FeatureSensitivity, ASoupOfNothingHasNone) {
   EXPECT_TRUE(face_sensitivity(soup, eyes, {}).empty());
 }
 
-}  // namespace
+}  // namespace feature_sensitivity_test
 }  // namespace tureen

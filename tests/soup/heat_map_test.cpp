@@ -6,7 +6,7 @@
 #include "soup/error.hpp"
 
 namespace tureen {
-namespace {
+namespace heat_map_test {
 
 TEST(HeatMap, GetsLighterWithTheDifference) {
   EXPECT_EQ(heat(0), glm::u8vec4(0, 0, 0, 255));
@@ -54,5 +54,5 @@ TEST(HeatMap, TheLegendHasTheColoursOfTheScale) {
   EXPECT_EQ(legend.back().color, heat(1));
 }
 
-}  // namespace
+}  // namespace heat_map_test
 }  // namespace tureen

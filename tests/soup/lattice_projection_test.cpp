@@ -12,7 +12,7 @@
 #include "soup/lattice_refine.hpp"
 
 namespace tureen {
-namespace {
+namespace lattice_projection_test {
 
 constexpr unsigned seed = 20261;
 
@@ -326,5 +326,5 @@ TEST(LatticeLevels, ACutOutThatWouldChangeKeepsItsLevel) {
   EXPECT_GT(level(0.05), 0);
 }
 
-}  // namespace
+}  // namespace lattice_projection_test
 }  // namespace tureen

@@ -9,7 +9,7 @@
 #include "soup/quantise.hpp"
 
 namespace tureen {
-namespace {
+namespace lattice_refine_test {
 
 double sampled(int level, const std::vector<float>& texels, double b0, double b1) {
   const auto at = lattice::footprint(level, b0, b1);
@@ -70,5 +70,5 @@ TEST(Quantise, AlphaKeepsItsSideOfOneHalf) {
   }
 }
 
-}  // namespace
+}  // namespace lattice_refine_test
 }  // namespace tureen

@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace tureen {
-namespace {
+namespace lattice_test {
 
 TEST(Lattice, CountsAreTheTriangularNumbers) {
   const std::uint32_t expected[] = {3, 6, 15, 45, 153, 561, 2145, 8385};
@@ -77,5 +77,5 @@ TEST(Lattice, PointsOutsideStayWithinTheTexels) {
           ASSERT_LT(texel, lattice::texel_count(level)) << level << ": " << b0 << ", " << b1;
 }
 
-}  // namespace
+}  // namespace lattice_test
 }  // namespace tureen

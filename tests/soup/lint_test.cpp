@@ -10,7 +10,7 @@
 #include "soup/lattice.hpp"
 
 namespace tureen {
-namespace {
+namespace lint_test {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -187,5 +187,5 @@ TEST(Lint, FindingsInEnglish) {
   EXPECT_STREQ(name_of(Id::duplicate_faces), "duplicate_faces");
 }
 
-}  // namespace
+}  // namespace lint_test
 }  // namespace tureen

@@ -11,7 +11,7 @@
 #include "soup/srgb.hpp"
 
 namespace tureen {
-namespace {
+namespace mean_color_test {
 
 void expect_near(const glm::vec3& a, const glm::dvec3& b, double tolerance) {
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], tolerance) << "channel " << k;
@@ -195,5 +195,5 @@ TEST(MeanColor, IsDeterministic) {
   EXPECT_EQ(mean_colors(soup), mean_colors(soup));
 }
 
-}  // namespace
+}  // namespace mean_color_test
 }  // namespace tureen

@@ -12,7 +12,7 @@
 #include "support/errors.hpp"
 
 namespace tureen {
-namespace {
+namespace metrics_test {
 
 using test::error_of;
 using test::ErrorAt;
@@ -230,5 +230,5 @@ TEST(Metrics, DifferenceMapHoldsTheLargestChannel) {
   EXPECT_THAT(difference_map(a, b), testing::ElementsAre(0.0f, 0.25f));
 }
 
-}  // namespace
+}  // namespace metrics_test
 }  // namespace tureen

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace tureen {
-namespace {
+namespace quality_test {
 
 TEST(Quality, TheDefaultIsOneSampleAPixel) {
   EXPECT_EQ(defect(Quality{}), std::nullopt);
@@ -24,5 +24,5 @@ TEST(Quality, WhatCannotBeDrawnHasADefect) {
     EXPECT_TRUE(defect(bad)) << describe(bad);
 }
 
-}  // namespace
+}  // namespace quality_test
 }  // namespace tureen

@@ -8,7 +8,7 @@
 #include "soup/scene.hpp"
 
 namespace tureen {
-namespace {
+namespace remark_test {
 
 using Kind = Remark::Kind;
 using testing::ElementsAre;
@@ -46,5 +46,5 @@ TEST(Remark, NotesOfAFileStandBeforeRemarksOnIt) {
   EXPECT_EQ(describe(info.remarks[0]), "OFF knows no up axis: z is assumed");
 }
 
-}  // namespace
+}  // namespace remark_test
 }  // namespace tureen

@@ -10,7 +10,7 @@
 #include "soup/error.hpp"
 
 namespace tureen {
-namespace {
+namespace render_error_test {
 
 ImageF gray(int width, int height, float value, float alpha = 1) {
   return {width, height, glm::vec4(value, value, value, alpha)};
@@ -98,5 +98,5 @@ TEST(DecibelsLost, AreThoseOfAddedErrors) {
   EXPECT_NEAR(decibels_lost(27, 55), 0.007, 1e-3);
 }
 
-}  // namespace
+}  // namespace render_error_test
 }  // namespace tureen

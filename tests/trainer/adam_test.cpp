@@ -13,7 +13,7 @@
 #include "support/random.hpp"
 
 namespace tureen::trainer {
-namespace {
+namespace adam_test {
 
 using tureen::test::Random;
 
@@ -147,5 +147,5 @@ TEST(VectorAdam, TurnsWithTheAxes) {
   }
 }
 
-}  // namespace
+}  // namespace adam_test
 }  // namespace tureen::trainer

@@ -15,7 +15,7 @@
 #include "trainer/random_model.hpp"
 
 namespace tureen::trainer {
-namespace {
+namespace checkpoint_test {
 
 using tureen::test::error_of;
 using tureen::test::ErrorAt;
@@ -120,7 +120,7 @@ TEST_F(CheckpointFile, HoldsARunBitByBit) {
 
 TEST_F(CheckpointFile, SurvivesTruncation) {
   const Bytes bytes = written(random_checkpoint(12));
-  const auto survival = testing::survive_truncation(bytes, [](std::span<const std::byte> cut) {
+  const auto survival = tureen::test::survive_truncation(bytes, [](std::span<const std::byte> cut) {
     Input input = Input::memory("cut", cut);
     read_checkpoint(input);
   });
@@ -130,7 +130,7 @@ TEST_F(CheckpointFile, SurvivesTruncation) {
 
 TEST_F(CheckpointFile, RefusesEveryDamagedByte) {
   const Bytes bytes = written(random_checkpoint(13));
-  const auto survival = testing::survive_damage(bytes, [](std::span<const std::byte> damaged) {
+  const auto survival = tureen::test::survive_damage(bytes, [](std::span<const std::byte> damaged) {
     Input input = Input::memory("damaged", damaged);
     read_checkpoint(input);
   });
@@ -265,5 +265,5 @@ TEST(Difference, NamesTheFirstViewThatIsAnother) {
   EXPECT_THAT(difference(std::span(then).first(1), then).value_or(""), Names(1, 2));
 }
 
-}  // namespace
+}  // namespace checkpoint_test
 }  // namespace tureen::trainer

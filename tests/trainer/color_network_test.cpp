@@ -15,7 +15,7 @@
 #include "trainer/mlp_parameters.hpp"
 
 namespace tureen::trainer {
-namespace {
+namespace color_network_test {
 
 using tureen::test::Random;
 using Parameters = std::array<double, mlp_parameters>;
@@ -252,5 +252,5 @@ TEST(Scalar, TheSigmoidSaturatesWithoutNaN) {
   }
 }
 
-}  // namespace
+}  // namespace color_network_test
 }  // namespace tureen::trainer

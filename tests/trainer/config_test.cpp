@@ -17,7 +17,7 @@
 #include "trainer/config_file.hpp"
 
 namespace tureen::trainer {
-namespace {
+namespace config_test {
 
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -230,5 +230,5 @@ TEST(ConfigReference, HasEveryFieldWithItsDefault) {
     EXPECT_THAT(text, HasSubstr(std::string(field.name) + ": " + value_text(object, field)));
 }
 
-}  // namespace
+}  // namespace config_test
 }  // namespace tureen::trainer

@@ -12,7 +12,7 @@
 
 namespace tureen::trainer::test {
 
-namespace {
+namespace cuda_test {
 
 std::unique_ptr<Backend> on_gpu(std::span<const TrainingView> views, const Config& config) {
   return make_backend(views, config, Device::cuda, 1);
@@ -50,6 +50,6 @@ TEST(Device, WithoutAGpuTheProcessorTrainsAndCudaSaysWhy) {
   EXPECT_THAT(reason, tureen::test::ErrorAt("", "--device cpu"));
 }
 
-}  // namespace
+}  // namespace cuda_test
 
 }  // namespace tureen::trainer::test

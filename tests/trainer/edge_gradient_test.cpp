@@ -21,7 +21,7 @@
 #include "trainer/stages.hpp"
 
 namespace tureen::trainer {
-namespace {
+namespace edge_gradient_test {
 
 using tureen::test::Random;
 using Polygon = std::vector<glm::dvec2>;
@@ -455,5 +455,5 @@ TEST(EdgeGradient, TheSameFaceSlidesByItsShare) {
   EXPECT_FLOAT_EQ(gradient.gx, 0.25f * 0.5f * (1 + 2) * (0.8f - 0.3f));
 }
 
-}  // namespace
+}  // namespace edge_gradient_test
 }  // namespace tureen::trainer

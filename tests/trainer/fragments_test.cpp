@@ -12,7 +12,7 @@
 #include "trainer/ray_triangle.hpp"
 
 namespace tureen::trainer {
-namespace {
+namespace fragments_test {
 
 using kernels::Fragment;
 using tureen::test::Random;
@@ -140,5 +140,5 @@ TEST(Fragments, CentresOnEdgesBelong) {
   EXPECT_EQ(std::ranges::count_if(found, [](const Fragment& f) { return f.y < 32; }), 0);
 }
 
-}  // namespace
+}  // namespace fragments_test
 }  // namespace tureen::trainer

@@ -8,7 +8,7 @@
 
 namespace tureen::trainer::test {
 
-namespace {
+namespace host_launcher_test {
 
 template <bool backwards>
 std::unique_ptr<Backend> on_host(std::span<const TrainingView> views, const Config& config) {
@@ -29,6 +29,6 @@ TEST(HostLauncher, EndsTheSameAfterABreak) { expect_same_end_after_a_break(on_ho
 TEST(HostLauncher, QuarantinesWhatIsNotFinite) { expect_quarantine(on_host<false>); }
 TEST(HostLauncher, TrainsAlike) { expect_same_training(on_host<false>, 50); }
 
-}  // namespace
+}  // namespace host_launcher_test
 
 }  // namespace tureen::trainer::test

@@ -15,7 +15,7 @@
 #include "trainer/kernels/image_loss.hpp"
 
 namespace tureen::trainer {
-namespace {
+namespace image_loss_test {
 
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
 
@@ -349,5 +349,5 @@ TEST(ImageLoss, ViewsTogetherAreViewsAlone) {
   }
 }
 
-}  // namespace
+}  // namespace image_loss_test
 }  // namespace tureen::trainer

@@ -15,7 +15,7 @@
 #include "trainer/random_model.hpp"
 
 namespace tureen::trainer {
-namespace {
+namespace initialise_test {
 
 using testing::Each;
 using testing::SizeIs;
@@ -436,5 +436,5 @@ TEST(InitialModel, OfAMeshBisectsToTheNumberOfTriangles) {
   EXPECT_EQ(initial_model(dataset, config, &mesh).faces(), 60u);
 }
 
-}  // namespace
+}  // namespace initialise_test
 }  // namespace tureen::trainer

@@ -6,7 +6,7 @@
 #include "trainer/random_model.hpp"
 
 namespace tureen::trainer {
-namespace {
+namespace levels_test {
 
 using test::random_model;
 
@@ -84,5 +84,5 @@ TEST(Levels, CoarsenPicksTheTexelsAtTheSamePlaces) {
   }
 }
 
-}  // namespace
+}  // namespace levels_test
 }  // namespace tureen::trainer

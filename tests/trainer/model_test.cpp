@@ -15,7 +15,7 @@
 #include "trainer/stages.hpp"
 
 namespace tureen::trainer {
-namespace {
+namespace model_test {
 
 using test::random_model;
 
@@ -287,5 +287,5 @@ TEST(Mlp, BeginsWithinItsBoundsAndTheSameForASeed) {
   }
 }
 
-}  // namespace
+}  // namespace model_test
 }  // namespace tureen::trainer

@@ -12,7 +12,7 @@
 #include "trainer/stages.hpp"
 
 namespace tureen::trainer {
-namespace {
+namespace near_zone_test {
 
 using tureen::test::Random;
 
@@ -50,8 +50,6 @@ bool reaches(const Model& model) {
   const Camera camera = test::axis_camera(100, 80, 50);  // at depth 1: 2 x 1.6
   return reaching_near_zone(model, {&camera, 1}, 1.0)[0] != 0;
 }
-
-}  // namespace
 
 TEST(NearZone, IsWhereSomePointOfTheTriangleIs) {
   Random random(2);
@@ -152,5 +150,7 @@ TEST(NearZone, IsEmptyAsFarAsPointsTell) {
   config.clear_near = false;
   EXPECT_EQ(with_empty_near_zone(config, dataset, before).near, 2.5f);
 }
+
+}  // namespace near_zone_test
 
 }  // namespace tureen::trainer

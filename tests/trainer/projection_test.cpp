@@ -11,7 +11,7 @@
 #include "trainer/ray_triangle.hpp"
 
 namespace tureen::trainer {
-namespace {
+namespace projection_test {
 
 using tureen::test::Random;
 
@@ -112,5 +112,5 @@ TEST(Projection, TheEyesPlaneAndHugeCoordinatesAreSafe) {
   }
 }
 
-}  // namespace
+}  // namespace projection_test
 }  // namespace tureen::trainer

@@ -13,7 +13,7 @@
 
 namespace tureen::trainer {
 
-namespace {
+namespace schedule_test {
 
 /// Every face errs by its number, and every `unseen`-th has no pixel.
 class BlindBackend : public Backend {
@@ -73,8 +73,6 @@ std::size_t faces_in_the_end(const Case& run) {
   EXPECT_EQ(trainer.state().model.max_level, run.config.max_level) << run.name;
   return trainer.faces();
 }
-
-}  // namespace
 
 TEST(Schedule, EveryEpochShowsEachViewOnceAndNoBatchTwice) {
   for (const std::size_t count : {1u, 2u, 3u, 4u, 5u, 8u, 35u})
@@ -311,5 +309,7 @@ TEST(Schedule, FacesStayAfterTheLastResampling) {
   }
   EXPECT_EQ(last, 190);
 }
+
+}  // namespace schedule_test
 
 }  // namespace tureen::trainer

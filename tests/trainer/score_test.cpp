@@ -16,7 +16,7 @@
 #include "trainer/stages.hpp"
 
 namespace tureen::trainer {
-namespace {
+namespace score_test {
 
 using kernels::FragmentRole;
 using kernels::logit_score;
@@ -282,5 +282,5 @@ TEST(ScoreOfCoincidentFaces, TheOneBehindByItsNumberGetsNothing) {
   EXPECT_NEAR(sum[1], expected[1], tolerance);
 }
 
-}  // namespace
+}  // namespace score_test
 }  // namespace tureen::trainer

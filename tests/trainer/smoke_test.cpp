@@ -16,7 +16,7 @@
 #include "trainer/training_views.hpp"
 
 namespace tureen::trainer {
-namespace {
+namespace smoke_test {
 
 namespace fs = std::filesystem;
 
@@ -165,5 +165,5 @@ TEST(SmokeTraining, GoesOnFromACheckpointAsIfItHadNeverStopped) {
   EXPECT_EQ(file_of(a), file_of(b));
 }
 
-}  // namespace
+}  // namespace smoke_test
 }  // namespace tureen::trainer

@@ -10,7 +10,7 @@
 #include "trainer/random_model.hpp"
 
 namespace tureen::trainer {
-namespace {
+namespace split_choice_test {
 
 using test::random_model;
 using testing::IsEmpty;
@@ -221,5 +221,5 @@ TEST(LongestProjectedEdges, EndWhateverThePerspective) {
   EXPECT_LE(choose(model, 0.01, 5000).size(), 4999u);
 }
 
-}  // namespace
+}  // namespace split_choice_test
 }  // namespace tureen::trainer

@@ -24,7 +24,7 @@
 #include "trainer/stages.hpp"
 
 namespace tureen::trainer {
-namespace {
+namespace step_test {
 
 using tureen::test::Random;
 
@@ -444,5 +444,5 @@ TEST(CpuRender, ShowsWhatTheFormulasSay) {
   EXPECT_EQ(pixels, mean.covered());
 }
 
-}  // namespace
+}  // namespace step_test
 }  // namespace tureen::trainer

@@ -12,7 +12,7 @@
 #include "trainer/stages.hpp"
 
 namespace tureen::trainer {
-namespace {
+namespace texture_test {
 
 using test::random_model;
 
@@ -126,5 +126,5 @@ INSTANTIATE_TEST_SUITE_P(, PyramidOfLevels,
                                   std::to_string(tested.param.second);
                          });
 
-}  // namespace
+}  // namespace texture_test
 }  // namespace tureen::trainer

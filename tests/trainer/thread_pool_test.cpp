@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace tureen::trainer {
-namespace {
+namespace thread_pool_test {
 
 TEST(ThreadPool, EveryTaskRunsOnce) {
   for (const int threads : {1, 2, 3, 8}) {
@@ -82,5 +82,5 @@ TEST(ThreadPool, AnExceptionOfAnotherThreadLeavesThePoolUsable) {
   }
 }
 
-}  // namespace
+}  // namespace thread_pool_test
 }  // namespace tureen::trainer

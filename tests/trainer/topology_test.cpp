@@ -11,7 +11,7 @@
 #include "trainer/random_model.hpp"
 
 namespace tureen::trainer {
-namespace {
+namespace topology_test {
 
 using test::random_model;
 using testing::Each;
@@ -304,5 +304,5 @@ TEST(SpaceOrder, SurvivesPositionsThatAreNotFinite) {
   EXPECT_EQ(in_space_order(model).model.faces(), 10u);
 }
 
-}  // namespace
+}  // namespace topology_test
 }  // namespace tureen::trainer

@@ -9,7 +9,7 @@
 #include "trainer/config_fields.hpp"
 
 namespace tureen::trainer {
-namespace {
+namespace training_views_test {
 
 Photograph random_photograph(std::uint64_t seed) {
   test::Random random(seed);
@@ -76,5 +76,5 @@ TEST(ScaledTo, ChangesLengthsOfTrainingAndNothingElse) {
     EXPECT_EQ(value_text(same, field), value_text(config, field)) << field.name;
 }
 
-}  // namespace
+}  // namespace training_views_test
 }  // namespace tureen::trainer

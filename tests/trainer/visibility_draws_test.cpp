@@ -14,7 +14,7 @@
 #include "trainer/stages.hpp"
 
 namespace tureen::trainer {
-namespace {
+namespace visibility_draws_test {
 
 using tureen::test::Random;
 
@@ -239,5 +239,5 @@ TEST(Visibility, FacesWithoutNumbersShowNothing) {
   for (const VisiblePixel& pixel : picture.visible) ASSERT_EQ(pixel.face, 1u);
 }
 
-}  // namespace
+}  // namespace visibility_draws_test
 }  // namespace tureen::trainer

@@ -7,7 +7,7 @@
 #include <fstream>
 
 namespace tureen::viewer {
-namespace {
+namespace file_list_test {
 
 namespace fs = std::filesystem;
 
@@ -31,5 +31,5 @@ TEST(FileList, SaysWhatItCannotList) {
   EXPECT_FALSE(list.trouble.empty());
 }
 
-}  // namespace
+}  // namespace file_list_test
 }  // namespace tureen::viewer

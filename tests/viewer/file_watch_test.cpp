@@ -6,7 +6,7 @@
 #include <fstream>
 
 namespace tureen::viewer {
-namespace {
+namespace file_watch_test {
 
 namespace fs = std::filesystem;
 
@@ -53,5 +53,5 @@ TEST(FileWatch, AFolderIsWatchedByItsFiles) {
   EXPECT_TRUE(watch.changed());
 }
 
-}  // namespace
+}  // namespace file_watch_test
 }  // namespace tureen::viewer

@@ -19,7 +19,7 @@
 #include "viewer/application.hpp"
 
 namespace tureen::viewer {
-namespace {
+namespace lost_device_test {
 
 namespace fs = std::filesystem;
 using testing::SizeIs;
@@ -216,5 +216,5 @@ TEST_F(SmallDevice, PutsAPhotographThatIsTooLargeAsideAndShowsThePicture) {
   expect_same_picture("after", "before");
 }
 
-}  // namespace
+}  // namespace lost_device_test
 }  // namespace tureen::viewer

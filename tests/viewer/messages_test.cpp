@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace tureen::viewer {
-namespace {
+namespace messages_test {
 
 TEST(Messages, NotesFadeAndErrorsStay) {
   Messages messages;
@@ -36,5 +36,5 @@ TEST(Messages, OfFilesDoNotFillTheWindow) {
   EXPECT_EQ(text.find('\n'), std::string::npos);
 }
 
-}  // namespace
+}  // namespace messages_test
 }  // namespace tureen::viewer

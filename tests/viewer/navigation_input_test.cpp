@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 namespace tureen::viewer {
-namespace {
+namespace navigation_input_test {
 
 constexpr NavigationInput::Taken nobodys{};
 
@@ -88,5 +88,5 @@ TEST_F(NavigationTest, LettersTypedIntoAFieldOrWithCtrlFlyNowhere) {
   EXPECT_EQ(controls.mode(), NavigationMode::orbit);
 }
 
-}  // namespace
+}  // namespace navigation_input_test
 }  // namespace tureen::viewer

@@ -4,7 +4,7 @@
 #include "viewer/comparison.hpp"
 
 namespace tureen::viewer {
-namespace {
+namespace photograph_place_test {
 
 Camera off_centre() {
   Camera camera = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.8, 400, 300);
@@ -32,5 +32,5 @@ TEST(PhotographPlace, InAWiderPictureItKeepsItsRays) {
   EXPECT_NEAR(placed.high.y - placed.low.y, 300, 1e-9) << "as high as the picture, in points";
 }
 
-}  // namespace
+}  // namespace photograph_place_test
 }  // namespace tureen::viewer

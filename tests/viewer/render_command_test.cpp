@@ -12,7 +12,7 @@
 #include "runtime/camera_controls.hpp"
 
 namespace tureen::viewer {
-namespace {
+namespace render_command_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -106,5 +106,5 @@ TEST(RenderCommand, SaysHowItIsDrawn) {
   EXPECT_THAT(render_command(fine, choice, {}, camera, ""), HasSubstr("--supersample 1"));
 }
 
-}  // namespace
+}  // namespace render_command_test
 }  // namespace tureen::viewer

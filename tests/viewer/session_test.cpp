@@ -11,7 +11,7 @@
 #include "support/errors.hpp"
 
 namespace tureen::viewer {
-namespace {
+namespace session_test {
 
 using test::error_of;
 using test::ErrorAt;
@@ -103,5 +103,5 @@ TEST(Replay, WaitsForRestAndEndsAFrameWithAPicture) {
   EXPECT_TRUE(replay.finished());
 }
 
-}  // namespace
+}  // namespace session_test
 }  // namespace tureen::viewer

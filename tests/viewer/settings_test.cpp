@@ -11,7 +11,7 @@
 #include "support/errors.hpp"
 
 namespace tureen::viewer {
-namespace {
+namespace settings_test {
 
 namespace fs = std::filesystem;
 
@@ -82,5 +82,5 @@ TEST(Settings, LieWhereTheEnvironmentSays) {
   EXPECT_EQ(settings_file(), std::optional<fs::path>("/home/someone/.config/tureen/viewer.json"));
 }
 
-}  // namespace
+}  // namespace settings_test
 }  // namespace tureen::viewer

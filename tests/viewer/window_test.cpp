@@ -22,7 +22,7 @@
 #include "viewer/session.hpp"
 
 namespace tureen::test {
-namespace {
+namespace window_test {
 
 namespace fs = std::filesystem;
 using namespace tureen::viewer;
@@ -425,5 +425,5 @@ TEST_F(Window, IsStartedByTureenView) {
   EXPECT_THAT(help.out, Names("tureen view"));
 }
 
-}  // namespace
+}  // namespace window_test
 }  // namespace tureen::test

@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 namespace tureen::viewer {
-namespace {
+namespace worker_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -107,5 +107,5 @@ TEST_F(WorkerTest, EndsWhileItWorks) {
   wait_for_start();
 }
 
-}  // namespace
+}  // namespace worker_test
 }  // namespace tureen::viewer

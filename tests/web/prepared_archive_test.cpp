@@ -14,7 +14,7 @@
 #include "support/trait_soups.hpp"
 
 namespace tureen::web {
-namespace {
+namespace prepared_archive_test {
 
 using Blobs = std::vector<std::vector<std::byte>>;
 
@@ -96,5 +96,5 @@ TEST_P(PreparedArchive, NorAtAnotherResolution) {
 INSTANTIATE_TEST_SUITE_P(Of, PreparedArchive, testing::ValuesIn(test::all_kinds),
                          [](const auto& each) { return test::to_string(each.param); });
 
-}  // namespace
+}  // namespace prepared_archive_test
 }  // namespace tureen::web
