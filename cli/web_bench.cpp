@@ -149,7 +149,7 @@ BenchResult result_of_scene(const JsonView& view, BenchResult result) {
                   .path = view["source"].text(),
                   .triangles = view["triangles"].natural(),
                   .appearance = view["appearance"].text()};
-  result.configurations = list(view["configurations"], configuration);
+  result.configurations = list(view["configurations"], configuration_of);
   if (result.configurations.empty()) view["configurations"].fail("is empty");
   const BenchConfiguration& first = result.configurations.front();
   result.load = {.read_ms = milliseconds(view["read_ms"]),

@@ -10,7 +10,7 @@
 namespace tureen::example {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 const glm::dvec3 window_direction = glm::normalize(glm::dvec3(-0.62, 0.74, 0.36));
 constexpr double window_angle = 0.17;  // of the cone, radians

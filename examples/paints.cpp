@@ -10,7 +10,7 @@
 namespace tureen::example {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 const glm::dvec3 green_dark(0.028, 0.085, 0.022), green_light(0.16, 0.27, 0.06);
 
@@ -24,8 +24,6 @@ double leaf_inside(double across, double along, double length, double half_width
   const double stalk = t < 0.25 ? 0.013 : 0.0;
   return std::max(half_width * bulge, stalk) - std::abs(across);
 }
-
-double wrapped(double x) { return x - std::floor(x + 0.5); }  // to [-1/2, 1/2)
 
 }  // namespace
 

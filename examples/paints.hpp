@@ -3,6 +3,8 @@
 // side.
 #pragma once
 
+#include <cmath>
+
 #include "surface.hpp"
 
 namespace tureen::example {
@@ -12,6 +14,9 @@ struct Turned {
   double length = 1;         // of the profile
   double circumference = 1;  // where the pattern is
 };
+
+/// The distance to the nearest whole number, with its sign: in [-1/2, 1/2).
+inline double wrapped(double x) { return x - std::floor(x + 0.5); }
 
 Paint tureen_body(glm::dvec2 uv, Turned measure);
 Paint tureen_lid(glm::dvec2 uv, Turned measure);

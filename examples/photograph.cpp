@@ -13,7 +13,7 @@
 namespace tureen::example {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Glaze that is laid on by hand mirrors within a cone of this half angle, in radians. Sharper
 // reflections would show the facets.

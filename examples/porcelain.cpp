@@ -10,14 +10,12 @@
 namespace tureen::example {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double soft = 0.017;  // about a pixel of a picture of 400 pixels a side
 constexpr double gloss = 0.6;
 
 const glm::dvec3 white(0.80, 0.79, 0.755), cobalt_deep(0.012, 0.035, 0.20),
     cobalt_thin(0.075, 0.16, 0.47), gold(0.80, 0.54, 0.17);
-
-double wrapped(double x) { return x - std::floor(x + 0.5); }  // to [-1/2, 1/2)
 
 /// A brush on white: strokes lie over each other, the strongest shows.
 class Brush {

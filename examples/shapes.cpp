@@ -7,7 +7,7 @@
 namespace tureen::example {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 glm::dvec3 around(double u, double radius, double y) {
   return {radius * std::sin(2 * pi * u), y, radius * std::cos(2 * pi * u)};

@@ -11,7 +11,7 @@
 namespace tureen::example {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int segments = 96;  // around everything that is turned, but small things
 
 /// Oval porcelain: wider from handle to handle.
