@@ -1,6 +1,5 @@
-// The command line: commands, their options, and how the words that were typed become values.
-// CLI11 does the parsing; only arguments.cpp sees it, because a file that includes CLI11 compiles
-// for seconds longer.
+// The command line: commands, their options, and the conversion of arguments to values. CLI11 does
+// the parsing; only arguments.cpp includes it, which costs seconds of compile time a file.
 #pragma once
 
 #include <cstddef>

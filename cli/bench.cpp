@@ -103,7 +103,7 @@ ExitCode bench(const BenchOptions& options) {
   if (options.reports.fail_slower && options.rounds < min_rounds)
     throw UsageError(
         fmt::format("--fail-slower needs at least {} rounds to estimate the spread", min_rounds));
-  // Everything that can be wrong with the arguments is said before the scene is read.
+  // Wrong arguments are reported before the scene is read.
   check(options.views);
   check(options.cases);
   const std::optional<BenchResult> then =
@@ -124,13 +124,13 @@ void add_bench(Command& program, std::vector<std::string> arguments) {
   options->arguments = std::move(arguments);
   Command command = program.add_command("bench", "Frame times across resolutions");
   command.footer(
-      R"(The plan, our pipeline without specialisations and the published pipeline (where it can draw the
-scene) take turns frame by frame, each warmed up until its times are stable, each frame ended when
-the device has finished; first of all the plan is held against itself (A/A). "best ms" is the
-smallest of the rounds' medians, which ratios are taken of; what differs by less than twice the
-spread, the largest of the A/A spread and of those of its rounds, is called equal, and of fewer than
-3 rounds no difference is claimed. The 99th percentile and the 1 % low want 100 samples (a view in a
-round each). Loading is told apart.
+      R"(Times the plan, our pipeline without specialisations and the published pipeline (where it can
+draw the scene), in turns, frame by frame. Each is warmed up until its times are stable; a frame
+ends when the device has finished. First the plan runs against itself (A/A). "best ms" is the
+smallest of the rounds' medians; ratios use it. Differences below twice the spread (the larger of
+the A/A spread and that between rounds) are called equal; below 3 rounds no difference is
+reported. The 99th percentile and the 1 % low need 100 samples (one view in one round each).
+Loading is timed separately.
 
 Examples:
   tureen bench soup.glb                                   eight views from above at 1280x720
@@ -150,9 +150,7 @@ written.)");
   add_memory_option(command);
   add_bench_view_options(command, options->views);
   add_case_options(command, options->cases);
-  command
-      .add_option("--rounds", options->rounds,
-                  "how often the views are gone through at most, 5 by default")
+  command.add_option("--rounds", options->rounds, "rounds of all views at most, 5 by default")
       .check(between(1, 10000))
       .value_name("N");
   command

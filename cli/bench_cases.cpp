@@ -56,7 +56,7 @@ class RendererCase final : public BenchCase {
   void finish() const override { renderer_->finish(); }
   Image8 last_frame() const override { return renderer_->read_color(); }
   PassTimes passes(std::span<const Camera> cameras) override {
-    // So many that a timestamp's rounding vanishes, so few that nobody waits for them.
+    // Enough for a timestamp's rounding to vanish, and still a short wait.
     constexpr int repeats = 20;
     return time_passes(context_, *renderer_, cameras, repeats);
   }
@@ -164,10 +164,9 @@ void add_case_options(Command& command, BenchCaseOptions& options) {
   command
       .add_option(
           "--only", options.only,
-          "who takes part, with commas between: tureen (the plan), tureen-fragment and "
+          "the cases, with commas between: tureen (the plan), tureen-fragment and "
           "tureen-compute (the same, with --shading), generic (no specialisation), published "
-          "(DiffSoup's viewer), triangles and copy (the ceilings); the first is what the others "
-          "are held against")
+          "(the baseline), triangles and copy (the ceilings); ratios are relative to the first")
       .split_at_commas()
       .single_argument()
       .value_name("NAME,..");

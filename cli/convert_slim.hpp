@@ -1,4 +1,4 @@
-// `tureen convert --compress`: its options, what it writes and what it says about that.
+// `tureen convert --compress`: its options, its output and its messages.
 #pragma once
 
 #include <filesystem>

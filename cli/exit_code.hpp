@@ -1,4 +1,4 @@
-// What the program's exit code says. Scripts rely on it: ARCHITECTURE.md has the table.
+// The program's exit codes. Scripts rely on them: ARCHITECTURE.md has the table.
 #pragma once
 
 namespace tureen::cli {

@@ -5,8 +5,8 @@
 
 namespace tureen::cli {
 
-/// Text for elements and attributes of HTML and XML. What neither may hold (control characters,
-/// bytes that are no UTF-8) becomes U+FFFD.
+/// Text for elements and attributes of HTML and XML. Control characters and bytes that
+/// are not UTF-8 become U+FFFD.
 std::string html_escaped(const std::string& text);
 
 }  // namespace tureen::cli

@@ -1,4 +1,4 @@
-// What the program says: prose for people on standard error, JSON for programs on standard output.
+// The program's output: prose for people on standard error, JSON for programs on standard output.
 #pragma once
 
 #include <cstdint>
@@ -35,8 +35,7 @@ void print_json(const Json& document);
 /// The same in one line, for programs that read output line by line.
 void print_json_line(const Json& document);
 
-/// Their kinds and values, {"kind", "counts", "values", "names"}; what a kind has none of is left
-/// out.
+/// Their kinds and values, {"kind", "counts", "values", "names"}; empty lists are omitted.
 Json remarks_json(const std::vector<Remark>& remarks);
 
 /// The time of day, "2026-11-21T15:04:05Z".

@@ -86,9 +86,9 @@ void add_report(Command& program) {
   auto options = std::make_shared<ReportOptions>();
   Command command = program.add_command("report", "Results as a page: tables, plots, images");
   command.footer(
-      R"(Shows what bench, tradeoff and eval write with --json or -o, the logs of train, what the page
-bench.html downloads, and the measurements of ./dev. Several results of one kind are set side by
-side; scenes of tradeoff are joined. The page needs no network. Images stay where they are.
+      R"(Shows results of bench, tradeoff and eval (--json or -o), logs of train, downloads of the
+page bench.html, and measurements of ./dev. Several results of one kind appear side by side;
+scenes of tradeoff are joined. The page needs no network. Images stay where they are.
 
 Examples:
   tureen report timed/bench.json                opens the browser, or prints the page's path

@@ -8,11 +8,10 @@
 
 namespace tureen::cli {
 
-/// The results of a file: several from a download of bench.html, one from any other. Those are
-/// passed on as they are. Of a folder, the results in all its .json and .jsonl files, also in
-/// folders below it, by name; what is no result is passed over there. Throws InputError with the
-/// file, and the place in it, where it is no result or lacks what the page cannot do without, or
-/// where a folder holds none.
+/// The results of a file: several from a download of bench.html, else one, with the file's JSON.
+/// Of a folder, the results in all its .json and .jsonl files, also in folders below it, by name;
+/// valid JSON of another kind is skipped there. Throws InputError with the file, and the place in
+/// it, where it is no result or lacks a member that the page needs, or where a folder holds none.
 std::vector<ReportResult> read_results(const std::filesystem::path& path);
 
 }  // namespace tureen::cli

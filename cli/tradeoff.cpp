@@ -1,4 +1,4 @@
-// `tureen tradeoff`: what drawing faster costs, and the cheapest way that nobody sees.
+// `tureen tradeoff`: error against frame time, and the cheapest configuration within limits.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -38,7 +38,7 @@ void write_files(const TradeoffArguments& options, TradeoffReport& report) {
 }
 
 ExitCode tradeoff(const TradeoffArguments& options) {
-  // Everything that can be wrong with the arguments is said before anything is read.
+  // Wrong arguments are reported before anything is read.
   check(options);
   if (!options.folder.empty()) require_writable_folder(options.folder);
   if (!options.written_scene.empty())
@@ -69,7 +69,7 @@ void add_tradeoff(Command& program, std::vector<std::string> arguments) {
   Command command = program.add_command("tradeoff", "Error against run time, and the choice");
   command.footer(
       R"(Changes one quality setting at a time, then those that matter together, and measures for
-each the time of a frame and the error against the oracle's picture of the same model
+each the time of a frame and the error against the oracle's image of the same model
 (E_render). Antialiasing settings have an oracle of their own, with 8 x 8 samples a pixel. With
 photographs the error against them (E_model) stands beside, never on one axis, and that of the
 published pipeline with it. The choice is the cheapest with an E_render of at least 50 dB and
@@ -106,7 +106,7 @@ on the device or cannot be written.)");
           "--quick", [options] { options->effort = Effort::quick; },
           "96x64, 2 views, 1 round: whether it works at all")
       .excludes(full);
-  command.add_option("--size", options->size, "of the pictures, in pixels").value_name("WxH");
+  command.add_option("--size", options->size, "image size in pixels").value_name("WxH");
   command
       .add_option("--cameras", options->cameras,
                   "the views, of one set or several: hemisphere:N, orbit:N, adversarial, dataset "
@@ -114,28 +114,28 @@ on the device or cannot be written.)");
                   "hemisphere:4 where it has none")
       .value_name("SET[,SET..]")
       .split_at_commas();
-  command.add_option("--rounds", options->rounds, "how often all views are gone through")
+  command.add_option("--rounds", options->rounds, "rounds of all views")
       .check(between(1, 1000))
       .value_name("N");
   command
       .add_option("--combinations", options->combinations,
-                  "at most so many combinations of the settings that matter, of drawing and of "
-                  "antialiasing ones each, 48 by default; 0 changes one setting at a time")
+                  "limit of the combinations of the settings that matter, for drawing and for "
+                  "antialiasing each, 48 by default; 0 changes one setting at a time")
       .check(between(0, 10000))
       .value_name("N");
   command
       .add_option("--photographs", options->photographs,
-                  "at most so many of the dataset's test photographs, evenly spread")
+                  "limit of the dataset's test photographs, which are chosen evenly")
       .check(between(1, 1000000))
       .value_name("N");
   command
       .add_option("--least-psnr", options->limits.min_psnr_db,
-                  "E_render in dB that the choice keeps, 50 by default")
+                  "least E_render in dB of the choice, 50 by default")
       .check(between(0.0, 100.0))
       .value_name("DB");
   command
       .add_option("--most-mismatch", options->limits.max_coverage_mismatch,
-                  "the part of the pixels that the choice may cover wrongly, 1e-4 by default")
+                  "largest fraction of wrongly covered pixels of the choice, 1e-4 by default")
       .check(between(0.0, 1.0))
       .value_name("FRACTION");
   command
@@ -146,10 +146,10 @@ on the device or cannot be written.)");
   command.add_flag("--force", options->force, "--write may replace a file");
   command.add_flag(
       "--no-flip", [options] { options->with_flip = false; },
-      "leave FLIP out, which takes most of the time of comparing");
+      "do not compute FLIP, which takes most of the time of comparing");
   command.add_flag("--processor-time", options->processor_time,
                    "processor time of all threads instead of time that passed: for ratios on a "
-                   "busy machine, of software renderers alone");
+                   "busy machine; software OpenGL only");
   add_choice<gl::Backend>(command, "--context", options->backend,
                           {{"auto", gl::Backend::automatic},
                            {"egl", gl::Backend::egl},

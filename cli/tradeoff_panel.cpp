@@ -28,7 +28,7 @@ Candidates candidates(const Panel& panel) {
     const Outcome& outcome = panel.outcomes[i];
     if (outcome.method != Method::specialised || !is_judged(panel, outcome)) continue;
     const double ms = outcome.ms.min_of_medians;
-    // What the A/A spread alone leaves a difference: rounds here are few.
+    // From the A/A spread alone: too few rounds for a spread between rounds.
     result.points.push_back({.ms = ms,
                              .spread_ms = 2 * panel.aa_spread * ms,
                              .psnr_db = outcome.error.psnr_db,

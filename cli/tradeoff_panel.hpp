@@ -35,12 +35,12 @@ struct Outcome {
   std::string name;                       // in words: "lattice level 2"
   tradeoff::Applied applied;
   Method method = Method::specialised;
-  /// ms but for spread, of which FrameStatistics::spread says what it is.
+  /// In milliseconds, except the spread, a fraction (FrameStatistics::spread).
   FrameStatistics ms;
   double device_mib = 0;            // the soup's buffers and textures, and the targets of a view
   RenderError error;                // against References::judge
   std::optional<ExactError> exact;  // drawing settings alone
-  bool stable = true;               // its times came to rest before they were taken
+  bool stable = true;               // the warm-up settled before timing began
 
   int departures() const { return tradeoff::departures(configuration); }
 };
@@ -72,8 +72,8 @@ bool is_judged(const Panel& panel, const Outcome& outcome);
 /// Sentences on why time or error of an outcome mean less than they seem.
 std::vector<std::string> warnings_about(const Panel& panel, const Outcome& outcome);
 
-/// Time and error as the front sees them, of those outcomes that may be on it; `index` says which
-/// outcome each is.
+/// Time and error of the outcomes that may be on the front; `index` has their indices in
+/// Panel::outcomes.
 struct Candidates {
   std::vector<tradeoff::Point> points;
   std::vector<std::size_t> index;
@@ -94,17 +94,17 @@ struct Study {
   Panel antialiasing;
   /// The published pipeline as an outcome of the drawing panel (R0), where it can draw this soup.
   std::optional<std::size_t> published;
-  /// What the device's subpixel grid costs by itself: the reference that samples as the device does
+  /// The error of the device's subpixel grid alone: the reference at the device's sample points
   /// against the exact one. No setting changes it.
   RenderError grid;
-  /// An outcome of the drawing panel. Left to the caller: what it has to keep to is no matter of
-  /// these views alone.
+  /// The index of the chosen outcome of the drawing panel. run_study() leaves it empty: the limits
+  /// are the caller's.
   std::optional<std::size_t> choice;
 };
 
-/// What to think of the times where one configuration differs from itself by more than warming up
-/// calls stable (BenchmarkOptions::stable_within): then who is cheapest is partly chance.
-/// `aa_spread` is a fraction.
+/// A warning where one configuration differs from itself by more than
+/// BenchmarkOptions::stable_within: the choice of the cheapest is then partly chance. `aa_spread`
+/// is a fraction.
 std::optional<std::string> spread_warning(double aa_spread);
 
 }  // namespace tureen::cli

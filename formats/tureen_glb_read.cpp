@@ -111,8 +111,8 @@ class Reader {
     return std::move(preset.edits);
   }
 
-  /// Bytes of the lattices up to this level; faces that share all of their texels go on
-  /// sharing them.
+  /// The number of texels that a limit of the lattice level leaves. Faces that share all of their
+  /// texels share them afterwards, too.
   static std::uint64_t texels_at_most(const LatticeTexture& texture, int level) {
     std::vector<std::uint64_t> patches;
     for (const LatticePatch& patch : texture.patches)

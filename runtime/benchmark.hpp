@@ -36,7 +36,8 @@ struct BenchmarkOptions {
   double max_seconds = 0;
 
   /// A sample lasts at least this long: the fastest case's frames are repeated within it, up to
-  /// `max_frames_per_sample`, and everybody else's as often. 0: a sample is a frame.
+  /// `max_frames_per_sample`, and those of the other cases as often. 0: a sample is a
+  /// frame.
   double min_sample_ms = 0;
   int max_frames_per_sample = 100;
 

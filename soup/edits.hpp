@@ -13,7 +13,7 @@
 
 namespace tureen {
 
-/// The default changes nothing. Lattice textures alone heed level, colour and bytes.
+/// The default changes nothing. Level, colour and bytes apply to lattice textures only.
 struct Edits {
   /// The faces that are kept, one entry a face, 0 for those that go; empty: all. At least one
   /// stays.

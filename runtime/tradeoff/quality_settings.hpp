@@ -1,6 +1,6 @@
 // The quality settings that a soup has: the values of each, and what these change in its data or in
-// how finely it is drawn. The experiment (runtime/tradeoff/experiment.hpp) counts them, this says
-// what they mean.
+// how finely it is drawn. The experiment (runtime/tradeoff/experiment.hpp) knows only their
+// numbers.
 #pragma once
 
 #include <cstdint>

@@ -33,7 +33,7 @@ struct BenchScene {
   std::vector<Camera> cameras;  // of the run that comes
 };
 
-/// Who takes part in a run: one scene, or several as one frame.
+/// A case of a run: one scene, or several as one frame.
 struct BenchCase {
   std::string name;
   std::vector<Renderer*> renderers;
@@ -211,7 +211,7 @@ Json begin(const Json& arguments) {
       views = scene->cameras.size();
     }
   }
-  if (bench().cases.empty() || views == 0) throw UsageError("nobody takes part");
+  if (bench().cases.empty() || views == 0) throw UsageError("there is no case to time");
   std::vector<Camera> numbers(views);
   for (std::size_t i = 0; i < views; ++i) numbers[i].name = std::to_string(i);
   std::vector<BenchmarkCase> cases;

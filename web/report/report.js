@@ -22,10 +22,10 @@ const base = (path) => String(path).split(/[\\/]/).pop();
 const stem = (entry) => base(entry.file).replace(/\.\w+$/, '');
 const folderName = (entry) => base(entry.file.replace(/[\\/][^\\/]*$/, ''));
 const isBaseline = (name) => name === 'published' || name === 'baseline';
-/** Both values of a plot's axis differ by so much that a linear one would hide the smaller. */
+/** Whether a linear axis would hide the smallest of these values. */
 const spansDecades = (values) => Math.min(...values) > 0 && Math.max(...values) > 8 * Math.min(...values);
 
-/** The first of these descriptions that tells all entries apart. */
+/** The first of these descriptions that gives each entry another label. */
 function labels(entries, ...describe) {
   const all = [...describe, (entry) => entry.file, (entry, i) => `${entry.file} ${i + 1}`].map((each) => entries.map(each));
   return all.find((names) => unique(names).length === names.length && names.every(Boolean));
