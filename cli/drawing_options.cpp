@@ -40,7 +40,8 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
           "--keep",
           [&options](const std::vector<std::string>& names) {
             for (const std::string& name : names)
-              options.plan.specialisations = options.plan.specialisations.without(specialisation_of(name));
+              options.plan.specialisations =
+                  options.plan.specialisations.without(specialisation_of(name));
           },
           "do not apply these specialisations: names from "
           "docs/leaving-out.md with commas between, as alpha-test,background")

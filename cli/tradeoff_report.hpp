@@ -49,9 +49,9 @@ struct TradeoffReport {
   /// those that were not measured. Empty without a dataset.
   std::vector<std::optional<ModelError>> drawing_model, antialiasing_model;
   std::optional<ModelProtocol> model;
-  std::optional<std::string> scene_written;   // by --write, where
-  std::vector<std::string> notes;             // on reading the scene, the cameras, the dataset
-  std::vector<std::string> output;            // files that were written
+  std::optional<std::string> scene_written;  // by --write, where
+  std::vector<std::string> notes;            // on reading the scene, the cameras, the dataset
+  std::vector<std::string> output;           // files that were written
 };
 
 /// The reference of drawing settings, in words: "at the device's own sample points".

@@ -70,10 +70,10 @@ struct CaseResult {
 };
 
 struct BenchmarkResult {
-  std::vector<CaseResult> cases;        // in the order given
-  double aa_spread = 0;                 // series_spread of the first case against itself
-  std::vector<FrameTimes> self_test;    // the two series that it comes from; empty without it
-  int rounds = 0;                       // those that were made: as asked, or fewer for time
+  std::vector<CaseResult> cases;      // in the order given
+  double aa_spread = 0;               // series_spread of the first case against itself
+  std::vector<FrameTimes> self_test;  // the two series that it comes from; empty without it
+  int rounds = 0;                     // those that were made: as asked, or fewer for time
   int frames_per_sample = 1;
   double seconds = 0;  // all of it
 };

@@ -21,8 +21,8 @@ struct DeviceLimits {
   int max_texture_size = 4096;
   int max_array_layers = 256;
   bool clip_control = false;
-  bool compute_shaders = false;                // with images that they write
-  bool software = false;  // the processor draws: triangles are dear, its time is ours
+  bool compute_shaders = false;  // with images that they write
+  bool software = false;         // the processor draws: triangles are dear, its time is ours
 };
 
 enum class PipelineKind {

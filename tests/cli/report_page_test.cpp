@@ -20,9 +20,9 @@ namespace report_page_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using ::testing::SizeIs;
 using test::ErrorAt;
 using test::ErrorIn;
+using ::testing::SizeIs;
 using tureen::test::TemporaryFolder;
 
 /// Ends a script element, opens a comment, and is no ASCII.
@@ -128,7 +128,8 @@ TEST_F(ReportPage, OfAFolderHoldsAllResultsInIt) {
   EXPECT_EQ(data[0]["folder"], "a%20b/");
   EXPECT_EQ(data[1]["folder"], "a%20b/deep/");
   file("a b/bad.json", "{");
-  EXPECT_THAT(test::error_of<InputError>([&] { read_results(folder / "a b"); }), ErrorIn("bad.json"));
+  EXPECT_THAT(test::error_of<InputError>([&] { read_results(folder / "a b"); }),
+              ErrorIn("bad.json"));
   EXPECT_THROW(read_results(folder / "a b/none"), InputError);
 }
 

@@ -179,8 +179,8 @@ TEST(Numerics, T1b_NeedlesShowNothingBeyondTheirTexels) {
         EXPECT_GT(by_needles, 20) << path.what << ' ' << width;
         EXPECT_GT(compared, 20);
         // Half a step of 8 bits; two barycentrics of 16 bits, which the visibility buffer has; and
-        // the rounding of the planes of two barycentrics, which rise by 1 over the width of a needle,
-        // at the far side of the picture.
+        // the rounding of the planes of two barycentrics, which rise by 1 over the width of a
+        // needle, at the far side of the picture.
         const double tolerance = 0.5 / 255 + (high - low) * (0x1p-16 + 2 * side / width * epsilon);
         EXPECT_LE(off, tolerance) << path.what << ' ' << width;
       }

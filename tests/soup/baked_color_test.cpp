@@ -90,9 +90,9 @@ TEST(BakedColor, IsTheMeanOverAllDirections) {
         EXPECT_EQ(baked.value(texel, 3), 0.0f);
         EXPECT_EQ(baked.value(texel, 7), texture.value(texel, 7));
       }
-      // The rule of 26 points is exact up to degree 7 only. Of 400 networks like these it left a root
-      // mean square of at most 1.43e-3 over a texture, within half a step of 8 bits, though single
-      // texels are up to 6.1e-3 off. Texels of bytes add at most the other half.
+      // The rule of 26 points is exact up to degree 7 only. Of 400 networks like these it left a
+      // root mean square of at most 1.43e-3 over a texture, within half a step of 8 bits, though
+      // single texels are up to 6.1e-3 off. Texels of bytes add at most the other half.
       const double rms = std::sqrt(squares / (3.0 * double(texture.texel_count())));
       EXPECT_LT(rms, (floats ? 0.5 : 1.0) / 255);
     }
