@@ -77,8 +77,13 @@ void apply(const Edits& edits, Scene& scene) {
     throw UsageError(std::string("--lattice-level, --color and --texel-bits change lattice "
                                  "textures; this scene has ") +
                      (soup ? appearance_name(soup->appearance) : "soft triangles"));
-  *soup = edited(std::move(*soup), edits);
-  scene.info.notes.push_back("reduced by tureen convert: " + describe(edits));
+  const Edits changes = effective(edits, *soup);
+  if (changes == Edits{}) {
+    say("the scene is so already: it stays as it is");
+    return;
+  }
+  *soup = edited(std::move(*soup), changes);
+  scene.info.notes.push_back("reduced by tureen convert: " + describe(changes));
 }
 
 /// Writes `file`, in the format that its name says. Says what that lost, and returns it.

@@ -40,6 +40,18 @@ std::optional<std::string> defect(const Edits& edits, const TriangleSoup& soup) 
   return std::nullopt;
 }
 
+Edits effective(const Edits& edits, const TriangleSoup& soup) {
+  Edits result;
+  if (std::count(edits.keeps_face.begin(), edits.keeps_face.end(), 0) > 0)
+    result.keeps_face = edits.keeps_face;
+  const auto* texture = std::get_if<LatticeTexture>(&soup.appearance);
+  if (!texture) return result;
+  if (highest_level(*texture) > edits.lattice_level) result.lattice_level = edits.lattice_level;
+  if (texture->mlp) result.color = edits.color;
+  result.byte_texels = edits.byte_texels && texture->is_float();
+  return result;
+}
+
 TriangleSoup edited(TriangleSoup soup, const Edits& edits,
                     const std::function<void(double)>& progress) {
   assert(!defect(edits, soup));

@@ -37,6 +37,9 @@ std::string describe(const Edits& edits);
 /// faces, none kept), or nothing.
 std::optional<std::string> defect(const Edits& edits, const TriangleSoup& soup);
 
+/// The edits that would change something of this soup.
+Edits effective(const Edits& edits, const TriangleSoup& soup);
+
 /// The soup with its edits, in the order in which they are declared. Neither has a defect().
 /// `progress` is called now and then with the fraction of one edit done, 0..1, and may throw to
 /// abandon the work. Memory beside the result: one more soup.

@@ -91,6 +91,22 @@ TEST(Edits, ComeOneAfterTheOther) {
   EXPECT_EQ(texture_of(result).texels, expected.texels);
 }
 
+TEST(Edits, WhatChangesNothingIsNotEffective) {
+  const TriangleSoup soup = random_lattice_soup();
+  const Edits all{.keeps_face = {0, 1, 1, 1, 1},
+                  .lattice_level = 2,
+                  .color = Edits::Color::baked,
+                  .byte_texels = true};
+  EXPECT_EQ(effective(all, soup), all);
+  EXPECT_EQ(effective({.keeps_face = {1, 1, 1, 1, 1}, .lattice_level = 4}, soup), Edits{});
+  Edits again = all;
+  again.keeps_face.clear();
+  EXPECT_EQ(effective(again, edited(soup, all)), Edits{});
+  TriangleSoup flat = soup;
+  flat.appearance = FaceColors{std::vector<glm::vec4>(5, glm::vec4(0.5f))};
+  EXPECT_EQ(effective(again, flat), Edits{});
+}
+
 TEST(Edits, OtherAppearancesLoseFacesAlone) {
   TriangleSoup soup = random_lattice_soup();
   soup.appearance = FaceColors{std::vector<glm::vec4>(5, glm::vec4(0.5f))};
