@@ -1,6 +1,7 @@
 // `tureen tradeoff`: error against frame time, and the cheapest configuration within limits.
 #include <fmt/format.h>
 
+#include <exception>
 #include <filesystem>
 #include <memory>
 
@@ -47,7 +48,13 @@ ExitCode tradeoff(const TradeoffArguments& options) {
   Scene scene = read(options.scene);
   opaque_soup(scene);
   TradeoffReport report = measure_tradeoff(options, scene);
-  if (!options.written_scene.empty()) write_chosen(options.written_scene, std::move(scene), report);
+  // What was measured is not lost with a scene that cannot be written.
+  std::exception_ptr unwritten;
+  if (!options.written_scene.empty()) try {
+      write_chosen(options.written_scene, std::move(scene), report);
+    } catch (const std::exception&) {
+      unwritten = std::current_exception();
+    }
   write_files(options, report);
 
   say_list("Reading:", report.notes);
@@ -57,6 +64,7 @@ ExitCode tradeoff(const TradeoffArguments& options) {
   say_tables(report);
   for (const std::string& path : report.output) say("wrote " + path);
   if (options.json) print_json(to_json(report));
+  if (unwritten) std::rethrow_exception(unwritten);
   const bool lacks_choice = !options.written_scene.empty() && !report.scene_written;
   return lacks_choice ? ExitCode::check_failed : ExitCode::done;
 }
@@ -138,12 +146,13 @@ on the device or cannot be written.)");
                   "largest fraction of wrongly covered pixels of the choice, 1e-4 by default")
       .check(between(0.0, 1.0))
       .value_name("FRACTION");
-  command
-      .add_option("--write", options->written_scene,
-                  "the scene with its data reduced as chosen, as a GLB of ours; SCENE stays as "
-                  "it is")
-      .value_name("OUT.glb");
-  command.add_flag("--force", options->force, "--write may replace a file");
+  const Option write =
+      command
+          .add_option("--write", options->written_scene,
+                      "the scene with its data reduced as chosen, as a GLB of ours; SCENE stays as "
+                      "it is")
+          .value_name("OUT.glb");
+  command.add_flag("--force", options->force, "--write may replace a file").needs(write);
   command.add_flag(
       "--no-flip", [options] { options->with_flip = false; },
       "do not compute FLIP, which takes most of the time of comparing");
