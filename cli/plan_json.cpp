@@ -17,12 +17,15 @@ Json specialisations_json(std::span<const AppliedSpecialisation> specialisations
 std::vector<AppliedSpecialisation> specialisations_of(const JsonView& configuration) {
   const auto applied = configuration.find("specialisations");
   if (!applied) return {};
-  return list(*applied, [](const JsonView& each) {
-    const auto what = specialisation_named(each["name"].text());
-    if (!what) each["name"].fail("is no specialisation");
+  std::vector<AppliedSpecialisation> known;
+  list(*applied, [&](const JsonView& each) {
     const auto count = [&](const char* key) { return std::size_t(integer(each[key])); };
-    return AppliedSpecialisation{*what, count("count"), count("total"), each["margin"].number()};
+    // Names of other versions are left out: a result stays readable.
+    if (const auto what = specialisation_named(each["name"].text()))
+      known.push_back({*what, count("count"), count("total"), each["margin"].number()});
+    return 0;
   });
+  return known;
 }
 
 }  // namespace tureen::cli

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Not a result that we write: a folder may hold such files.
+/// Not a result that we write, or not one yet: a folder may hold such files.
 struct UnknownResult : InputError {
   using InputError::InputError;
 };
@@ -52,7 +52,7 @@ void check_measurements(const JsonView& root) {
 /// The lines of a log as a list, without an incomplete last one.
 ReportResult training(const std::string& file, const std::string& text) {
   if (read_training_log(file).empty())
-    throw InputError({file, {}, {}}, "the log holds no record yet");
+    throw UnknownResult({file, {}, {}}, "the log holds no record yet");
   std::string lines = text.substr(0, text.rfind('\n'));
   std::replace(lines.begin(), lines.end(), '\n', ',');
   return {file, "training", "[" + lines + "]"};
@@ -69,6 +69,7 @@ std::vector<ReportResult> web_bench(const std::string& file) {
 std::vector<ReportResult> read_file(const std::string& file) {
   const std::vector<std::byte> bytes = Input::open(file).read_rest();
   std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (text.empty()) throw UnknownResult({file, {}, {}}, "is empty");
   if (text.starts_with("{\"step\":")) return {training(file, text)};  // as every log begins
   const nlohmann::json document = parse_json(text, file);
   if (text.starts_with("\xef\xbb\xbf"))
@@ -118,7 +119,11 @@ std::vector<ReportResult> read_folder(const fs::path& folder) {
 
 std::vector<ReportResult> read_results(const fs::path& path) {
   require_there(path);
-  return fs::is_directory(path) ? read_folder(path) : read_file(path.string());
+  try {
+    return fs::is_directory(path) ? read_folder(path) : read_file(path.string());
+  } catch (const fs::filesystem_error& error) {
+    throw InputError({error.path1().string(), {}, {}}, error.code().message());
+  }
 }
 
 }  // namespace tureen::cli

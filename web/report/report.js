@@ -396,8 +396,13 @@ function showAll(entries) {
     single ? '' : element('nav', { 'aria-label': 'Results' }, sections.map(([title], i) => element('a', { href: `#part${i}` }, title))),
     hasPlots ? '' : paragraph('There are no plots: this program was built without chart.js (Debian: libjs-chart.js).', 'faint'),
     ...sections.map(([title, content], i) => element('section', { id: `part${i}` }, single ? '' : element('h2', {}, title), ...content)));
-  for (const draw of drawn) draw();
+  drawAll();
+}
+
+/// A plot that cannot be drawn leaves the others.
+function drawAll() {
+  for (const draw of drawn) try { draw(); } catch (error) { console.error(error); }
 }
 
 showAll(JSON.parse(document.querySelector('#data').textContent));
-matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { for (const draw of drawn) draw(); });
+matchMedia('(prefers-color-scheme: dark)').addEventListener('change', drawAll);
