@@ -22,7 +22,7 @@ template <class T>
 Check check_between(T least, T most) {
   return [least, most](const std::string& text) -> std::string {
     T value{};
-    // CLI11 reads more than this, such as 0x10, which nobody means.
+    // Stricter than CLI11, which also accepts hexadecimal numbers such as 0x10.
     const char* end = text.data() + text.size();
     const auto [rest, error] = std::from_chars(text.data(), end, value);
     // A comparison with what is not a number is false.
@@ -32,7 +32,7 @@ Check check_between(T least, T most) {
   };
 }
 
-/// Positional arguments show no type in --help: their names say what they are.
+/// Positional arguments show no type in --help; their names are enough.
 CLI::Option* shown(CLI::Option* option) {
   if (option->get_positional()) option->type_name("");
   return option;
@@ -114,7 +114,7 @@ UsageError explain(const CLI::App& command, const CLI::ParseError& error) {
 /// Throws for the first argument that is there and empty.
 void require_no_empty_argument(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options())
-    // An option whose value may be left out has an empty one then.
+    // An option with an optional value has an empty one where it is not given.
     if (const std::vector<std::string>& values = option->results();
         option->get_items_expected_min() > 0 &&
         std::find(values.begin(), values.end(), "") != values.end())

@@ -195,7 +195,7 @@ BenchCases make_cases(const BenchCaseOptions& options, const gl::Context& contex
   BenchCases result;
   std::exception_ptr first;
   for (const std::string& name : names_of(options)) {
-    const auto leave_out = [&](const Error& error) {
+    const auto skip = [&](const Error& error) {
       if (!options.only.empty()) throw;  // it was asked for by name
       if (!first) first = std::current_exception();
       result.skipped.push_back({name, error.reason()});
@@ -203,9 +203,9 @@ BenchCases make_cases(const BenchCaseOptions& options, const gl::Context& contex
     try {
       result.list.push_back(make_case(name, options, context, scene));
     } catch (const UsageError& error) {
-      leave_out(error);
+      skip(error);
     } catch (const DeviceLimitError& error) {
-      leave_out(error);
+      skip(error);
     }
     if (result.list.size() == 1 && result.peak_mib == 0) result.peak_mib = peak_mib();
   }
