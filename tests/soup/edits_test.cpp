@@ -46,6 +46,14 @@ const LatticeTexture& texture_of(const TriangleSoup& soup) {
   return std::get<LatticeTexture>(soup.appearance);
 }
 
+/// One of each kind, for random_lattice_soup().
+Edits all_edits() {
+  return {.keeps_face = {0, 1, 1, 1, 1},
+          .lattice_level = 2,
+          .color = Edits::Color::baked,
+          .byte_texels = true};
+}
+
 TEST(Edits, NoneChangeNothing) {
   const TriangleSoup soup = random_lattice_soup();
   const TriangleSoup same = edited(soup, {});
@@ -75,10 +83,7 @@ TEST(Edits, EachIsWhatItsFunctionMakes) {
 
 TEST(Edits, ComeOneAfterTheOther) {
   const TriangleSoup soup = random_lattice_soup();
-  const Edits all{.keeps_face = {0, 1, 1, 1, 1},
-                  .lattice_level = 2,
-                  .color = Edits::Color::baked,
-                  .byte_texels = true};
+  const Edits all = all_edits();
   const TriangleSoup result = edited(soup, all);
   ASSERT_EQ(defect(result), std::nullopt);
   EXPECT_EQ(result.triangles.size(), 4u);
@@ -93,10 +98,7 @@ TEST(Edits, ComeOneAfterTheOther) {
 
 TEST(Edits, WhatChangesNothingIsNotEffective) {
   const TriangleSoup soup = random_lattice_soup();
-  const Edits all{.keeps_face = {0, 1, 1, 1, 1},
-                  .lattice_level = 2,
-                  .color = Edits::Color::baked,
-                  .byte_texels = true};
+  const Edits all = all_edits();
   EXPECT_EQ(effective(all, soup), all);
   EXPECT_EQ(effective({.keeps_face = {1, 1, 1, 1, 1}, .lattice_level = 4}, soup), Edits{});
   Edits again = all;
