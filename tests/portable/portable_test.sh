@@ -29,8 +29,9 @@ for file in tureen LICENSE README.md examples; do
   [[ -e $folder/$file ]] || fail "$name lacks $file"
 done
 
-# What it needs lies beside it or is glibc's, and no newer glibc than the README promises.
-promised=$(sed -n 's/.*glibc \([0-9.]*[0-9]\).*/\1/p' README.md | head -n 1)
+# What it needs lies beside it or is glibc's, and no newer glibc than Debian 12's, which the README names.
+promised=2.36
+grep -qwF "$promised" README.md || fail "the README does not name glibc $promised"
 for file in "$folder"/tureen "$folder"/*.so*; do
   [[ -e $file ]] || continue
   while read -r needed; do
@@ -38,7 +39,7 @@ for file in "$folder"/tureen "$folder"/*.so*; do
       fail "$(basename "$file") needs $needed, which does not lie beside it"
   done < <(objdump -p "$file" | awk '$1 == "NEEDED" { print $2 }')
   glibc=$(objdump -T "$file" | sed -n 's/.*GLIBC_\([0-9.]*\).*/\1/p' | sort -Vu | tail -n 1)
-  echo "$(basename "$file") needs glibc $glibc; the README promises ${promised:-nothing}"
+  echo "$(basename "$file") needs glibc $glibc; the README promises $promised"
   [[ $(printf '%s\n' "$glibc" "$promised" | sort -V | tail -n 1) == "$promised" ]] ||
     fail "$(basename "$file") needs a newer glibc than the README promises"
 done
