@@ -133,7 +133,7 @@ class Reader {
       input_.take_memory(texels_at_most(*texture, edits.lattice_level),
                          LatticeTexture::channels * (texture->is_float() ? 4 : 1),
                          "what the file's preset makes of the texels");
-    remarks.push_back({.kind = Remark::Kind::preset_applied, .names = {describe(edits)}});
+    remarks.push_back({.kind = Remark::Kind::preset_applied, .names = names_of(edits)});
     return edited(std::move(soup), edits);
   }
 

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <glm/common.hpp>
 #include <glm/ext/vector_uint4_sized.hpp>
 #include <glm/geometric.hpp>
 #include <vector>
+
+#include "soup/decimal.hpp"
 
 namespace tureen {
 
@@ -56,19 +57,13 @@ glm::u8vec4 bytes(glm::vec3 color) {
   return glm::u8vec4(glm::vec4(glm::clamp(color, 0.0f, 1.0f), 1.0f) * 255.0f + 0.5f);
 }
 
-std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
-
 Legend depth_legend(const DepthScale& scale) {
   Legend entries;
   constexpr int last = 4;
   for (int i = 0; i <= last; ++i) {
     const double t = double(i) / last;
     entries.push_back({bytes(heat_ramp(float(1 - t))),
-                       short_number(scale.near * std::pow(scale.far / scale.near, t))});
+                       short_decimal(scale.near * std::pow(scale.far / scale.near, t), 3)});
   }
   return entries;
 }

@@ -2,30 +2,29 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstdio>
+
+#include "soup/decimal.hpp"
 
 namespace tureen {
 
 namespace {
 
-/// printf's formatting into a string of at most 255 characters.
-template <class... Values>
-std::string formatted(const char* pattern, Values... values) {
-  char text[256];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
+/// "3 of 40 ".
+std::string part_of(std::size_t count, std::size_t total) {
+  return std::to_string(count) + " of " + std::to_string(total) + " ";
 }
 
 std::string margin_of(const AppliedSpecialisation& applied) {
   if (applied.margin > 0)
-    return formatted(" (changes colours by at most %.3f of an 8-bit step)", applied.margin);
+    return " (changes colours by at most " + fixed_decimal(applied.margin, 3) +
+           " of an 8-bit step)";
   return applied.what == Specialisation::shading_pass ? " (exact but for rounding)" : " (exact)";
 }
 
 /// The replacement that is drawn or computed.
 std::string effect_of(const AppliedSpecialisation& applied) {
   const auto counted = [&](const char* what) {
-    return formatted("%zu of %zu ", applied.count, applied.total) + what;
+    return part_of(applied.count, applied.total) + what;
   };
   switch (applied.what) {
     case Specialisation::alpha_test:
@@ -67,9 +66,9 @@ std::string describe_frame(const RenderPlan& plan) {
   if (plan.pipeline == PipelineKind::published)
     return "published pipeline: two RGBA8 feature targets, every fragment samples all eight "
            "channels, faces in file order, the network on every pixel with its weights in uniforms";
-  std::string sentence =
-      formatted("draws %zu of %zu faces (%s), near ones first in %zu clusters, ", plan.faces.size(),
-                plan.soup_faces, plan.appearance.c_str(), plan.clusters.size());
+  std::string sentence = "draws " + part_of(plan.faces.size(), plan.soup_faces) + "faces (" +
+                         plan.appearance + "), near ones first in " +
+                         std::to_string(plan.clusters.size()) + " clusters, ";
   sentence += plan.site == ShadingSite::forward    ? "colour in one pass"
               : plan.site == ShadingSite::deferred ? "a visibility pass, then colour once a pixel"
                                                    : "no colours, an empty fragment shader";
@@ -94,16 +93,15 @@ std::vector<std::string> describe(const RenderPlan& plan) {
   if (plan.ignores_specialisations)
     add("--keep has no effect: the published pipeline has no specialisations");
   if (plan.undrawable_faces > 0)
-    add(formatted("%zu faces without area or with corners that are not finite are not drawn",
-                  plan.undrawable_faces));
+    add(std::to_string(plan.undrawable_faces) +
+        " faces without area or with corners that are not finite are not drawn");
   for (const AppliedSpecialisation& each : plan.applied) add(describe(each));
   if (plan.zero_weights > 0)
-    add(formatted("%d weights of zero are not computed (exact)", plan.zero_weights));
+    add(std::to_string(plan.zero_weights) + " weights of zero are not computed (exact)");
   if (plan.lattice.refused_alpha_cell_bytes > 0)
-    add(
-        formatted("alpha is stored by the texel: by the cell it would take %.1f MB, which is more "
-                  "than allowed",
-                  double(plan.lattice.refused_alpha_cell_bytes) / 1e6));
+    add("alpha is stored by the texel: by the cell it would take " +
+        fixed_decimal(double(plan.lattice.refused_alpha_cell_bytes) / 1e6, 1) +
+        " MB, which is more than allowed");
   if (plan.requested_stage == ShadingStage::compute)
     add(plan.shading_stage == ShadingStage::compute
             ? "shading runs as compute, as requested"

@@ -49,7 +49,7 @@ void plan_network(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges& me
   const ColorMlpSource source = color_mlp_source(plan.view_direction ? mlp : without_direction(mlp),
                                                  plan.mlp_weights, plan.feature_ranges);
   plan.zero_weights = source.zero_weights;
-  if (source.dead_neurons + source.zero_weights > 0)
+  if (source.dead_neurons > 0)
     draft.apply({Specialisation::dead_neurons, std::size_t(source.dead_neurons),
                  std::size_t(source.hidden_neurons)});
   if (source.reads_features1 || !draft.may(Specialisation::latent_features)) return;

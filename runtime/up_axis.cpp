@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
+
+#include "soup/decimal.hpp"
 
 namespace tureen {
 
@@ -63,9 +64,8 @@ std::string axis_name(const glm::dvec3& axis) {
     const int longest = longest_component(nearest);
     return std::string(nearest[longest] < 0 ? "-" : "") + "xyz"[longest];
   }
-  char text[64];
-  std::snprintf(text, sizeof text, "(%.3g, %.3g, %.3g)", direction->x, direction->y, direction->z);
-  return text;
+  return "(" + short_decimal(direction->x, 3) + ", " + short_decimal(direction->y, 3) + ", " +
+         short_decimal(direction->z, 3) + ")";
 }
 
 UpEvidence evidence_of(const Scene& scene, const Subject& subject) {
@@ -93,11 +93,9 @@ std::string describe(const UpGuess& guess) {
   switch (guess.reason) {
     case UpGuess::Reason::stored:
       return "the file says that " + axis + " is up";
-    case UpGuess::Reason::cameras_near_axis: {
-      char degrees[16];
-      std::snprintf(degrees, sizeof degrees, "%.0f", guess.degrees);
-      return mean + "points " + degrees + " degrees from " + axis + ", which is taken to be up";
-    }
+    case UpGuess::Reason::cameras_near_axis:
+      return mean + "points " + fixed_decimal(guess.degrees, 0) + " degrees from " + axis +
+             ", which is taken to be up";
     case UpGuess::Reason::cameras:
       return mean + "is taken to be up: " + axis;
     case UpGuess::Reason::flat:

@@ -27,6 +27,16 @@ std::string describe(const Edits& edits) {
   return text.empty() ? "none" : text;
 }
 
+std::vector<std::string> names_of(const Edits& edits) {
+  const Edits unchanged;
+  std::vector<std::string> names;
+  if (edits.keeps_face != unchanged.keeps_face) names.emplace_back("keeps_face");
+  if (edits.lattice_level != unchanged.lattice_level) names.emplace_back("lattice_level");
+  if (edits.color != unchanged.color) names.emplace_back("color");
+  if (edits.byte_texels != unchanged.byte_texels) names.emplace_back("byte_texels");
+  return names;
+}
+
 std::optional<std::string> defect(const Edits& edits, const TriangleSoup& soup) {
   if (edits.lattice_level < 0 || edits.lattice_level > lattice::max_level)
     return "the lattice level is " + std::to_string(edits.lattice_level) + ", not 0 to 7";

@@ -33,6 +33,10 @@ struct Edits {
 /// 3, baked colour, 8 bits a texel channel"; "none".
 std::string describe(const Edits& edits);
 
+/// The members that are not at their defaults: "keeps_face", "lattice_level", "color",
+/// "byte_texels".
+std::vector<std::string> names_of(const Edits& edits);
+
 /// Why these edits make no sense for this soup (a level outside of its range, another number of
 /// faces, none kept), or nothing.
 std::optional<std::string> defect(const Edits& edits, const TriangleSoup& soup);

@@ -1,25 +1,12 @@
 #include "soup/quality.hpp"
 
-#include <algorithm>
-#include <cstdio>
+#include "soup/decimal.hpp"
 
 namespace tureen {
 
-namespace {
-
-/// "0.75", "3".
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  std::replace(text, text + sizeof text, ',', '.');  // the program around us may have set a locale
-  return text;
-}
-
-}  // namespace
-
 std::string describe(const Quality& quality) {
   if (quality.resolution_scale != 1)
-    return number(100 * quality.resolution_scale) + " % of the rows and columns";
+    return short_decimal(100 * quality.resolution_scale, 4) + " % of the rows and columns";
   const std::string n = std::to_string(quality.supersampling);
   return quality.supersampling > 1 ? n + " x " + n + " samples a pixel" : "one sample a pixel";
 }
@@ -27,7 +14,8 @@ std::string describe(const Quality& quality) {
 std::optional<std::string> defect(const Quality& quality) {
   // Written so that NaN is refused, too.
   if (!(quality.resolution_scale >= 0.25 && quality.resolution_scale <= 1))
-    return "the resolution scale is " + number(quality.resolution_scale) + ", not 0.25 to 1";
+    return "the resolution scale is " + short_decimal(quality.resolution_scale, 4) +
+           ", not 0.25 to 1";
   if (quality.supersampling < 1 || quality.supersampling > 8)
     return "supersampling is " + std::to_string(quality.supersampling) + ", not 1 to 8";
   if (quality.resolution_scale < 1 && quality.supersampling > 1)

@@ -1,7 +1,8 @@
 #include "soup/remark.hpp"
 
 #include <array>
-#include <cstdio>
+
+#include "soup/decimal.hpp"
 
 namespace tureen {
 
@@ -83,13 +84,6 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-/// "50", "0.01": by a format of printf with one place.
-std::string formatted(const char* format, double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 }  // namespace
 
 const char* name_of(Kind kind) { return kind_names[std::size_t(kind)]; }
@@ -127,11 +121,11 @@ std::string describe(const Remark& remark) {
       return "Coordinates of type double were rounded to float.";
     case Kind::soft_triangles_opaque:
       return "soft triangles are drawn opaque: a soft triangle covers " +
-             formatted("%.0f", 100 * values[0]) + "% of its area in the mean (opacity " +
-             formatted("%.2f", values[1]) + "), the opaque face covers all of it";
+             fixed_decimal(100 * values[0], 0) + "% of its area in the mean (opacity " +
+             fixed_decimal(values[1], 2) + "), the opaque face covers all of it";
     case Kind::soft_triangles_dropped:
       return std::to_string(counts[0]) + " of " + std::to_string(counts[1]) +
-             " soft triangles have an opacity below " + formatted("%g", values[0]) + ": dropped";
+             " soft triangles have an opacity below " + short_decimal(values[0], 6) + ": dropped";
     case Kind::color_components_clamped:
       return counted(counts[0], "colour component", "colour components") + " outside 0..1 clamped.";
     case Kind::face_colors_dropped:
@@ -193,7 +187,7 @@ std::string describe(const Remark& remark) {
       return "the preset chooses among soft triangles, some of which are not drawn: it is left "
              "out";
     case Kind::preset_applied:
-      return "the file's preset is applied to the data: " + names[0];
+      return "the file's preset was applied to the data: " + listed(names);
     case Kind::preset_keys_ignored:
       return "settings of the file's preset that no longer exist are ignored: " + listed(names);
     case Kind::text_ignored:

@@ -56,8 +56,8 @@ struct Remark {
     shapes_missing,                // counts: the shapes missing; the last: all
     shapes_untextured,             // counts: likewise
     preset_dropped,                // it chooses among soft triangles
-    preset_applied,       // of an earlier version, to the data. names: what describe(Edits) says
-    preset_keys_ignored,  // of settings that no longer exist. names: the keys
+    preset_applied,                // of an earlier version, to the data. names: names_of(Edits)
+    preset_keys_ignored,           // of settings that no longer exist. names: the keys
     // The files.
     text_ignored,        // counts: the line it begins at
     bytes_ignored,       // counts: bytes after the last element

@@ -290,7 +290,8 @@ TEST(TureenGlbEarlierPreset, IsReadAsAnEdit) {
   EXPECT_FALSE(texture.mlp);
   EXPECT_EQ(back.quality, (Quality{.supersampling = 2}));
   ASSERT_EQ(back.info.remarks.size(), 1u);
-  EXPECT_EQ(back.info.remarks[0].kind, Remark::Kind::preset_applied);
+  EXPECT_EQ(back.info.remarks[0], (Remark{.kind = Remark::Kind::preset_applied,
+                                          .names = {"keeps_face", "lattice_level", "color"}}));
 }
 
 TEST(TureenGlbEarlierPreset, SettingsThatAreGoneAreIgnoredWithANote) {

@@ -1,0 +1,14 @@
+// Numbers in sentences, with a decimal point whatever the locale of the program around us.
+#pragma once
+
+#include <string>
+
+namespace tureen {
+
+/// `digits` significant digits, 1..9, without trailing zeros: "0.75", "1.2e-05".
+std::string short_decimal(double value, int digits);
+
+/// `places` digits after the point, 0..9: "0.50".
+std::string fixed_decimal(double value, int places);
+
+}  // namespace tureen
