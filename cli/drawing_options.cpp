@@ -20,13 +20,17 @@ Specialisation specialisation_of(const std::string& name) {
 
 }  // namespace
 
-void add_drawing_options(Command& command, DrawingOptions& options) {
-  add_choice<gl::Backend>(command, "--context", options.backend,
+void add_context_option(Command& command, gl::Backend& backend) {
+  add_choice<gl::Backend>(command, "--context", backend,
                           {{"auto", gl::Backend::automatic},
                            {"egl", gl::Backend::egl},
                            {"osmesa", gl::Backend::osmesa}},
                           "where OpenGL comes from: auto (EGL, else OSMesa), egl or osmesa")
       .value_name("NAME");
+}
+
+void add_drawing_options(Command& command, DrawingOptions& options) {
+  add_context_option(command, options.backend);
   add_choice<PipelineKind>(
       command, "--pipeline", options.plan.pipeline,
       {{"auto", PipelineKind::tureen}, {"published", PipelineKind::published}},

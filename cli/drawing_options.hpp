@@ -20,6 +20,9 @@ struct DrawingOptions {
 /// The plan's preferences for a scene: with its quality, where none was asked for.
 PlanPreferences preferences_for(const Scene& scene, const DrawingOptions& options);
 
+/// --context. `backend` must live until the arguments are parsed.
+void add_context_option(Command& command, gl::Backend& backend);
+
 /// --context, --pipeline, --no-specialise, --keep, --shading and --supersample. `options` must live
 /// until the arguments are parsed.
 void add_drawing_options(Command& command, DrawingOptions& options);

@@ -7,6 +7,7 @@
 
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
+#include "cli/drawing_options.hpp"
 #include "cli/memory_option.hpp"
 #include "cli/output_argument.hpp"
 #include "cli/report.hpp"
@@ -159,12 +160,7 @@ on the device or cannot be written.)");
   command.add_flag("--processor-time", options->processor_time,
                    "processor time of all threads instead of time that passed: for ratios on a "
                    "busy machine; software OpenGL only");
-  add_choice<gl::Backend>(command, "--context", options->backend,
-                          {{"auto", gl::Backend::automatic},
-                           {"egl", gl::Backend::egl},
-                           {"osmesa", gl::Backend::osmesa}},
-                          "where OpenGL comes from: auto (EGL, else OSMesa), egl or osmesa")
-      .value_name("NAME");
+  add_context_option(command, options->backend);
   command.add_flag("--json", options->json, "everything as JSON on standard output");
   command.does([options] { return tradeoff(*options); });
 }

@@ -11,22 +11,15 @@ namespace tureen::cli {
 
 const char* name_of(Method method) { return method_names[std::size_t(method)]; }
 
-bool is_judged(const Panel& panel, const Outcome& outcome) {
-  for (std::size_t i = 0; i < panel.settings.size(); ++i) {
-    const tradeoff::QualitySetting& setting = panel.settings[i];
-    if (setting.key == tradeoff::supersampling_key &&
-        setting.values[std::size_t(outcome.configuration[i])].value ==
-            std::to_string(tradeoff::antialiased_samples))
-      return false;
-  }
-  return true;
+bool is_judged(const Outcome& outcome) {
+  return outcome.applied.quality.supersampling != tradeoff::antialiased_samples;
 }
 
 Candidates candidates(const Panel& panel) {
   Candidates result;
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i) {
     const Outcome& outcome = panel.outcomes[i];
-    if (outcome.method != Method::specialised || !is_judged(panel, outcome)) continue;
+    if (outcome.method != Method::specialised || !is_judged(outcome)) continue;
     const double ms = outcome.ms.min_of_medians;
     // From the A/A spread alone: too few rounds for a spread between rounds.
     result.points.push_back({.ms = ms,
@@ -58,13 +51,13 @@ const Outcome* generic_of(const Panel& panel, const Outcome& outcome) {
   return nullptr;
 }
 
-std::vector<std::string> warnings_about(const Panel& panel, const Outcome& outcome) {
+std::vector<std::string> warnings_about(const Outcome& outcome) {
   std::vector<std::string> warnings;
   if (!outcome.stable)
     warnings.emplace_back("its times did not come to rest before they were taken");
   if (outcome.error.non_finite > 0)
     warnings.push_back(fmt::format("{} pixels are no numbers", outcome.error.non_finite));
-  if (!is_judged(panel, outcome))
+  if (!is_judged(outcome))
     warnings.emplace_back(
         "drawn at the reference's own samples: its error is rounding alone, and it is on no front");
   return warnings;

@@ -67,10 +67,10 @@ struct Panel {
 
 /// Whether the error of an outcome depends on its settings. Supersampling at the antialiasing
 /// reference's own samples (tradeoff::antialiased_samples) is measured for its time.
-bool is_judged(const Panel& panel, const Outcome& outcome);
+bool is_judged(const Outcome& outcome);
 
 /// Sentences on why time or error of an outcome mean less than they seem.
-std::vector<std::string> warnings_about(const Panel& panel, const Outcome& outcome);
+std::vector<std::string> warnings_about(const Outcome& outcome);
 
 /// Time and error of the outcomes that may be on the front; `index` has their indices in
 /// Panel::outcomes.

@@ -71,9 +71,9 @@ Json configuration_json(const TradeoffReport& report, const Panel& panel, std::s
           {"e_model", to_json(model, report.with_flip)},
           {"on_front", is_on_front(panel, i)},
           {"stable", outcome.stable},
-          {"judged", is_judged(panel, outcome)},
+          {"judged", is_judged(outcome)},
           {"non_finite_pixels", outcome.error.non_finite},
-          {"warnings", warnings_about(panel, outcome)}};
+          {"warnings", warnings_about(outcome)}};
 }
 
 Json panel_json(const TradeoffReport& report, const Panel& panel,
@@ -156,7 +156,7 @@ void say_panel(const TradeoffReport& report, const Panel& panel, const std::stri
   for (const Skipped& skipped : panel.skipped)
     lines.push_back(skipped.name + ": " + skipped.reason);
   for (const Outcome& outcome : panel.outcomes)
-    for (const std::string& warning : warnings_about(panel, outcome))
+    for (const std::string& warning : warnings_about(outcome))
       lines.push_back(outcome.name + (outcome.method == Method::generic ? " (generic)" : "") +
                       ": " + warning);
   say_list("Not measured, and warnings:", lines);

@@ -47,8 +47,8 @@ void find_ranges(Panel& panel) {
   for (const Outcome& outcome : panel.outcomes) {
     if (outcome.method == Method::generic || outcome.method == Method::published) continue;
     configurations.push_back(outcome.configuration);
-    measured.push_back({outcome.ms.min_of_medians,
-                        is_judged(panel, outcome) ? outcome.error.psnr_db : std::nan("")});
+    measured.push_back(
+        {outcome.ms.min_of_medians, is_judged(outcome) ? outcome.error.psnr_db : std::nan("")});
   }
   panel.ranges = tradeoff::setting_ranges(configurations, measured, panel.settings.size());
 }

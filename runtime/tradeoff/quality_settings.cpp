@@ -88,7 +88,7 @@ std::vector<QualitySetting> antialiasing_settings(int max_samples) {
         {factor == 0.5 ? "0.5" : "0.75", percent_text(factor) + " of the rows and columns",
          [factor](Applied& applied) { applied.quality.resolution_scale = factor; }});
   QualitySetting samples{
-      supersampling_key, "supersampling", {{"1", "one sample a pixel", unchanged}}};
+      "supersampling", "supersampling", {{"1", "one sample a pixel", unchanged}}};
   for (int n = 2; n <= max_samples; n *= 2)
     samples.values.push_back({std::to_string(n),
                               std::to_string(n) + " x " + std::to_string(n) + " samples a pixel",

@@ -40,9 +40,6 @@ struct QualitySetting {
 std::vector<QualitySetting> drawing_settings(const TriangleSoup& soup,
                                              std::span<const std::uint64_t> visible_pixels);
 
-/// QualitySetting::key of supersampling.
-inline constexpr const char* supersampling_key = "supersampling";
-
 /// Those that decide how many samples a pixel has, and where: resolution scale, supersampling up to
 /// `max_samples` an axis.
 std::vector<QualitySetting> antialiasing_settings(int max_samples);

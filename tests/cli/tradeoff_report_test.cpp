@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "cli/tradeoff_model.hpp"
+#include "runtime/tradeoff/reference.hpp"
 #include "support/errors.hpp"
 
 namespace tureen::cli {
@@ -115,11 +116,11 @@ TEST(TradeoffReport, TheChoiceIsASentence) {
 TEST(TradeoffReport, WarnsOfOutcomesThatMeanLess) {
   Panel made = panel();
   Outcome& doubtful = made.outcomes[2];
-  EXPECT_THAT(warnings_about(made, doubtful), testing::IsEmpty());
+  EXPECT_THAT(warnings_about(doubtful), testing::IsEmpty());
   doubtful.stable = false;
-  EXPECT_EQ(warnings_about(made, doubtful).size(), 1u);
+  EXPECT_EQ(warnings_about(doubtful).size(), 1u);
   doubtful.error.non_finite = 37;
-  EXPECT_THAT(warnings_about(made, doubtful), ElementsAre(testing::_, Names(37)));
+  EXPECT_THAT(warnings_about(doubtful), ElementsAre(testing::_, Names(37)));
 }
 
 TEST(TradeoffCandidates, AreWhatCanBeChosen) {
@@ -137,19 +138,20 @@ Panel supersampled() {
   result.settings = tradeoff::antialiasing_settings(8);
   const std::vector<tradeoff::Configuration> star{{0, 0}, {0, 1}, {0, 2}, {0, 3}};
   double ms = 5, psnr = 30;
-  for (const tradeoff::Configuration& each : star)
+  for (const tradeoff::Configuration& each : star) {
     result.outcomes.push_back(
         outcome(each, tradeoff::describe(result.settings, each), ms *= 2, psnr += 8));
+    result.outcomes.back().applied = tradeoff::applied_by(result.settings, each);
+  }
   return result;
 }
 
 // 8 x 8 samples differ from a reference of 8 x 8 by rounding, whatever they cost.
 TEST(TradeoffCandidates, TheReferencesOwnSamplesAreOnNoFront) {
   Panel made = supersampled();
-  ASSERT_EQ(made.settings[1].key, tradeoff::supersampling_key);
-  ASSERT_EQ(made.settings[1].values[3].value, "8");
-  EXPECT_FALSE(is_judged(made, made.outcomes[3]));
-  EXPECT_TRUE(is_judged(made, made.outcomes[2]));
+  ASSERT_EQ(made.outcomes[3].applied.quality.supersampling, tradeoff::antialiased_samples);
+  EXPECT_FALSE(is_judged(made.outcomes[3]));
+  EXPECT_TRUE(is_judged(made.outcomes[2]));
   find_front(made);
   EXPECT_THAT(made.front, ElementsAre(0, 1, 2));
   Panel without = supersampled();

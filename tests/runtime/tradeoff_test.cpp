@@ -299,18 +299,5 @@ TEST(Factorial, SaysOnceWhatCannotBeDrawnTogetherAndDoesNotCountIt) {
   EXPECT_EQ(fewer.reduction.combined, 2u);
 }
 
-// The setting must not be called otherwise where its outcomes are looked for.
-TEST(AntialiasingSettings, OfThemOneIsSupersampling) {
-  const std::vector<QualitySetting> settings = antialiasing_settings(8);
-  const auto found = std::find_if(settings.begin(), settings.end(), [](const QualitySetting& each) {
-    return each.key == supersampling_key;
-  });
-  ASSERT_NE(found, settings.end());
-  Applied applied;
-  found->values.back().apply(applied);
-  EXPECT_EQ(applied.quality.supersampling, 8);
-  EXPECT_EQ(found->values.back().value, "8");
-}
-
 }  // namespace tradeoff_test
 }  // namespace tureen::tradeoff
