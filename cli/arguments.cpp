@@ -94,13 +94,18 @@ void require_known_command(const CLI::App& program, const std::vector<std::strin
 
 /// What CLI11 refuses, as an error of ours.
 UsageError explain(const CLI::App& command, const CLI::ParseError& error) {
+  const std::vector<std::string> extras = command.remaining(true);
+  const auto option_of = [](const std::string& extra) { return extra.substr(0, extra.find('=')); };
+  // First the options of earlier versions: the new command line may need other arguments, too.
+  for (const std::string& extra : extras) {
+    const std::string word = option_of(extra);
+    if (const std::string instead = replacement_of(command.get_name(), word); !instead.empty())
+      return UsageError(command.get_name() + " no longer has " + word, instead);
+  }
   if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
-    const std::vector<std::string> extras = command.remaining(true);
     for (const std::string& extra : extras) {
       if (extra.size() < 2 || extra[0] != '-') continue;
-      const std::string word = extra.substr(0, extra.find('='));
-      if (const std::string instead = replacement_of(command.get_name(), word); !instead.empty())
-        return UsageError(command.get_name() + " no longer has " + word, instead);
+      const std::string word = option_of(extra);
       std::vector<std::string> known;
       for (const CLI::Option* option : command.get_options())
         for (const std::string& name : option->get_lnames()) known.push_back("--" + name);

@@ -9,10 +9,12 @@
 #include "cli/edit_options.hpp"
 #include "cli/memory_option.hpp"
 #include "cli/output_argument.hpp"
+#include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/scene_page.hpp"
 #include "cli/scratch.hpp"
+#include "formats/extension.hpp"
 #include "soup/error.hpp"
 
 namespace tureen::cli {
@@ -27,6 +29,7 @@ struct ConvertOptions {
   bool force = false;
   bool json = false;
   Edits edits;
+  std::optional<Quality> quality;  // by default the scene's own
   SlimArguments slim;
 };
 
@@ -59,6 +62,8 @@ void check_output(const ConvertOptions& options) {
   const fs::path output = options.output;
   check_slim(options.slim, output);
   require_known_extension(output);
+  if (options.quality && extension_of(output) != ".glb" && !is_scene_page(output))
+    throw UsageError("only .glb and .html store --supersample and --resolution-scale");
   require_not_input(output, options.scene.path);
   // First what --force would not change.
   if (is_export(output))
@@ -82,7 +87,8 @@ void apply(const Edits& edits, Scene& scene) {
     say("the scene is so already: it stays as it is");
     return;
   }
-  *soup = edited(std::move(*soup), changes);
+  Progress progress("reducing the scene");
+  *soup = edited(std::move(*soup), changes, [&](double done) { progress.update(done); });
   scene.info.notes.push_back("reduced by tureen convert: " + describe(changes));
 }
 
@@ -99,7 +105,7 @@ Json write(Scene scene, const ConvertOptions& options, const fs::path& file) {
 /// Whether a page may hold the bytes of the scene's own file.
 bool is_page_of_file(const ConvertOptions& options) {
   return !options.slim.slim && options.scene.up.empty() && options.edits == Edits{} &&
-         is_our_glb(options.scene.path);
+         !options.quality && is_our_glb(options.scene.path);
 }
 
 Json write_page(const ScenePageTemplate& page, Scene scene, const ConvertOptions& options) {
@@ -129,6 +135,7 @@ ExitCode convert_scene(const ConvertOptions& options) {
   Scene scene = read(options.scene);
   say_list("Reading " + options.scene.path + ":", all_notes(scene.info));
   apply(options.edits, scene);
+  if (options.quality) scene.quality = *options.quality;
   const Json figures = page ? write_page(*page, std::move(scene), options)
                             : write(std::move(scene), options, options.output);
   const std::uint64_t bytes = bytes_on_disk(options.output);
@@ -173,6 +180,8 @@ Examples:
                                               loses 0.1 dB against lego, no more
   tureen convert soup.glb less.glb --lattice-level 2
                                               coarser textures; tradeoff measures the error
+  tureen convert soup.glb smooth.glb --supersample 2
+                                              drawn with 2 x 2 samples a pixel by default
   tureen convert soup.glb soup.html           a page to send to somebody
   tureen convert foreign.glb soup.glb --vertex-colors srgb --up 0,0,1)");
   add_scene_argument(command, options->scene, "IN");
@@ -181,6 +190,7 @@ Examples:
   command.add_flag("--force", options->force, "replace OUT if it exists");
   command.add_flag("--json", options->json, "what was written and lost as JSON on standard output");
   add_edit_options(command, options->edits);
+  add_quality_options(command, options->quality);
   add_slim_arguments(command, options->slim);
   command.does([options] { return convert_scene(*options); });
 }

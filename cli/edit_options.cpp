@@ -21,4 +21,26 @@ void add_edit_options(Command& command, Edits& edits) {
       .value_name("N");
 }
 
+void add_quality_options(Command& command, std::optional<Quality>& quality) {
+  const Option samples = command
+                             .add_option(
+                                 "--supersample",
+                                 [&quality](const std::string& text) {
+                                   quality = Quality{.supersampling = int(*number_from(text))};
+                                 },
+                                 "quality stored in OUT.glb: N x N samples a pixel, 1 to 8")
+                             .check(between(1, 8))
+                             .value_name("N");
+  command
+      .add_option(
+          "--resolution-scale",
+          [&quality](const std::string& text) {
+            quality = Quality{.resolution_scale = *number_from(text)};
+          },
+          "quality stored in OUT.glb: S of the rows and columns are drawn, 0.25 to 1")
+      .check(between(0.25, 1.0))
+      .excludes(samples)
+      .value_name("S");
+}
+
 }  // namespace tureen::cli

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "cli/output_argument.hpp"
+#include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "formats/extension.hpp"
 #include "formats/scene_file.hpp"
@@ -32,7 +33,8 @@ void write_chosen(const fs::path& path, Scene scene, TradeoffReport& report) {
     sentences.emplace_back("no edit: nothing cheaper is within the limits");
   } else {
     auto& soup = std::get<TriangleSoup>(scene.primitives);
-    soup = edited(std::move(soup), edits);
+    Progress progress("reducing the scene");
+    soup = edited(std::move(soup), edits, [&](double done) { progress.update(done); });
     scene.info.notes.push_back("reduced by tureen tradeoff: " + describe(edits));
   }
   const std::vector<std::string> losses = write_scene(scene, path);

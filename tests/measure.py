@@ -335,6 +335,15 @@ def fit(kind, rows):
 
 PARTS = ['training', 'frames', 'dense', 'gpu', 'specialisations', 'growth', 'tradeoff', 'load', 'compress', 'step', 'browser']
 
+# What earlier versions of `./dev bench` took, and the replacements.
+RETIRED = {
+    'leave_out': 'the part specialisations', 'slim': 'the part compress', 'agreement': './dev test -R Agreement',
+    'train-fox': 'the part training', 'train-bottle': 'the part training', 'train-lego': 'the part training',
+    'train-example': 'the part training', 'ablations': 'tureen train with other options',
+    '--ficus': '--data FOLDER', '--fox': '--scene FILE', '--photographs': '--data FOLDER', '--lego': '--data FOLDER',
+    '--bottle': '--data FOLDER',
+}
+
 
 def bench(arguments):
     parts = ''.join(f'  {name:16} {getattr(Bench, name).__doc__}\n' for name in PARTS)
@@ -353,6 +362,8 @@ def bench(arguments):
                         help='a folder with soups/ficus_2dts.off, rendered/lego, photos/fox and photos/bottle, as '
                              'far as you have them (../shared/data)')
     parser.add_argument('--check', action='store_true', help=argparse.SUPPRESS)  # the arguments alone
+    for word in (argument.split('=')[0] for argument in arguments):
+        word not in RETIRED or parser.error(f'{word} was removed; use {RETIRED[word]}')
     options = parser.parse_args(arguments)
     for part in options.part:
         part in PARTS or parser.error(f"there is no part '{part}'; the parts are {', '.join(PARTS)}")

@@ -51,6 +51,20 @@ TEST_F(QualityProgram, ConvertKeepsIt) {
   EXPECT_EQ(read_scene(folder / "again.glb").quality, (Quality{.resolution_scale = 0.5}));
 }
 
+TEST_F(QualityProgram, ConvertStoresIt) {
+  const auto stored = [&](const std::string& option, const std::string& value) {
+    EXPECT_EQ(run({"convert", example.string(), "set.glb", "--force", option, value}).exit_code, 0);
+    return read_scene(folder / "set.glb").quality;
+  };
+  EXPECT_EQ(stored("--supersample", "2"), (Quality{.supersampling = 2}));
+  EXPECT_EQ(stored("--resolution-scale", "0.75"), (Quality{.resolution_scale = 0.75}));
+  EXPECT_EQ(run({"convert", example.string(), "both.glb", "--supersample", "2",
+                 "--resolution-scale", "0.5"})
+                .exit_code,
+            2);
+  EXPECT_EQ(run({"convert", example.string(), "set.off", "--supersample", "2"}).exit_code, 2);
+}
+
 TEST_F(QualityProgram, ConvertAppliesEdits) {
   const ChildResult result = run({"convert", example.string(), "less.glb", "--lattice-level", "1",
                                   "--color", "baked", "--texel-bits", "8"});
