@@ -1,5 +1,5 @@
-# What libFuzzer needs: clang, its fuzzer and sanitizers in everything, and of the rooms only what
-# reads. Included before any room; the fuzzers themselves are in tests/fuzz.
+# What libFuzzer needs: clang, its fuzzer and sanitizers in everything, and of the modules only what
+# reads. Included before any module; the fuzzers themselves are in tests/fuzz.
 if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
   message(FATAL_ERROR "libFuzzer is clang's: ./dev fuzz builds with it")
 endif()
@@ -15,10 +15,8 @@ function(tureen_fuzz_trainer)
   find_package(fmt REQUIRED)
   find_package(nlohmann_json REQUIRED)
   find_package(ZLIB REQUIRED)
-  tureen_include_root(trainer root)
   list(TRANSFORM ARGN PREPEND "${PROJECT_SOURCE_DIR}/trainer/" OUTPUT_VARIABLE sources)
   add_library(tureen_trainer STATIC ${sources})
-  target_include_directories(tureen_trainer PUBLIC "${root}")
   target_link_libraries(tureen_trainer PUBLIC tureen_soup tureen_formats
     PRIVATE nlohmann_json::nlohmann_json fmt::fmt ZLIB::ZLIB tureen_warnings)
 endfunction()

@@ -1,5 +1,5 @@
 # What a browser build needs beside Emscripten's toolchain: header-only libraries of the machine, and
-# the flags that every room shares. Included before any room.
+# the flags that every module shares. Included before any module.
 
 # Debian's headers come after Emscripten's own: found first, /usr/include would give the C library of
 # this machine.

@@ -1,4 +1,4 @@
-#include "curve.hpp"
+#include "examples/curve.hpp"
 
 #include <algorithm>
 #include <glm/geometric.hpp>

@@ -1,9 +1,9 @@
-#include "glaze.hpp"
+#include "examples/glaze.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "light.hpp"
+#include "examples/light.hpp"
 
 namespace tureen::example {
 

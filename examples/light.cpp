@@ -1,11 +1,11 @@
-#include "light.hpp"
+#include "examples/light.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "shapes.hpp"
+#include "examples/shapes.hpp"
 
 namespace tureen::example {
 namespace {

@@ -5,8 +5,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "ray_caster.hpp"
-#include "surface.hpp"
+#include "examples/ray_caster.hpp"
+#include "examples/surface.hpp"
 
 namespace tureen::example {
 

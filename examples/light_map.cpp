@@ -1,11 +1,11 @@
-#include "light_map.hpp"
+#include "examples/light_map.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "parallel.hpp"
+#include "examples/parallel.hpp"
 
 namespace tureen::example {
 namespace {

@@ -6,8 +6,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "light.hpp"
-#include "surface.hpp"
+#include "examples/light.hpp"
+#include "examples/surface.hpp"
 
 namespace tureen::example {
 

@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <thread>
 
+#include "examples/nerf_synthetic.hpp"
+#include "examples/parallel.hpp"
+#include "examples/photograph.hpp"
+#include "examples/still_life.hpp"
 #include "formats/output.hpp"
 #include "formats/png.hpp"
-#include "nerf_synthetic.hpp"
-#include "parallel.hpp"
-#include "photograph.hpp"
-#include "still_life.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "nerf_synthetic.hpp"
+#include "examples/nerf_synthetic.hpp"
 
 #include <cassert>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "paints.hpp"
+#include "examples/paints.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "noise.hpp"
+#include "examples/noise.hpp"
 
 namespace tureen::example {
 namespace {

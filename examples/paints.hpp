@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "surface.hpp"
+#include "examples/surface.hpp"
 
 namespace tureen::example {
 

@@ -1,4 +1,4 @@
-#include "photograph.hpp"
+#include "examples/photograph.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <numbers>
 #include <string>
 
-#include "glaze.hpp"
-#include "noise.hpp"
-#include "shapes.hpp"
+#include "examples/glaze.hpp"
+#include "examples/noise.hpp"
+#include "examples/shapes.hpp"
 
 namespace tureen::example {
 namespace {

@@ -5,13 +5,13 @@
 #include <optional>
 #include <vector>
 
-#include "light.hpp"
-#include "light_map.hpp"
-#include "noise.hpp"
-#include "ray_caster.hpp"
+#include "examples/light.hpp"
+#include "examples/light_map.hpp"
+#include "examples/noise.hpp"
+#include "examples/ray_caster.hpp"
+#include "examples/surface.hpp"
 #include "soup/camera.hpp"
 #include "soup/image.hpp"
-#include "surface.hpp"
 
 namespace tureen::example {
 

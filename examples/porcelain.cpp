@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "noise.hpp"
-#include "paints.hpp"
+#include "examples/noise.hpp"
+#include "examples/paints.hpp"
 
 namespace tureen::example {
 namespace {

@@ -1,4 +1,4 @@
-#include "ray_caster.hpp"
+#include "examples/ray_caster.hpp"
 
 #include <algorithm>
 #include <array>

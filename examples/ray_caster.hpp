@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "surface.hpp"
+#include "examples/surface.hpp"
 
 namespace tureen::example {
 

@@ -1,4 +1,4 @@
-#include "shapes.hpp"
+#include "examples/shapes.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>

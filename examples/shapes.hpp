@@ -7,7 +7,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "curve.hpp"
+#include "examples/curve.hpp"
 
 namespace tureen::example {
 

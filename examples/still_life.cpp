@@ -1,12 +1,12 @@
-#include "still_life.hpp"
+#include "examples/still_life.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "noise.hpp"
-#include "paints.hpp"
-#include "shapes.hpp"
+#include "examples/noise.hpp"
+#include "examples/paints.hpp"
+#include "examples/shapes.hpp"
 
 namespace tureen::example {
 namespace {

@@ -1,7 +1,7 @@
 // The composition: a tureen on its platter and a lace doily, lemons, a branch, on a round table.
 #pragma once
 
-#include "surface.hpp"
+#include "examples/surface.hpp"
 
 namespace tureen::example {
 

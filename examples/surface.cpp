@@ -1,4 +1,4 @@
-#include "surface.hpp"
+#include "examples/surface.hpp"
 
 #include <glm/geometric.hpp>
 

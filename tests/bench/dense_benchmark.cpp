@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "bench/plain_renderer.hpp"
 #include "formats/scene_file.hpp"
 #include "runtime/benchmark.hpp"
 #include "runtime/renderer.hpp"
+#include "tests/bench/plain_renderer.hpp"
 
 namespace tureen::test {
 namespace {

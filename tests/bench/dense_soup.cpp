@@ -1,4 +1,4 @@
-#include "bench/dense_soup.hpp"
+#include "tests/bench/dense_soup.hpp"
 
 #include <algorithm>
 #include <array>

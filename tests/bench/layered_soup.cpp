@@ -1,12 +1,12 @@
-#include "bench/layered_soup.hpp"
+#include "tests/bench/layered_soup.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <numeric>
 
-#include "support/random.hpp"
-#include "support/random_soups.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen::test {
 

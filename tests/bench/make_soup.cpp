@@ -5,9 +5,9 @@
 #include <exception>
 #include <string>
 
-#include "bench/dense_soup.hpp"
-#include "bench/layered_soup.hpp"
 #include "formats/scene_file.hpp"
+#include "tests/bench/dense_soup.hpp"
+#include "tests/bench/layered_soup.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "bench/plain_renderer.hpp"
+#include "tests/bench/plain_renderer.hpp"
 
 #include <cmath>
 #include <cstdint>

@@ -15,8 +15,8 @@
 #include "runtime/benchmark.hpp"
 #include "runtime/navigation.hpp"
 #include "runtime/renderer.hpp"
-#include "support/cutout_cloud.hpp"
-#include "support/trait_soups.hpp"
+#include "tests/support/cutout_cloud.hpp"
+#include "tests/support/trait_soups.hpp"
 
 namespace tureen::test {
 namespace {

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "support/cutout_cloud.hpp"
+#include "tests/support/cutout_cloud.hpp"
 #include "trainer/backend.hpp"
 #include "trainer/model.hpp"
 #include "trainer/trainer.hpp"

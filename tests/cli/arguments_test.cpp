@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "support/errors.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen::cli {
 namespace arguments_test {

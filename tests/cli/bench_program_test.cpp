@@ -6,8 +6,8 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "cli/photographs_fixture.hpp"
-#include "support/errors.hpp"
+#include "tests/cli/photographs_fixture.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace bench_program_test {

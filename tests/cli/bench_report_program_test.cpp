@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/program_fixture.hpp"
-#include "support/errors.hpp"
+#include "tests/cli/program_fixture.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace bench_report_program_test {

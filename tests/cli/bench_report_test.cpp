@@ -7,10 +7,10 @@
 #include "cli/bench_comparison.hpp"
 #include "cli/bench_reports.hpp"
 #include "cli/bench_words.hpp"
-#include "formats/format_testing.hpp"
 #include "formats/output.hpp"
 #include "soup/error.hpp"
-#include "support/errors.hpp"
+#include "tests/formats/format_testing.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen::cli {
 namespace bench_report_test {

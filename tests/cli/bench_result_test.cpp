@@ -9,7 +9,7 @@
 
 #include "cli/version.hpp"
 #include "soup/error.hpp"
-#include "support/errors.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen::cli {
 namespace bench_result_test {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/bench_words.hpp"
-#include "support/errors.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen::cli {
 namespace bench_table_test {

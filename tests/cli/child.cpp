@@ -1,4 +1,4 @@
-#include "cli/child.hpp"
+#include "tests/cli/child.hpp"
 
 #include <fcntl.h>
 #include <sys/wait.h>

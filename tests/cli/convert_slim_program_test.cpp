@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/photographs_fixture.hpp"
 #include "formats/scene_file.hpp"
-#include "support/errors.hpp"
+#include "tests/cli/photographs_fixture.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace convert_slim_program_test {

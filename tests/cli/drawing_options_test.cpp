@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "soup/error.hpp"
-#include "support/errors.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen::cli {
 namespace drawing_options_test {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "cli/photographs_fixture.hpp"
-#include "support/errors.hpp"
+#include "tests/cli/photographs_fixture.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace eval_program_test {

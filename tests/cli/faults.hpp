@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/child.hpp"
+#include "tests/cli/child.hpp"
 
 namespace tureen::test {
 

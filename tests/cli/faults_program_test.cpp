@@ -14,11 +14,11 @@
 #include <random>
 #include <sstream>
 
-#include "cli/faults.hpp"
-#include "cli/nobody.hpp"
-#include "cli/program_fixture.hpp"
-#include "support/errors.hpp"
-#include "support/measured.hpp"
+#include "tests/cli/faults.hpp"
+#include "tests/cli/nobody.hpp"
+#include "tests/cli/program_fixture.hpp"
+#include "tests/support/errors.hpp"
+#include "tests/support/measured.hpp"
 
 namespace tureen {
 namespace faults_program_test {

@@ -6,10 +6,10 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "cli/program_fixture.hpp"
 #include "formats/camera_file.hpp"
 #include "formats/video_file.hpp"
-#include "support/errors.hpp"
+#include "tests/cli/program_fixture.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace film_program_test {

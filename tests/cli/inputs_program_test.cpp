@@ -3,9 +3,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/nobody.hpp"
-#include "cli/program_fixture.hpp"
-#include "support/errors.hpp"
+#include "tests/cli/nobody.hpp"
+#include "tests/cli/program_fixture.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace inputs_program_test {

@@ -1,9 +1,9 @@
 // --max-memory from outside: every command that reads scenes or datasets has it and obeys it.
 #include <gmock/gmock.h>
 
-#include "cli/program_fixture.hpp"
-#include "formats/dataset_fixture.hpp"
-#include "support/errors.hpp"
+#include "tests/cli/program_fixture.hpp"
+#include "tests/formats/dataset_fixture.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace memory_program_test {

@@ -4,11 +4,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/nobody.hpp"
-#include "cli/program_fixture.hpp"
 #include "formats/input.hpp"
 #include "formats/scene_file.hpp"
-#include "support/errors.hpp"
+#include "tests/cli/nobody.hpp"
+#include "tests/cli/program_fixture.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace outputs_program_test {

@@ -1,9 +1,9 @@
 // For tests that run the program on photographs: those that it took itself.
 #pragma once
 
-#include "cli/program_fixture.hpp"
-#include "cli/transforms.hpp"
 #include "soup/camera.hpp"
+#include "tests/cli/program_fixture.hpp"
+#include "tests/cli/transforms.hpp"
 
 namespace tureen::test {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/child.hpp"
 #include "formats/output.hpp"
 #include "formats/png.hpp"
+#include "tests/cli/child.hpp"
 
 namespace tureen::test {
 

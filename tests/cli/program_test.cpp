@@ -4,11 +4,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/program_fixture.hpp"
 #include "formats/camera_file.hpp"
 #include "formats/scene_file.hpp"
 #include "soup/camera.hpp"
-#include "support/errors.hpp"
+#include "tests/cli/program_fixture.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace program_test {

@@ -1,9 +1,9 @@
 // The quality of a scene's file, and edits of its data, as the program applies them.
 #include <gmock/gmock.h>
 
-#include "cli/program_fixture.hpp"
 #include "formats/scene_file.hpp"
 #include "formats/tureen_glb.hpp"
+#include "tests/cli/program_fixture.hpp"
 
 namespace tureen::test {
 namespace quality_program_test {

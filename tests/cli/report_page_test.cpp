@@ -9,11 +9,11 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/report_results.hpp"
-#include "cli/tradeoff_fixture.hpp"
-#include "formats/format_testing.hpp"
 #include "formats/output.hpp"
 #include "soup/error.hpp"
-#include "support/errors.hpp"
+#include "tests/cli/tradeoff_fixture.hpp"
+#include "tests/formats/format_testing.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen::cli {
 namespace report_page_test {

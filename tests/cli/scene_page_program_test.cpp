@@ -5,10 +5,10 @@
 #include <cstdlib>
 #include <set>
 
-#include "cli/program_fixture.hpp"
 #include "formats/scene_file.hpp"
 #include "formats/uri.hpp"
-#include "support/errors.hpp"
+#include "tests/cli/program_fixture.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace scene_page_program_test {

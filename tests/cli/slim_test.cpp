@@ -8,8 +8,8 @@
 #include "runtime/renderer.hpp"
 #include "soup/error.hpp"
 #include "soup/lattice.hpp"
-#include "support/errors.hpp"
-#include "support/random.hpp"
+#include "tests/support/errors.hpp"
+#include "tests/support/random.hpp"
 
 namespace tureen::cli {
 namespace slim_test {

@@ -8,11 +8,11 @@
 #include <map>
 #include <string>
 
-#include "cli/photographs_fixture.hpp"
 #include "formats/scene_file.hpp"
 #include "soup/lattice_refine.hpp"
-#include "support/errors.hpp"
-#include "support/random_soups.hpp"
+#include "tests/cli/photographs_fixture.hpp"
+#include "tests/support/errors.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen {
 namespace tradeoff_program_test {

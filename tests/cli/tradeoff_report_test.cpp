@@ -8,7 +8,7 @@
 
 #include "cli/tradeoff_model.hpp"
 #include "runtime/tradeoff/reference.hpp"
-#include "support/errors.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen::cli {
 namespace tradeoff_report_test {

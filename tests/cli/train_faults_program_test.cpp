@@ -9,11 +9,11 @@
 #include <csignal>
 #include <random>
 
-#include "cli/faults.hpp"
-#include "cli/nobody.hpp"
-#include "cli/train_fixture.hpp"
-#include "support/errors.hpp"
-#include "support/measured.hpp"
+#include "tests/cli/faults.hpp"
+#include "tests/cli/nobody.hpp"
+#include "tests/cli/train_fixture.hpp"
+#include "tests/support/errors.hpp"
+#include "tests/support/measured.hpp"
 
 namespace tureen {
 namespace train_faults_program_test {

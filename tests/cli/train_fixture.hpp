@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/program_fixture.hpp"
-#include "cli/transforms.hpp"
 #include "soup/camera.hpp"
+#include "tests/cli/program_fixture.hpp"
+#include "tests/cli/transforms.hpp"
 
 namespace tureen::test {
 

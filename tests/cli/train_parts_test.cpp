@@ -11,7 +11,7 @@
 #include "cli/training_files.hpp"
 #include "cli/training_session.hpp"
 #include "soup/error.hpp"
-#include "support/errors.hpp"
+#include "tests/support/errors.hpp"
 #include "trainer/config_fields.hpp"
 
 namespace tureen::cli {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <csignal>
 
-#include "cli/train_fixture.hpp"
 #include "formats/scene_file.hpp"
-#include "support/errors.hpp"
+#include "tests/cli/train_fixture.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace train_program_test {

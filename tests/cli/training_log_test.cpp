@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "soup/error.hpp"
-#include "support/errors.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen::cli {
 namespace training_log_test {

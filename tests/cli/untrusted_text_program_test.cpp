@@ -3,7 +3,7 @@
 
 #include <sstream>
 
-#include "cli/program_fixture.hpp"
+#include "tests/cli/program_fixture.hpp"
 
 namespace tureen {
 namespace untrusted_text_program_test {

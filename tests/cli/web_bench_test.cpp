@@ -10,7 +10,7 @@
 #include "cli/bench_table.hpp"
 #include "cli/bench_words.hpp"
 #include "soup/error.hpp"
-#include "support/errors.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen::cli {
 namespace web_bench_test {

@@ -7,11 +7,11 @@
 #include <map>
 #include <tuple>
 
-#include "glaze.hpp"
-#include "light.hpp"
-#include "noise.hpp"
-#include "ray_caster.hpp"
-#include "still_life.hpp"
+#include "examples/glaze.hpp"
+#include "examples/light.hpp"
+#include "examples/noise.hpp"
+#include "examples/ray_caster.hpp"
+#include "examples/still_life.hpp"
 
 namespace tureen::example {
 namespace generator_test {

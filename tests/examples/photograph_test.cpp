@@ -1,5 +1,5 @@
 // The photographs that the example is trained from.
-#include "photograph.hpp"
+#include "examples/photograph.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,14 +10,14 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "curve.hpp"
+#include "examples/curve.hpp"
+#include "examples/nerf_synthetic.hpp"
+#include "examples/parallel.hpp"
+#include "examples/shapes.hpp"
+#include "examples/still_life.hpp"
 #include "formats/dataset.hpp"
 #include "formats/output.hpp"
 #include "formats/png.hpp"
-#include "nerf_synthetic.hpp"
-#include "parallel.hpp"
-#include "shapes.hpp"
-#include "still_life.hpp"
 
 namespace tureen::example {
 namespace photograph_test {

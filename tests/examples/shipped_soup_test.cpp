@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <glm/common.hpp>
 
+#include "examples/nerf_synthetic.hpp"
+#include "examples/photograph.hpp"
+#include "examples/still_life.hpp"
 #include "formats/scene_file.hpp"
-#include "nerf_synthetic.hpp"
-#include "photograph.hpp"
 #include "runtime/oracle/oracle.hpp"
 #include "soup/lint.hpp"
 #include "soup/metrics.hpp"
-#include "still_life.hpp"
 
 namespace tureen {
 namespace shipped_soup_test {

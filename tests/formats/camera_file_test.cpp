@@ -8,9 +8,9 @@
 #include <glm/matrix.hpp>
 #include <random>
 
-#include "formats/dataset_fixture.hpp"
-#include "formats/format_testing.hpp"
-#include "formats/truncation.hpp"
+#include "tests/formats/dataset_fixture.hpp"
+#include "tests/formats/format_testing.hpp"
+#include "tests/formats/truncation.hpp"
 
 namespace tureen {
 namespace camera_file_test {

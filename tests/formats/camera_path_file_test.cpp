@@ -4,9 +4,9 @@
 #include <cstring>
 
 #include "formats/camera_file.hpp"
-#include "formats/format_testing.hpp"
-#include "formats/truncation.hpp"
-#include "support/random.hpp"
+#include "tests/formats/format_testing.hpp"
+#include "tests/formats/truncation.hpp"
+#include "tests/support/random.hpp"
 
 namespace tureen {
 namespace camera_path_file_test {

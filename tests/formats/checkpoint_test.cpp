@@ -5,10 +5,10 @@
 #include <cmath>
 #include <random>
 
-#include "formats/torch_fixture.hpp"
-#include "formats/truncation.hpp"
 #include "soup/lattice.hpp"
-#include "support/errors.hpp"
+#include "tests/formats/torch_fixture.hpp"
+#include "tests/formats/truncation.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace checkpoint_test {

@@ -5,9 +5,9 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "formats/dataset_fixture.hpp"
-#include "formats/format_testing.hpp"
-#include "formats/truncation.hpp"
+#include "tests/formats/dataset_fixture.hpp"
+#include "tests/formats/format_testing.hpp"
+#include "tests/formats/truncation.hpp"
 
 namespace tureen {
 namespace colmap_test {

@@ -4,10 +4,10 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "formats/dataset_fixture.hpp"
-#include "formats/format_testing.hpp"
-#include "formats/truncation.hpp"
 #include "soup/box_scale.hpp"
+#include "tests/formats/dataset_fixture.hpp"
+#include "tests/formats/format_testing.hpp"
+#include "tests/formats/truncation.hpp"
 
 namespace tureen {
 namespace dataset_test {

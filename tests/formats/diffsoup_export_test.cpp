@@ -9,12 +9,12 @@
 #include <span>
 
 #include "formats/diffsoup_mesh.hpp"
-#include "formats/format_testing.hpp"
 #include "formats/output.hpp"
 #include "formats/png.hpp"
-#include "formats/png_sums.hpp"
-#include "formats/truncation.hpp"
 #include "soup/lattice.hpp"
+#include "tests/formats/format_testing.hpp"
+#include "tests/formats/png_sums.hpp"
+#include "tests/formats/truncation.hpp"
 
 namespace tureen {
 namespace diffsoup_export_test {

@@ -11,7 +11,7 @@
 
 #include "formats/input.hpp"
 #include "soup/scene.hpp"
-#include "support/errors.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen::test {
 

@@ -16,10 +16,10 @@
 
 #include "formats/output.hpp"
 #include "formats/png.hpp"
-#include "formats/truncation.hpp"
 #include "formats/tureen_glb.hpp"
 #include "soup/srgb.hpp"
-#include "support/errors.hpp"
+#include "tests/formats/truncation.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace gltf_test {

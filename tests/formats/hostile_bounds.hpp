@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "formats/format_testing.hpp"
 #include "formats/memory_budget.hpp"
-#include "formats/memory_limit.hpp"
-#include "formats/memory_meter.hpp"
+#include "tests/formats/format_testing.hpp"
+#include "tests/formats/memory_limit.hpp"
+#include "tests/formats/memory_meter.hpp"
 
 namespace tureen::test {
 

@@ -10,10 +10,10 @@
 #include <set>
 #include <string>
 
-#include "formats/format_testing.hpp"
-#include "formats/hostile_bounds.hpp"
 #include "formats/png.hpp"
 #include "formats/scene_file.hpp"
+#include "tests/formats/format_testing.hpp"
+#include "tests/formats/hostile_bounds.hpp"
 
 namespace tureen {
 namespace hostile_files_test {

@@ -10,15 +10,15 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "formats/dataset_fixture.hpp"
-#include "formats/hostile_bounds.hpp"
 #include "formats/json_file.hpp"
 #include "formats/json_view.hpp"
 #include "formats/scene_file.hpp"
-#include "fuzz/fixtures.hpp"
-#include "fuzz/folder_files.hpp"
-#include "fuzz/targets.hpp"
-#include "support/errors.hpp"
+#include "tests/formats/dataset_fixture.hpp"
+#include "tests/formats/hostile_bounds.hpp"
+#include "tests/fuzz/fixtures.hpp"
+#include "tests/fuzz/folder_files.hpp"
+#include "tests/fuzz/targets.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace hostile_json_test {

@@ -12,20 +12,20 @@
 #include <utility>
 
 #include "formats/checkpoint.hpp"
-#include "formats/dataset_fixture.hpp"
-#include "formats/hostile_bounds.hpp"
 #include "formats/off.hpp"
 #include "formats/ply.hpp"
 #include "formats/scene_file.hpp"
 #include "formats/slim_geometry.hpp"
 #include "formats/slim_texels.hpp"
-#include "formats/torch_fixture.hpp"
-#include "formats/tureen_glb_kinds.hpp"
 #include "formats/zip_archive.hpp"
-#include "fuzz/fixtures.hpp"
-#include "fuzz/folder_files.hpp"
-#include "fuzz/targets.hpp"
-#include "support/errors.hpp"
+#include "tests/formats/dataset_fixture.hpp"
+#include "tests/formats/hostile_bounds.hpp"
+#include "tests/formats/torch_fixture.hpp"
+#include "tests/formats/tureen_glb_kinds.hpp"
+#include "tests/fuzz/fixtures.hpp"
+#include "tests/fuzz/folder_files.hpp"
+#include "tests/fuzz/targets.hpp"
+#include "tests/support/errors.hpp"
 #include "trainer/model.hpp"
 
 namespace tureen {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "formats/png.hpp"
-#include "fuzz/fixtures.hpp"
-#include "support/errors.hpp"
+#include "tests/fuzz/fixtures.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace jpeg_tables_test {

@@ -1,4 +1,4 @@
-#include "formats/memory_meter.hpp"
+#include "tests/formats/memory_meter.hpp"
 
 #include <atomic>
 #include <cstdlib>

@@ -4,12 +4,12 @@
 #include <cstring>
 
 #include "formats/decoder_memory.hpp"
-#include "formats/format_testing.hpp"
 #include "formats/memory_budget.hpp"
-#include "formats/memory_limit.hpp"
 #include "formats/png.hpp"
-#include "fuzz/fixtures.hpp"
-#include "fuzz/targets.hpp"
+#include "tests/formats/format_testing.hpp"
+#include "tests/formats/memory_limit.hpp"
+#include "tests/fuzz/fixtures.hpp"
+#include "tests/fuzz/targets.hpp"
 
 namespace tureen {
 namespace memory_test {

@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "formats/format_testing.hpp"
 #include "formats/obj.hpp"
 #include "formats/png.hpp"
 #include "formats/scene_file.hpp"
-#include "formats/truncation.hpp"
+#include "tests/formats/format_testing.hpp"
+#include "tests/formats/truncation.hpp"
 
 namespace tureen {
 namespace mobilenerf_test {

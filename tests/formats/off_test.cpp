@@ -8,9 +8,9 @@
 #include <random>
 #include <string>
 
-#include "formats/format_testing.hpp"
-#include "formats/truncation.hpp"
 #include "soup/spherical_harmonics.hpp"
+#include "tests/formats/format_testing.hpp"
+#include "tests/formats/truncation.hpp"
 
 namespace tureen {
 namespace off_test {

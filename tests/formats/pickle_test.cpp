@@ -2,9 +2,9 @@
 
 #include <gmock/gmock.h>
 
-#include "formats/format_testing.hpp"
-#include "formats/torch_fixture.hpp"
-#include "formats/truncation.hpp"
+#include "tests/formats/format_testing.hpp"
+#include "tests/formats/torch_fixture.hpp"
+#include "tests/formats/truncation.hpp"
 
 namespace tureen {
 namespace pickle_test {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "formats/format_testing.hpp"
+#include "tests/formats/format_testing.hpp"
 
 namespace tureen {
 namespace ply_header_test {

@@ -14,8 +14,8 @@
 #include <string>
 #include <utility>
 
-#include "formats/format_testing.hpp"
-#include "formats/truncation.hpp"
+#include "tests/formats/format_testing.hpp"
+#include "tests/formats/truncation.hpp"
 
 namespace tureen {
 namespace ply_test {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "soup/error.hpp"
-#include "support/errors.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace png_test {

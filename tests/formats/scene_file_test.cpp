@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "formats/format_testing.hpp"
+#include "tests/formats/format_testing.hpp"
 
 namespace tureen {
 namespace scene_file_test {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/utf8.hpp"
-#include "support/errors.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace shown_text_test {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "formats/random_scene.hpp"
 #include "soup/lattice.hpp"
+#include "tests/formats/random_scene.hpp"
 
 namespace tureen {
 namespace slim_basis_test {

@@ -7,9 +7,9 @@
 #include <limits>
 #include <random>
 
-#include "formats/random_scene.hpp"
-#include "formats/truncation.hpp"
 #include "soup/error.hpp"
+#include "tests/formats/random_scene.hpp"
+#include "tests/formats/truncation.hpp"
 
 namespace tureen {
 namespace slim_geometry_test {

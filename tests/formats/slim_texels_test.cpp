@@ -6,9 +6,9 @@
 
 #include <random>
 
-#include "formats/random_scene.hpp"
-#include "formats/truncation.hpp"
 #include "soup/lattice.hpp"
+#include "tests/formats/random_scene.hpp"
+#include "tests/formats/truncation.hpp"
 
 namespace tureen {
 namespace slim_texels_test {

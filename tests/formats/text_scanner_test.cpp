@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/format_testing.hpp"
+#include "tests/formats/format_testing.hpp"
 
 namespace tureen {
 namespace text_scanner_test {

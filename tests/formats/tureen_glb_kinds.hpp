@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "formats/input.hpp"
-#include "formats/random_scene.hpp"
 #include "formats/tureen_glb.hpp"
+#include "tests/formats/random_scene.hpp"
 
 namespace tureen::test {
 

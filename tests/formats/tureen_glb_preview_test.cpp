@@ -8,11 +8,11 @@
 #include <functional>
 #include <stdexcept>
 
-#include "formats/truncation.hpp"
-#include "formats/tureen_glb_kinds.hpp"
 #include "formats/tureen_glb_slim.hpp"
 #include "soup/mean_color.hpp"
-#include "support/errors.hpp"
+#include "tests/formats/truncation.hpp"
+#include "tests/formats/tureen_glb_kinds.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace tureen_glb_preview_test {

@@ -9,11 +9,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "formats/random_scene.hpp"
-#include "formats/truncation.hpp"
 #include "formats/tureen_glb.hpp"
-#include "formats/tureen_glb_kinds.hpp"
-#include "support/errors.hpp"
+#include "tests/formats/random_scene.hpp"
+#include "tests/formats/truncation.hpp"
+#include "tests/formats/tureen_glb_kinds.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace tureen_glb_slim_test {

@@ -11,12 +11,12 @@
 #include <set>
 
 #include "formats/memory_budget.hpp"
-#include "formats/truncation.hpp"
-#include "formats/tureen_glb_kinds.hpp"
 #include "soup/edits.hpp"
 #include "soup/mean_color.hpp"
 #include "soup/srgb.hpp"
-#include "support/errors.hpp"
+#include "tests/formats/truncation.hpp"
+#include "tests/formats/tureen_glb_kinds.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace tureen_glb_test {

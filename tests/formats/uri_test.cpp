@@ -7,7 +7,7 @@
 #include <fstream>
 #include <functional>
 
-#include "support/errors.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace uri_test {

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <memory>
 
-#include "formats/format_testing.hpp"
 #include "soup/error.hpp"
+#include "tests/formats/format_testing.hpp"
 
 namespace tureen {
 namespace video_file_test {

@@ -2,9 +2,9 @@
 
 #include <gmock/gmock.h>
 
-#include "formats/torch_fixture.hpp"
-#include "formats/truncation.hpp"
-#include "support/errors.hpp"
+#include "tests/formats/torch_fixture.hpp"
+#include "tests/formats/truncation.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace zip_archive_test {

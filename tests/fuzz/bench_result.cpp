@@ -1,7 +1,7 @@
 // A result of `tureen bench`, which --against reads.
 #include "cli/bench_result.hpp"
 
-#include "fuzz/targets.hpp"
+#include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {
 

@@ -1,6 +1,6 @@
 // A camera path of ours.
 #include "formats/camera_file.hpp"
-#include "fuzz/targets.hpp"
+#include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {
 

@@ -1,6 +1,6 @@
 // Camera files in JSON: ours, transforms.json, and that of 3D Gaussian Splatting.
 #include "formats/camera_file.hpp"
-#include "fuzz/targets.hpp"
+#include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {
 

@@ -1,7 +1,7 @@
 // A checkpoint by torch: the zip archive, the pickle in it, its tensors.
 #include "formats/checkpoint.hpp"
 
-#include "fuzz/scratch.hpp"
+#include "tests/fuzz/scratch.hpp"
 
 namespace tureen::fuzz {
 

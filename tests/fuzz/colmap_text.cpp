@@ -1,6 +1,6 @@
 // COLMAP's text files. The first byte says which of the three.
 #include "formats/colmap.hpp"
-#include "fuzz/targets.hpp"
+#include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {
 

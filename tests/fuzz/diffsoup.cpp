@@ -1,7 +1,7 @@
 // One file of a DiffSoup export beside valid others; the first byte says which.
 #include "formats/diffsoup_export.hpp"
-#include "fuzz/folder_files.hpp"
-#include "fuzz/scratch.hpp"
+#include "tests/fuzz/folder_files.hpp"
+#include "tests/fuzz/scratch.hpp"
 
 namespace tureen::fuzz {
 

@@ -4,8 +4,8 @@
 #include <cstdlib>
 
 #include "formats/memory_budget.hpp"
-#include "fuzz/targets.hpp"
 #include "soup/error.hpp"
+#include "tests/fuzz/targets.hpp"
 
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
   // Far beyond what a valid input of some kilobytes takes, and far below what run.sh allows: who

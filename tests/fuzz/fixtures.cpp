@@ -1,4 +1,4 @@
-#include "fuzz/fixtures.hpp"
+#include "tests/fuzz/fixtures.hpp"
 
 #include <zlib.h>
 
@@ -8,17 +8,17 @@
 #include "cli/bench_result.hpp"
 #include "cli/web_bench.hpp"
 #include "formats/camera_file.hpp"
-#include "formats/dataset_fixture.hpp"
 #include "formats/off.hpp"
 #include "formats/ply.hpp"
 #include "formats/slim_geometry.hpp"
 #include "formats/slim_texels.hpp"
-#include "formats/torch_fixture.hpp"
-#include "formats/tureen_glb_kinds.hpp"
 #include "formats/tureen_glb_slim.hpp"
-#include "fuzz/folder_files.hpp"
+#include "tests/formats/dataset_fixture.hpp"
+#include "tests/formats/torch_fixture.hpp"
+#include "tests/formats/tureen_glb_kinds.hpp"
+#include "tests/fuzz/folder_files.hpp"
+#include "tests/trainer/random_model.hpp"
 #include "trainer/checkpoint.hpp"
-#include "trainer/random_model.hpp"
 #include "viewer/session.hpp"
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION

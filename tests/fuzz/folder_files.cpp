@@ -1,4 +1,4 @@
-#include "fuzz/folder_files.hpp"
+#include "tests/fuzz/folder_files.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -6,7 +6,7 @@
 #include "formats/diffsoup_export.hpp"
 #include "formats/input.hpp"
 #include "formats/png.hpp"
-#include "formats/random_scene.hpp"
+#include "tests/formats/random_scene.hpp"
 
 namespace tureen::fuzz {
 

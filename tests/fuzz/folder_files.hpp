@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "fuzz/scratch.hpp"
+#include "tests/fuzz/scratch.hpp"
 
 namespace tureen::fuzz {
 

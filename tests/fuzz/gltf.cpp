@@ -1,7 +1,7 @@
 // A .glb or .gltf: ours with all its kinds, and everybody else's.
 #include "formats/gltf.hpp"
 
-#include "fuzz/scratch.hpp"
+#include "tests/fuzz/scratch.hpp"
 
 namespace tureen::fuzz {
 

@@ -1,8 +1,8 @@
 // A PNG or a JPEG. The chunks of a PNG get the checksums that their bytes have, which no fuzzer
 // would find; that others are refused is in tests/formats/png_test.cpp.
 #include "formats/png.hpp"
-#include "formats/png_sums.hpp"
-#include "fuzz/targets.hpp"
+#include "tests/formats/png_sums.hpp"
+#include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {
 

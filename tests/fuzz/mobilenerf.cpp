@@ -1,8 +1,8 @@
 // One file of a MobileNeRF scene beside valid others; the first byte says which.
 #include "formats/mobilenerf.hpp"
 
-#include "fuzz/folder_files.hpp"
-#include "fuzz/scratch.hpp"
+#include "tests/fuzz/folder_files.hpp"
+#include "tests/fuzz/scratch.hpp"
 
 namespace tureen::fuzz {
 

@@ -1,7 +1,7 @@
 // The OBJ of a MobileNeRF shape.
 #include "formats/obj.hpp"
 
-#include "fuzz/targets.hpp"
+#include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {
 

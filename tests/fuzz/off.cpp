@@ -1,7 +1,7 @@
 // An OFF or COFF.
 #include "formats/off.hpp"
 
-#include "fuzz/scratch.hpp"
+#include "tests/fuzz/scratch.hpp"
 
 namespace tureen::fuzz {
 

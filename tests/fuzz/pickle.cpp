@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "fuzz/targets.hpp"
+#include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {
 

@@ -1,7 +1,7 @@
 // A PLY, text or binary of either byte order.
 #include "formats/ply.hpp"
 
-#include "fuzz/scratch.hpp"
+#include "tests/fuzz/scratch.hpp"
 
 namespace tureen::fuzz {
 

@@ -1,6 +1,6 @@
 // The first bytes of a GLB of ours, while it arrives.
 #include "formats/tureen_glb_preview.hpp"
-#include "fuzz/scratch.hpp"
+#include "tests/fuzz/scratch.hpp"
 
 namespace tureen::fuzz {
 

@@ -1,4 +1,4 @@
-#include "fuzz/scratch.hpp"
+#include "tests/fuzz/scratch.hpp"
 
 #include <unistd.h>
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "fuzz/targets.hpp"
 #include "soup/scene.hpp"
+#include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "formats/output.hpp"
-#include "fuzz/fixtures.hpp"
+#include "tests/fuzz/fixtures.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 2) {

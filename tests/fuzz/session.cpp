@@ -1,7 +1,7 @@
 // A session of the window.
 #include "viewer/session.hpp"
 
-#include "fuzz/scratch.hpp"
+#include "tests/fuzz/scratch.hpp"
 
 namespace tureen::fuzz {
 

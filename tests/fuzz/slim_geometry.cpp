@@ -1,7 +1,7 @@
 // The coded triangles of a slim file. The first two bytes are the numbers of faces and vertices.
 #include "formats/slim_geometry.hpp"
 
-#include "fuzz/targets.hpp"
+#include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {
 

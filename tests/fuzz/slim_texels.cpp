@@ -1,7 +1,7 @@
 // The coded texels of a slim file. The first byte is the number of faces.
 #include "formats/slim_texels.hpp"
 
-#include "fuzz/targets.hpp"
+#include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {
 

@@ -12,7 +12,7 @@ using Bytes = std::span<const std::byte>;
 // Each reads what the bytes hold, or throws InputError. Anything else is a fault: another
 // exception, a scene with a defect, a crash.
 #define TARGET(name) void name(Bytes bytes);
-#include "fuzz/targets.def"
+#include "tests/fuzz/targets.def"
 #undef TARGET
 
 struct Target {
@@ -23,7 +23,7 @@ struct Target {
 /// All of them by name.
 inline constexpr Target targets[] = {
 #define TARGET(name) {#name, name},
-#include "fuzz/targets.def"
+#include "tests/fuzz/targets.def"
 #undef TARGET
 };
 

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <vector>
 
-#include "fuzz/targets.hpp"
+#include "tests/fuzz/targets.hpp"
 #include "trainer/checkpoint.hpp"
 
 namespace tureen::fuzz {

@@ -1,5 +1,5 @@
 // The configuration of a training run.
-#include "fuzz/targets.hpp"
+#include "tests/fuzz/targets.hpp"
 #include "trainer/config_file.hpp"
 
 namespace tureen::fuzz {

@@ -1,7 +1,7 @@
 // The log of a training run.
 #include "cli/training_log.hpp"
 
-#include "fuzz/scratch.hpp"
+#include "tests/fuzz/scratch.hpp"
 
 namespace tureen::fuzz {
 

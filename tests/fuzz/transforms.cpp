@@ -1,7 +1,7 @@
 // A dataset by its transforms.json, beside one picture.
 #include "formats/dataset.hpp"
 #include "formats/png.hpp"
-#include "fuzz/scratch.hpp"
+#include "tests/fuzz/scratch.hpp"
 
 namespace tureen::fuzz {
 

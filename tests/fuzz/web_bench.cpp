@@ -1,7 +1,7 @@
 // What bench.html measured in a browser.
 #include "cli/web_bench.hpp"
 
-#include "fuzz/targets.hpp"
+#include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "formats/zip_archive.hpp"
-#include "fuzz/targets.hpp"
+#include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "numerics/recorder.hpp"
-#include "numerics/scenes.hpp"
-#include "support/agreement.hpp"
-#include "support/random.hpp"
-#include "support/random_soups.hpp"
+#include "tests/numerics/recorder.hpp"
+#include "tests/numerics/scenes.hpp"
+#include "tests/support/agreement.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen::test {
 namespace camera_test {

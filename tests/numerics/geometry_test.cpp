@@ -11,19 +11,19 @@
 #include <string>
 #include <vector>
 
-#include "numerics/recorder.hpp"
-#include "numerics/scenes.hpp"
-#include "numerics/vertex_probe.hpp"
 #include "runtime/inspector.hpp"
 #include "runtime/oracle/hits.hpp"
 #include "runtime/renderer.hpp"
 #include "soup/lint.hpp"
-#include "support/agreement.hpp"
-#include "support/random.hpp"
+#include "tests/numerics/recorder.hpp"
+#include "tests/numerics/scenes.hpp"
+#include "tests/numerics/vertex_probe.hpp"
+#include "tests/support/agreement.hpp"
+#include "tests/support/random.hpp"
+#include "tests/trainer/stages.hpp"
 #include "trainer/backend.hpp"
 #include "trainer/cuda/device_picture.hpp"
 #include "trainer/kernels/fragments.hpp"
-#include "trainer/stages.hpp"
 
 namespace tureen::test {
 namespace geometry_test {

@@ -4,14 +4,14 @@
 #include <cstdint>
 #include <string>
 
-#include "numerics/recorder.hpp"
-#include "numerics/scenes.hpp"
 #include "runtime/fragment_store.hpp"
 #include "runtime/geometry.hpp"
 #include "runtime/gl/program.hpp"
 #include "runtime/gl/state.hpp"
 #include "runtime/shader_source.hpp"
-#include "support/shader_probe.hpp"
+#include "tests/numerics/recorder.hpp"
+#include "tests/numerics/scenes.hpp"
+#include "tests/support/shader_probe.hpp"
 #include "trainer/cuda/device_picture.hpp"
 
 namespace tureen::test {

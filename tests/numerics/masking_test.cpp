@@ -6,12 +6,12 @@
 #include <numeric>
 #include <vector>
 
-#include "numerics/recorder.hpp"
-#include "numerics/scenes.hpp"
-#include "support/random.hpp"
+#include "tests/numerics/recorder.hpp"
+#include "tests/numerics/scenes.hpp"
+#include "tests/support/random.hpp"
+#include "tests/trainer/stages.hpp"
 #include "trainer/kernels/random.hpp"
 #include "trainer/kernels/score.hpp"
-#include "trainer/stages.hpp"
 
 namespace tureen::test {
 namespace masking_test {

@@ -11,14 +11,14 @@
 #include <string>
 #include <vector>
 
-#include "numerics/recorder.hpp"
-#include "numerics/scenes.hpp"
 #include "runtime/oracle/hits.hpp"
 #include "runtime/oracle/shade.hpp"
 #include "runtime/renderer.hpp"
-#include "support/agreement.hpp"
-#include "support/random.hpp"
-#include "support/shader_probe.hpp"
+#include "tests/numerics/recorder.hpp"
+#include "tests/numerics/scenes.hpp"
+#include "tests/support/agreement.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/shader_probe.hpp"
 
 namespace tureen::test {
 namespace needles_test {

@@ -11,13 +11,13 @@
 #include <numeric>
 #include <vector>
 
-#include "numerics/recorder.hpp"
-#include "numerics/scenes.hpp"
-#include "support/random.hpp"
+#include "tests/numerics/recorder.hpp"
+#include "tests/numerics/scenes.hpp"
+#include "tests/support/random.hpp"
+#include "tests/trainer/host_machine.hpp"
 #include "trainer/cpu/image_loss.hpp"
 #include "trainer/cuda/kernel.hpp"
 #include "trainer/cuda/kernel_backend.hpp"
-#include "trainer/host_machine.hpp"
 #include "trainer/kernels/adam.hpp"
 #include "trainer/kernels/color_network.hpp"
 #include "trainer/kernels/image_loss.hpp"

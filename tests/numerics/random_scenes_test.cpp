@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "numerics/recorder.hpp"
-#include "numerics/scenes.hpp"
 #include "soup/quantise.hpp"
 #include "soup/scene.hpp"
-#include "support/agreement.hpp"
-#include "support/hazardous_scenes.hpp"
+#include "tests/numerics/recorder.hpp"
+#include "tests/numerics/scenes.hpp"
+#include "tests/support/agreement.hpp"
+#include "tests/support/hazardous_scenes.hpp"
+#include "tests/trainer/stages.hpp"
 #include "trainer/backend.hpp"
-#include "trainer/stages.hpp"
 
 namespace tureen::test {
 namespace random_scenes_test {

@@ -1,4 +1,4 @@
-#include "numerics/recorder.hpp"
+#include "tests/numerics/recorder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "support/measured.hpp"
+#include "tests/support/measured.hpp"
 
 namespace tureen::test {
 

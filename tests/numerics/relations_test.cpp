@@ -10,13 +10,13 @@
 #include <numeric>
 #include <vector>
 
-#include "numerics/recorder.hpp"
-#include "numerics/scenes.hpp"
 #include "runtime/oracle/oracle.hpp"
 #include "soup/lattice.hpp"
-#include "support/agreement.hpp"
-#include "support/random.hpp"
-#include "support/random_soups.hpp"
+#include "tests/numerics/recorder.hpp"
+#include "tests/numerics/scenes.hpp"
+#include "tests/support/agreement.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen::test {
 namespace relations_test {

@@ -1,4 +1,4 @@
-#include "numerics/scenes.hpp"
+#include "tests/numerics/scenes.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -9,8 +9,8 @@
 
 #include "runtime/oracle/oracle.hpp"
 #include "runtime/oracle/shade.hpp"
-#include "support/contexts.hpp"
-#include "trainer/stages.hpp"
+#include "tests/support/contexts.hpp"
+#include "tests/trainer/stages.hpp"
 
 namespace tureen::test {
 

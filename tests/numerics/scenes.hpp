@@ -11,7 +11,7 @@
 #include "runtime/oracle/hits.hpp"
 #include "soup/camera.hpp"
 #include "soup/triangle_soup.hpp"
-#include "support/agreement.hpp"
+#include "tests/support/agreement.hpp"
 
 namespace tureen::test {
 

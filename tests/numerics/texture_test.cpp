@@ -12,18 +12,18 @@
 #include <vector>
 
 #include "formats/png.hpp"
-#include "numerics/half_network.hpp"
-#include "numerics/recorder.hpp"
-#include "numerics/scenes.hpp"
 #include "runtime/color_mlp_source.hpp"
 #include "runtime/renderer.hpp"
 #include "soup/lattice.hpp"
 #include "soup/quantise.hpp"
 #include "soup/srgb.hpp"
-#include "support/agreement.hpp"
-#include "support/random.hpp"
-#include "support/random_soups.hpp"
-#include "support/shader_probe.hpp"
+#include "tests/numerics/half_network.hpp"
+#include "tests/numerics/recorder.hpp"
+#include "tests/numerics/scenes.hpp"
+#include "tests/support/agreement.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/random_soups.hpp"
+#include "tests/support/shader_probe.hpp"
 #include "trainer/kernels/scalar.hpp"
 
 namespace tureen::test {

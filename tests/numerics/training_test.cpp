@@ -12,14 +12,14 @@
 #include <span>
 #include <vector>
 
-#include "numerics/recorder.hpp"
-#include "numerics/scenes.hpp"
-#include "support/random.hpp"
+#include "tests/numerics/recorder.hpp"
+#include "tests/numerics/scenes.hpp"
+#include "tests/support/random.hpp"
+#include "tests/trainer/host_machine.hpp"
+#include "tests/trainer/random_model.hpp"
 #include "trainer/cuda/kernel_backend.hpp"
-#include "trainer/host_machine.hpp"
 #include "trainer/kernels/adam.hpp"
 #include "trainer/kernels/color_network.hpp"
-#include "trainer/random_model.hpp"
 #include "trainer/trainer.hpp"
 
 namespace tureen::test {

@@ -1,9 +1,9 @@
-#include "numerics/vertex_probe.hpp"
+#include "tests/numerics/vertex_probe.hpp"
 
-#include "numerics/scenes.hpp"
 #include "runtime/geometry.hpp"
 #include "runtime/gl/api.hpp"
 #include "runtime/shader_source.hpp"
+#include "tests/numerics/scenes.hpp"
 
 namespace tureen::test {
 

@@ -9,18 +9,18 @@
 #include <string>
 #include <vector>
 
-#include "numerics/recorder.hpp"
-#include "numerics/scenes.hpp"
 #include "runtime/geometry.hpp"
 #include "runtime/oracle/hits.hpp"
 #include "runtime/oracle/shade.hpp"
 #include "runtime/texel_store.hpp"
 #include "soup/lattice.hpp"
 #include "soup/spherical_harmonics.hpp"
-#include "support/agreement.hpp"
-#include "support/random.hpp"
-#include "support/random_soups.hpp"
-#include "support/shader_probe.hpp"
+#include "tests/numerics/recorder.hpp"
+#include "tests/numerics/scenes.hpp"
+#include "tests/support/agreement.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/random_soups.hpp"
+#include "tests/support/shader_probe.hpp"
 
 namespace tureen::test {
 namespace view_direction_test {

@@ -9,9 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "numerics/half_network.hpp"
-#include "numerics/recorder.hpp"
-#include "numerics/scenes.hpp"
 #include "runtime/color_mlp_source.hpp"
 #include "runtime/prepared_soup.hpp"
 #include "runtime/render_options.hpp"
@@ -19,14 +16,17 @@
 #include "soup/lattice.hpp"
 #include "soup/quantise.hpp"
 #include "soup/spherical_harmonics.hpp"
-#include "support/agreement.hpp"
-#include "support/random.hpp"
-#include "support/random_soups.hpp"
-#include "support/shader_probe.hpp"
+#include "tests/numerics/half_network.hpp"
+#include "tests/numerics/recorder.hpp"
+#include "tests/numerics/scenes.hpp"
+#include "tests/support/agreement.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/random_soups.hpp"
+#include "tests/support/shader_probe.hpp"
+#include "tests/trainer/host_machine.hpp"
+#include "tests/trainer/stages.hpp"
 #include "trainer/cuda/kernel_backend.hpp"
-#include "trainer/host_machine.hpp"
 #include "trainer/kernels/color_network.hpp"
-#include "trainer/stages.hpp"
 
 namespace tureen::test {
 namespace weights_test {

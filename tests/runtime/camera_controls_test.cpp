@@ -13,7 +13,7 @@
 #include <limits>
 
 #include "runtime/camera_path.hpp"
-#include "support/random.hpp"
+#include "tests/support/random.hpp"
 
 namespace tureen {
 namespace camera_controls_test {

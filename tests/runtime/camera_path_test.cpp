@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "runtime/camera_spline.hpp"
-#include "support/random.hpp"
+#include "tests/support/random.hpp"
 
 namespace tureen {
 namespace camera_path_test {

@@ -10,8 +10,8 @@
 
 #include "runtime/face_alpha.hpp"
 #include "runtime/renderer.hpp"
-#include "support/contexts.hpp"
-#include "support/random_soups.hpp"
+#include "tests/support/contexts.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen::test {
 namespace covered_faces_test {

@@ -12,9 +12,9 @@
 #include "runtime/gl/program.hpp"
 #include "runtime/renderer.hpp"
 #include "soup/error.hpp"
-#include "support/contexts.hpp"
-#include "support/cutout_cloud.hpp"
-#include "support/errors.hpp"
+#include "tests/support/contexts.hpp"
+#include "tests/support/cutout_cloud.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen::test {
 namespace device_faults_test {

@@ -4,9 +4,9 @@
 
 #include "runtime/renderer.hpp"
 #include "runtime/texel_store.hpp"
-#include "support/contexts.hpp"
-#include "support/cutout_cloud.hpp"
-#include "support/random_soups.hpp"
+#include "tests/support/contexts.hpp"
+#include "tests/support/cutout_cloud.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen {
 namespace device_forecast_test {

@@ -5,8 +5,8 @@
 #include "runtime/device_forecast.hpp"
 #include "runtime/renderer.hpp"
 #include "soup/edits.hpp"
-#include "support/agreement.hpp"
-#include "support/random_soups.hpp"
+#include "tests/support/agreement.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen {
 namespace edits_agreement_test {

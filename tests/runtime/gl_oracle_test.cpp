@@ -8,10 +8,10 @@
 
 #include <string>
 
-#include "support/agreement.hpp"
-#include "support/contexts.hpp"
-#include "support/cutout_cloud.hpp"
-#include "support/random_soups.hpp"
+#include "tests/support/agreement.hpp"
+#include "tests/support/contexts.hpp"
+#include "tests/support/cutout_cloud.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen {
 namespace gl_oracle_test {

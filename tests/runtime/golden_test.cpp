@@ -1,15 +1,15 @@
 // Approved pictures of small soups of every appearance, on every context that we run on. The plain
 // goldens pin the ordinary depth range, so that contexts with and without clip control agree; one
 // golden has reversed depth.
-#include "support/golden.hpp"
+#include "tests/support/golden.hpp"
 
 #include <gtest/gtest.h>
 
 #include "formats/scene_file.hpp"
 #include "runtime/inspector.hpp"
 #include "runtime/renderer.hpp"
-#include "support/contexts.hpp"
-#include "support/golden_scenes.hpp"
+#include "tests/support/contexts.hpp"
+#include "tests/support/golden_scenes.hpp"
 
 namespace tureen::test {
 namespace golden_test {

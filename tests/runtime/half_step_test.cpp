@@ -9,10 +9,10 @@
 #include <numeric>
 
 #include "runtime/lattice_traits.hpp"
-#include "runtime/specialised_pictures.hpp"
 #include "runtime/view_dependence.hpp"
 #include "soup/lattice.hpp"
 #include "soup/spherical_harmonics.hpp"
+#include "tests/runtime/specialised_pictures.hpp"
 
 namespace tureen::test {
 namespace half_step_test {

@@ -17,9 +17,9 @@
 #include "runtime/renderer.hpp"
 #include "soup/error.hpp"
 #include "soup/lattice.hpp"
-#include "support/contexts.hpp"
-#include "support/errors.hpp"
-#include "support/random_soups.hpp"
+#include "tests/support/contexts.hpp"
+#include "tests/support/errors.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen::test {
 namespace inspection_test {

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "runtime/oracle/hits.hpp"
-#include "support/random_soups.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen {
 namespace oracle_geometry_test {

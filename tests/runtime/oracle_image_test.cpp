@@ -9,8 +9,8 @@
 
 #include "runtime/oracle/oracle.hpp"
 #include "runtime/oracle/shade.hpp"
-#include "support/cutout_cloud.hpp"
-#include "support/random_soups.hpp"
+#include "tests/support/cutout_cloud.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen {
 namespace oracle_image_test {

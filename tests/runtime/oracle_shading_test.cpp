@@ -9,7 +9,7 @@
 #include "runtime/oracle/uv_sampling.hpp"
 #include "soup/lattice.hpp"
 #include "soup/spherical_harmonics.hpp"
-#include "support/random_soups.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen {
 namespace oracle_shading_test {

@@ -8,9 +8,9 @@
 #include "runtime/copy_ceiling.hpp"
 #include "runtime/gl/timer_query.hpp"
 #include "runtime/navigation.hpp"
-#include "support/contexts.hpp"
-#include "support/cutout_cloud.hpp"
-#include "support/errors.hpp"
+#include "tests/support/contexts.hpp"
+#include "tests/support/cutout_cloud.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace pass_times_test {

@@ -10,8 +10,8 @@
 
 #include "runtime/oracle/oracle.hpp"
 #include "soup/error.hpp"
-#include "support/contexts.hpp"
-#include "support/random_soups.hpp"
+#include "tests/support/contexts.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen::test {
 namespace picture_tiles_test {

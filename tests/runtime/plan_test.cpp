@@ -7,12 +7,12 @@
 #include <cmath>
 
 #include "runtime/face_alpha.hpp"
-#include "runtime/specialised_pictures.hpp"
 #include "soup/error.hpp"
 #include "soup/lattice.hpp"
 #include "soup/spherical_harmonics.hpp"
-#include "support/cutout_cloud.hpp"
-#include "support/errors.hpp"
+#include "tests/runtime/specialised_pictures.hpp"
+#include "tests/support/cutout_cloud.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen::test {
 namespace plan_test {

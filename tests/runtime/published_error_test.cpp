@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "soup/metrics.hpp"
-#include "support/agreement.hpp"
-#include "support/cutout_cloud.hpp"
+#include "tests/support/agreement.hpp"
+#include "tests/support/cutout_cloud.hpp"
 
 namespace tureen {
 namespace published_error_test {

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "runtime/renderer.hpp"
-#include "support/agreement.hpp"
-#include "support/contexts.hpp"
-#include "support/random_soups.hpp"
+#include "tests/support/agreement.hpp"
+#include "tests/support/contexts.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen {
 namespace quality_agreement_test {

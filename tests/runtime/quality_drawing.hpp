@@ -2,7 +2,7 @@
 #pragma once
 
 #include "runtime/renderer.hpp"
-#include "support/random_soups.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen::test {
 

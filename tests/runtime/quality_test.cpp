@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "runtime/gl/api.hpp"
-#include "runtime/quality_drawing.hpp"
 #include "soup/error.hpp"
-#include "support/contexts.hpp"
+#include "tests/runtime/quality_drawing.hpp"
+#include "tests/support/contexts.hpp"
 
 namespace tureen::test {
 namespace quality_test {

@@ -8,7 +8,7 @@
 #include "formats/scene_file.hpp"
 #include "runtime/navigation.hpp"
 #include "soup/metrics.hpp"
-#include "support/agreement.hpp"
+#include "tests/support/agreement.hpp"
 
 namespace tureen {
 namespace real_data_test {

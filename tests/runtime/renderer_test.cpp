@@ -9,10 +9,10 @@
 #include "runtime/gl/api.hpp"
 #include "soup/error.hpp"
 #include "soup/lattice.hpp"
-#include "support/contexts.hpp"
-#include "support/cutout_cloud.hpp"
-#include "support/errors.hpp"
-#include "support/random_soups.hpp"
+#include "tests/support/contexts.hpp"
+#include "tests/support/cutout_cloud.hpp"
+#include "tests/support/errors.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen::test {
 namespace renderer_test {

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <functional>
 
-#include "runtime/quality_drawing.hpp"
 #include "runtime/resampled_pipeline.hpp"
 #include "soup/error.hpp"
-#include "support/contexts.hpp"
-#include "support/errors.hpp"
+#include "tests/runtime/quality_drawing.hpp"
+#include "tests/support/contexts.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen::test {
 namespace resampling_test {

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <string>
 
-#include "formats/format_testing.hpp"
 #include "formats/scene_file.hpp"
-#include "support/agreement.hpp"
-#include "support/cutout_cloud.hpp"
-#include "support/random_soups.hpp"
+#include "tests/formats/format_testing.hpp"
+#include "tests/support/agreement.hpp"
+#include "tests/support/cutout_cloud.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen {
 namespace round_trip_test {

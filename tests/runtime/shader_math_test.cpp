@@ -11,9 +11,9 @@
 #include "soup/heat_map.hpp"
 #include "soup/lattice.hpp"
 #include "soup/spherical_harmonics.hpp"
-#include "support/contexts.hpp"
-#include "support/random.hpp"
-#include "support/shader_probe.hpp"
+#include "tests/support/contexts.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/shader_probe.hpp"
 
 namespace tureen::test {
 namespace shader_math_test {

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "runtime/quality_drawing.hpp"
 #include "soup/error.hpp"
-#include "support/contexts.hpp"
+#include "tests/runtime/quality_drawing.hpp"
+#include "tests/support/contexts.hpp"
 
 namespace tureen::test {
 namespace shading_stage_test {

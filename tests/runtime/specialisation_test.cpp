@@ -8,8 +8,8 @@
 #include <cctype>
 #include <limits>
 
-#include "runtime/specialised_pictures.hpp"
-#include "support/trait_soups.hpp"
+#include "tests/runtime/specialised_pictures.hpp"
+#include "tests/support/trait_soups.hpp"
 
 namespace tureen::test {
 namespace specialisation_test {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "runtime/renderer.hpp"
-#include "support/contexts.hpp"
-#include "support/random_soups.hpp"
+#include "tests/support/contexts.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen::test {
 

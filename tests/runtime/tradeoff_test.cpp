@@ -10,8 +10,8 @@
 #include "runtime/tradeoff/experiment.hpp"
 #include "runtime/tradeoff/pareto.hpp"
 #include "runtime/tradeoff/quality_settings.hpp"
-#include "support/errors.hpp"
-#include "support/random.hpp"
+#include "tests/support/errors.hpp"
+#include "tests/support/random.hpp"
 
 namespace tureen::tradeoff {
 namespace tradeoff_test {

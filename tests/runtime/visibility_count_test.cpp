@@ -9,8 +9,8 @@
 
 #include "soup/lattice.hpp"
 #include "soup/metrics.hpp"
-#include "support/agreement.hpp"
-#include "support/random_soups.hpp"
+#include "tests/support/agreement.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen {
 namespace visibility_count_test {

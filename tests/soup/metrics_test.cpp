@@ -9,7 +9,7 @@
 
 #include "soup/error.hpp"
 #include "soup/flip.hpp"
-#include "support/errors.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen {
 namespace metrics_test {

@@ -1,4 +1,4 @@
-#include "support/agreement.hpp"
+#include "tests/support/agreement.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "runtime/renderer.hpp"
-#include "support/evidence.hpp"
+#include "tests/support/evidence.hpp"
 
 namespace tureen::test {
 

@@ -1,4 +1,4 @@
-#include "support/cutout_cloud.hpp"
+#include "tests/support/cutout_cloud.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <string>
 
 #include "soup/lattice.hpp"
-#include "support/random.hpp"
-#include "support/random_soups.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen::test {
 

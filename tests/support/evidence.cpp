@@ -1,4 +1,4 @@
-#include "support/evidence.hpp"
+#include "tests/support/evidence.hpp"
 
 #include <algorithm>
 #include <cstdlib>

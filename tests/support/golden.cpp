@@ -1,4 +1,4 @@
-#include "support/golden.hpp"
+#include "tests/support/golden.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "formats/input.hpp"
 #include "formats/png.hpp"
-#include "support/evidence.hpp"
+#include "tests/support/evidence.hpp"
 
 namespace tureen::test {
 

@@ -1,4 +1,4 @@
-#include "support/golden_scenes.hpp"
+#include "tests/support/golden_scenes.hpp"
 
 #include <utility>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "soup/scene.hpp"
-#include "support/random_soups.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen::test {
 

@@ -1,4 +1,4 @@
-#include "support/hazardous_scenes.hpp"
+#include "tests/support/hazardous_scenes.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>

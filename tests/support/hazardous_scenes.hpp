@@ -9,7 +9,7 @@
 
 #include "soup/camera.hpp"
 #include "soup/triangle_soup.hpp"
-#include "support/random_soups.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen::test {
 

@@ -9,7 +9,7 @@
 
 #include "formats/scene_file.hpp"
 #include "soup/lattice.hpp"
-#include "support/cutout_cloud.hpp"
+#include "tests/support/cutout_cloud.hpp"
 
 namespace {
 

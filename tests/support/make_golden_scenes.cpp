@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "formats/scene_file.hpp"
-#include "support/golden_scenes.hpp"
+#include "tests/support/golden_scenes.hpp"
 
 namespace tureen::test {
 namespace {

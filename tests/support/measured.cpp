@@ -1,4 +1,4 @@
-#include "support/measured.hpp"
+#include "tests/support/measured.hpp"
 
 #include <gtest/gtest.h>
 

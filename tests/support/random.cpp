@@ -1,4 +1,4 @@
-#include "support/random.hpp"
+#include "tests/support/random.hpp"
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>

@@ -1,4 +1,4 @@
-#include "support/random_soups.hpp"
+#include "tests/support/random_soups.hpp"
 
 #include <algorithm>
 #include <cmath>

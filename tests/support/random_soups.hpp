@@ -9,7 +9,7 @@
 
 #include "soup/camera.hpp"
 #include "soup/triangle_soup.hpp"
-#include "support/random.hpp"
+#include "tests/support/random.hpp"
 
 namespace tureen::test {
 

@@ -1,4 +1,4 @@
-#include "support/trait_soups.hpp"
+#include "tests/support/trait_soups.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -5,7 +5,7 @@
 
 #include "runtime/specialisation.hpp"
 #include "soup/triangle_soup.hpp"
-#include "support/random_soups.hpp"
+#include "tests/support/random_soups.hpp"
 
 namespace tureen::test {
 

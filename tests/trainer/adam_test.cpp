@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-#include "support/random.hpp"
+#include "tests/support/random.hpp"
 
 namespace tureen::trainer {
 namespace adam_test {

@@ -1,4 +1,4 @@
-#include "trainer/backend_agreement.hpp"
+#include "tests/trainer/backend_agreement.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "support/random.hpp"
+#include "tests/support/random.hpp"
+#include "tests/trainer/random_model.hpp"
 #include "trainer/checkpoint.hpp"
-#include "trainer/random_model.hpp"
 #include "trainer/trainer.hpp"
 
 namespace tureen::trainer::test {

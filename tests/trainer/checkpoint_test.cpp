@@ -10,9 +10,9 @@
 #include <functional>
 #include <limits>
 
-#include "formats/truncation.hpp"
-#include "support/errors.hpp"
-#include "trainer/random_model.hpp"
+#include "tests/formats/truncation.hpp"
+#include "tests/support/errors.hpp"
+#include "tests/trainer/random_model.hpp"
 
 namespace tureen::trainer {
 namespace checkpoint_test {

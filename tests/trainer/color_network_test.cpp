@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "soup/spherical_harmonics.hpp"
-#include "support/random.hpp"
+#include "tests/support/random.hpp"
 #include "trainer/kernels/pack.hpp"
 #include "trainer/kernels/scalar.hpp"
 #include "trainer/mlp_parameters.hpp"

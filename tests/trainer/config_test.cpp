@@ -12,7 +12,7 @@
 #include <set>
 
 #include "soup/error.hpp"
-#include "support/errors.hpp"
+#include "tests/support/errors.hpp"
 #include "trainer/config_fields.hpp"
 #include "trainer/config_file.hpp"
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "soup/error.hpp"
-#include "support/errors.hpp"
-#include "trainer/backend_agreement.hpp"
+#include "tests/support/errors.hpp"
+#include "tests/trainer/backend_agreement.hpp"
 #include "trainer/device.hpp"
 
 namespace tureen::trainer::test {

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "soup/triangle_soup.hpp"
-#include "support/random.hpp"
-#include "trainer/stages.hpp"
+#include "tests/support/random.hpp"
+#include "tests/trainer/stages.hpp"
 
 namespace tureen::trainer {
 namespace edge_gradient_test {

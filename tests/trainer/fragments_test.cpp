@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "trainer/ray_triangle.hpp"
+#include "tests/trainer/ray_triangle.hpp"
 
 namespace tureen::trainer {
 namespace fragments_test {

@@ -2,9 +2,9 @@
 // against the processor's own backend.
 #include <gtest/gtest.h>
 
-#include "trainer/backend_agreement.hpp"
+#include "tests/trainer/backend_agreement.hpp"
+#include "tests/trainer/host_machine.hpp"
 #include "trainer/cuda/kernel_backend.hpp"
-#include "trainer/host_machine.hpp"
 
 namespace tureen::trainer::test {
 

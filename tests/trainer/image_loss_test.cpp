@@ -11,7 +11,7 @@
 
 #include "soup/separable_filter.hpp"
 #include "soup/ssim.hpp"
-#include "support/random.hpp"
+#include "tests/support/random.hpp"
 #include "trainer/kernels/image_loss.hpp"
 
 namespace tureen::trainer {

@@ -10,9 +10,9 @@
 #include <glm/matrix.hpp>
 
 #include "soup/error.hpp"
-#include "support/random_soups.hpp"
+#include "tests/support/random_soups.hpp"
+#include "tests/trainer/random_model.hpp"
 #include "trainer/neighbours.hpp"
-#include "trainer/random_model.hpp"
 
 namespace tureen::trainer {
 namespace initialise_test {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "soup/lattice_refine.hpp"
-#include "trainer/random_model.hpp"
+#include "tests/trainer/random_model.hpp"
 
 namespace tureen::trainer {
 namespace levels_test {

@@ -8,11 +8,11 @@
 
 #include "formats/scene_file.hpp"
 #include "soup/error.hpp"
-#include "support/random_soups.hpp"
+#include "tests/support/random_soups.hpp"
+#include "tests/trainer/random_model.hpp"
+#include "tests/trainer/stages.hpp"
 #include "trainer/backend.hpp"
 #include "trainer/levels.hpp"
-#include "trainer/random_model.hpp"
-#include "trainer/stages.hpp"
 
 namespace tureen::trainer {
 namespace model_test {

@@ -7,9 +7,9 @@
 #include <limits>
 #include <vector>
 
-#include "support/random.hpp"
-#include "trainer/random_model.hpp"
-#include "trainer/stages.hpp"
+#include "tests/support/random.hpp"
+#include "tests/trainer/random_model.hpp"
+#include "tests/trainer/stages.hpp"
 
 namespace tureen::trainer {
 namespace near_zone_test {

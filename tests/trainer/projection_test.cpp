@@ -8,7 +8,7 @@
 #include <limits>
 #include <string>
 
-#include "trainer/ray_triangle.hpp"
+#include "tests/trainer/ray_triangle.hpp"
 
 namespace tureen::trainer {
 namespace projection_test {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "soup/lattice.hpp"
-#include "support/random.hpp"
+#include "tests/support/random.hpp"
 #include "trainer/mlp_parameters.hpp"
 #include "trainer/model.hpp"
 

@@ -11,7 +11,7 @@
 #include <glm/vec3.hpp>
 #include <string>
 
-#include "support/random.hpp"
+#include "tests/support/random.hpp"
 #include "trainer/kernels/projection.hpp"
 
 namespace tureen::trainer::test {

@@ -7,8 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "random_model.hpp"
-#include "stages.hpp"
+#include "tests/trainer/random_model.hpp"
+#include "tests/trainer/stages.hpp"
 #include "trainer/trainer.hpp"
 
 namespace tureen::trainer {

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "examples/photograph.hpp"
+#include "examples/still_life.hpp"
 #include "formats/scene_file.hpp"
-#include "photograph.hpp"
 #include "soup/metrics.hpp"
 #include "soup/quantise.hpp"
-#include "still_life.hpp"
 #include "trainer/checkpoint.hpp"
 #include "trainer/initialise.hpp"
 #include "trainer/trainer.hpp"

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "trainer/random_model.hpp"
+#include "tests/trainer/random_model.hpp"
 
 namespace tureen::trainer {
 namespace split_choice_test {

@@ -14,14 +14,14 @@
 #include "soup/lattice.hpp"
 #include "soup/spherical_harmonics.hpp"
 #include "soup/triangle_soup.hpp"
-#include "support/random.hpp"
+#include "tests/support/random.hpp"
+#include "tests/trainer/random_model.hpp"
+#include "tests/trainer/ray_triangle.hpp"
+#include "tests/trainer/stages.hpp"
 #include "trainer/backend.hpp"
 #include "trainer/cpu/image_loss.hpp"
 #include "trainer/kernels/color_network.hpp"
 #include "trainer/levels.hpp"
-#include "trainer/random_model.hpp"
-#include "trainer/ray_triangle.hpp"
-#include "trainer/stages.hpp"
 
 namespace tureen::trainer {
 namespace step_test {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "soup/lattice_refine.hpp"
+#include "tests/trainer/random_model.hpp"
+#include "tests/trainer/stages.hpp"
 #include "trainer/levels.hpp"
-#include "trainer/random_model.hpp"
-#include "trainer/stages.hpp"
 
 namespace tureen::trainer {
 namespace texture_test {

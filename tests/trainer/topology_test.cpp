@@ -8,7 +8,7 @@
 #include <limits>
 #include <numeric>
 
-#include "trainer/random_model.hpp"
+#include "tests/trainer/random_model.hpp"
 
 namespace tureen::trainer {
 namespace topology_test {

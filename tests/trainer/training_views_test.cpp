@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "support/random.hpp"
+#include "tests/support/random.hpp"
 #include "trainer/config_fields.hpp"
 
 namespace tureen::trainer {

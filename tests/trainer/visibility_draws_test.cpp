@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "soup/triangle_soup.hpp"
-#include "support/random.hpp"
+#include "tests/support/random.hpp"
+#include "tests/trainer/stages.hpp"
 #include "trainer/kernels/random.hpp"
-#include "trainer/stages.hpp"
 
 namespace tureen::trainer {
 namespace visibility_draws_test {

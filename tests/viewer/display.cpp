@@ -1,4 +1,4 @@
-#include "viewer/display.hpp"
+#include "tests/viewer/display.hpp"
 
 #include <fcntl.h>
 #include <sys/wait.h>

@@ -10,12 +10,12 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "cli/child.hpp"
 #include "formats/input.hpp"
 #include "formats/output.hpp"
 #include "formats/png.hpp"
 #include "runtime/gl/api.hpp"
 #include "soup/error.hpp"
+#include "tests/cli/child.hpp"
 #include "viewer/application.hpp"
 
 namespace tureen::viewer {

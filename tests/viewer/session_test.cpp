@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "soup/error.hpp"
-#include "support/errors.hpp"
+#include "tests/support/errors.hpp"
 
 namespace tureen::viewer {
 namespace session_test {

@@ -12,13 +12,13 @@
 #include <utility>
 #include <vector>
 
-#include "cli/child.hpp"
 #include "formats/input.hpp"
 #include "formats/png.hpp"
 #include "formats/scene_file.hpp"
-#include "support/errors.hpp"
-#include "support/golden.hpp"
-#include "viewer/display.hpp"
+#include "tests/cli/child.hpp"
+#include "tests/support/errors.hpp"
+#include "tests/support/golden.hpp"
+#include "tests/viewer/display.hpp"
 #include "viewer/session.hpp"
 
 namespace tureen::test {

@@ -9,9 +9,9 @@
 #include "runtime/navigation.hpp"
 #include "runtime/plan_description.hpp"
 #include "runtime/renderer.hpp"
-#include "support/contexts.hpp"
-#include "support/random_soups.hpp"
-#include "support/trait_soups.hpp"
+#include "tests/support/contexts.hpp"
+#include "tests/support/random_soups.hpp"
+#include "tests/support/trait_soups.hpp"
 
 namespace tureen::web {
 namespace prepared_archive_test {

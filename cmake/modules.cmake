@@ -1,25 +1,8 @@
-# A room is a top-level folder and one library target of the same name. Its headers are reached as
-# "room/header.hpp", and only by targets that link it: each room has an include root of its own that
-# holds nothing but a link to the folder, so an arrow that ARCHITECTURE.md does not draw fails to
-# compile.
-
-# tureen_include_root(ROOM OUT): the include root through which "ROOM/.." is reached.
-function(tureen_include_root room out)
-  set(root "${PROJECT_BINARY_DIR}/rooms/${room}")
-  file(MAKE_DIRECTORY "${root}")
-  if(NOT EXISTS "${root}/${room}")
-    file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${room}" "${root}/${room}" SYMBOLIC)
-  endif()
-  set(${out} "${root}" PARENT_SCOPE)
-endfunction()
-
-# tureen_room(NAME SOURCES .. PUBLIC .. PRIVATE ..): the library tureen_NAME. PUBLIC rooms and
-# libraries appear in its headers, PRIVATE ones only in its sources.
-function(tureen_room name)
+# tureen_module(NAME SOURCES .. PUBLIC .. PRIVATE ..): the library tureen_NAME of a folder. Modules and
+# libraries that are PUBLIC appear in its headers, PRIVATE ones only in its sources.
+function(tureen_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
-  tureen_include_root(${name} root)
   add_library(tureen_${name} STATIC ${ARG_SOURCES})
-  target_include_directories(tureen_${name} PUBLIC "${root}")
   target_link_libraries(tureen_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} tureen_warnings)
 endfunction()
 
@@ -31,7 +14,6 @@ function(tureen_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gmock GTest::gtest_main tureen_warnings)
-  target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_compile_definitions(${name} PRIVATE
     TUREEN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" TUREEN_BINARY_DIR="${PROJECT_BINARY_DIR}")
   target_precompile_headers(${name} REUSE_FROM test_precompiled)
