@@ -10,9 +10,9 @@
 #include <system_error>
 #include <type_traits>
 
+#include "base/suggestion.hpp"
 #include "cli/report.hpp"
 #include "cli/retired.hpp"
-#include "formats/suggestion.hpp"
 
 namespace tureen::cli {
 

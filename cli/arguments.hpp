@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/error.hpp"
 #include "cli/exit_code.hpp"
-#include "soup/error.hpp"
 
 namespace CLI {
 class App;

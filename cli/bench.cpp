@@ -5,6 +5,7 @@
 #include <chrono>
 #include <memory>
 
+#include "base/error.hpp"
 #include "cli/arguments.hpp"
 #include "cli/bench_cases.hpp"
 #include "cli/bench_device.hpp"
@@ -18,8 +19,7 @@
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/version.hpp"
-#include "runtime/benchmark.hpp"
-#include "soup/error.hpp"
+#include "jobs/timing/benchmark.hpp"
 
 namespace tureen::cli {
 

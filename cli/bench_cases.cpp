@@ -4,11 +4,11 @@
 #include <chrono>
 #include <exception>
 
-#include "formats/suggestion.hpp"
-#include "runtime/copy_ceiling.hpp"
-#include "runtime/plan_description.hpp"
+#include "base/error.hpp"
+#include "base/suggestion.hpp"
+#include "runtime/passes/copy_ceiling.hpp"
+#include "runtime/plan/plan_description.hpp"
 #include "runtime/renderer.hpp"
-#include "soup/error.hpp"
 
 namespace tureen::cli {
 

@@ -9,9 +9,9 @@
 #include "cli/arguments.hpp"
 #include "cli/bench_result.hpp"
 #include "cli/drawing_options.hpp"
-#include "runtime/benchmark.hpp"
-#include "runtime/pass_times.hpp"
-#include "soup/scene.hpp"
+#include "jobs/timing/benchmark.hpp"
+#include "jobs/timing/pass_times.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen::cli {
 

@@ -1,7 +1,7 @@
 #include "cli/bench_device.hpp"
 
-#include "runtime/benchmark.hpp"
-#include "soup/error.hpp"
+#include "base/error.hpp"
+#include "jobs/timing/benchmark.hpp"
 
 namespace tureen::cli {
 

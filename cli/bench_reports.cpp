@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/error.hpp"
+#include "base/existing_path.hpp"
+#include "base/input.hpp"
+#include "base/output.hpp"
 #include "cli/bench_comparison.hpp"
 #include "cli/bench_words.hpp"
 #include "cli/output_argument.hpp"
 #include "cli/report_page.hpp"
-#include "formats/existing_path.hpp"
-#include "formats/input.hpp"
-#include "formats/output.hpp"
-#include "soup/error.hpp"
 
 namespace tureen::cli {
 

@@ -10,8 +10,8 @@
 
 #include "cli/machine.hpp"
 #include "cli/report.hpp"
-#include "runtime/frame_statistics.hpp"
-#include "runtime/specialisation.hpp"
+#include "jobs/timing/frame_statistics.hpp"
+#include "runtime/plan/specialisation.hpp"
 
 namespace tureen::cli {
 

@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <functional>
 
+#include "base/error.hpp"
+#include "base/existing_path.hpp"
+#include "camera/camera_sets.hpp"
 #include "cli/dataset_argument.hpp"
 #include "cli/values.hpp"
 #include "cli/view_options.hpp"
-#include "formats/existing_path.hpp"
-#include "runtime/camera_sets.hpp"
-#include "soup/error.hpp"
 
 namespace tureen::cli {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/arguments.hpp"
-#include "soup/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen::cli {
 

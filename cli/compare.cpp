@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/error.hpp"
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/memory_option.hpp"
@@ -14,9 +15,8 @@
 #include "cli/report.hpp"
 #include "cli/table.hpp"
 #include "cli/values.hpp"
-#include "soup/error.hpp"
-#include "soup/heat_map.hpp"
-#include "soup/metrics.hpp"
+#include "image/heat_map.hpp"
+#include "image/metrics.hpp"
 
 namespace tureen::cli {
 

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <utility>
 
-#include "soup/error.hpp"
-#include "trainer/config_fields.hpp"
-#include "trainer/config_file.hpp"
+#include "base/error.hpp"
+#include "trainer/diffsoup/config_fields.hpp"
+#include "trainer/diffsoup/config_file.hpp"
 
 namespace tureen::cli {
 

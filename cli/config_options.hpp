@@ -7,7 +7,7 @@
 #include <string>
 
 #include "cli/arguments.hpp"
-#include "trainer/config.hpp"
+#include "trainer/diffsoup/config.hpp"
 
 namespace tureen::cli {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "soup/box_scale.hpp"
+#include "image/box_scale.hpp"
 
 namespace tureen::cli {
 

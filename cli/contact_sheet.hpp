@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "soup/image.hpp"
+#include "image/image.hpp"
 
 namespace tureen::cli {
 

@@ -4,6 +4,8 @@
 #include <memory>
 #include <optional>
 
+#include "base/error.hpp"
+#include "base/extension.hpp"
 #include "cli/commands.hpp"
 #include "cli/convert_slim.hpp"
 #include "cli/edit_options.hpp"
@@ -14,8 +16,6 @@
 #include "cli/scene_argument.hpp"
 #include "cli/scene_page.hpp"
 #include "cli/scratch.hpp"
-#include "formats/extension.hpp"
-#include "soup/error.hpp"
 
 namespace tureen::cli {
 

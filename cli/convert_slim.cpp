@@ -6,15 +6,15 @@
 #include <cmath>
 #include <optional>
 
+#include "base/error.hpp"
+#include "base/extension.hpp"
 #include "cli/bench_words.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/scene_page.hpp"
 #include "cli/scratch.hpp"
 #include "cli/slim.hpp"
-#include "formats/diffsoup_export.hpp"
-#include "formats/extension.hpp"
-#include "soup/error.hpp"
+#include "formats/diffsoup/diffsoup_export.hpp"
 
 namespace tureen::cli {
 

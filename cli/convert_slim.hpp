@@ -8,7 +8,7 @@
 #include "cli/arguments.hpp"
 #include "cli/dataset_argument.hpp"
 #include "cli/report.hpp"
-#include "soup/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen::cli {
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "base/error.hpp"
 #include "cli/progress.hpp"
-#include "soup/error.hpp"
 
 namespace tureen::cli {
 

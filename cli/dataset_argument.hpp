@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cli/arguments.hpp"
-#include "formats/dataset.hpp"
+#include "formats/dataset/dataset.hpp"
 
 namespace tureen::cli {
 

@@ -5,8 +5,8 @@
 
 #include "cli/arguments.hpp"
 #include "runtime/gl/context.hpp"
-#include "runtime/plan.hpp"
-#include "soup/scene.hpp"
+#include "runtime/plan/plan.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen::cli {
 

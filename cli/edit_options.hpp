@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "cli/arguments.hpp"
-#include "soup/edits.hpp"
-#include "soup/quality.hpp"
+#include "scene/edit/edits.hpp"
+#include "scene/quality.hpp"
 
 namespace tureen::cli {
 

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <memory>
 
+#include "base/error.hpp"
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/dataset_argument.hpp"
@@ -18,7 +19,6 @@
 #include "cli/scene_argument.hpp"
 #include "cli/table.hpp"
 #include "cli/values.hpp"
-#include "soup/error.hpp"
 
 namespace tureen::cli {
 

@@ -8,14 +8,14 @@
 #include <set>
 #include <thread>
 
+#include "base/error.hpp"
+#include "base/existing_path.hpp"
+#include "base/output.hpp"
 #include "cli/contact_sheet.hpp"
 #include "cli/picture_file.hpp"
-#include "formats/existing_path.hpp"
-#include "formats/output.hpp"
-#include "runtime/plan_description.hpp"
+#include "image/heat_map.hpp"
+#include "runtime/plan/plan_description.hpp"
 #include "runtime/renderer.hpp"
-#include "soup/error.hpp"
-#include "soup/heat_map.hpp"
 
 namespace tureen::cli {
 

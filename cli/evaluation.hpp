@@ -15,11 +15,11 @@
 #include <vector>
 
 #include "cli/report.hpp"
-#include "formats/dataset.hpp"
+#include "formats/dataset/dataset.hpp"
+#include "image/metrics.hpp"
 #include "runtime/gl/context.hpp"
-#include "runtime/plan.hpp"
-#include "soup/metrics.hpp"
-#include "soup/scene.hpp"
+#include "runtime/plan/plan.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen::cli {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cassert>
 
-#include "soup/heat_map.hpp"
-#include "soup/metrics.hpp"
-#include "soup/quantise.hpp"
+#include "image/heat_map.hpp"
+#include "image/metrics.hpp"
+#include "image/quantise.hpp"
 
 namespace tureen::cli {
 

@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "formats/dataset.hpp"
-#include "soup/image.hpp"
-#include "trainer/backend.hpp"
-#include "trainer/config.hpp"
+#include "formats/dataset/dataset.hpp"
+#include "image/image.hpp"
+#include "trainer/diffsoup/backend.hpp"
+#include "trainer/diffsoup/config.hpp"
 
 namespace tureen::cli {
 

@@ -1,6 +1,6 @@
 #include "cli/html_escape.hpp"
 
-#include "formats/utf8.hpp"
+#include "base/utf8.hpp"
 
 namespace tureen::cli {
 

@@ -10,11 +10,11 @@
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/table.hpp"
-#include "formats/camera_file.hpp"
+#include "formats/dataset/camera_file.hpp"
 #include "runtime/device_forecast.hpp"
-#include "runtime/plan_description.hpp"
-#include "soup/lint.hpp"
-#include "soup/spherical_harmonics.hpp"
+#include "runtime/plan/plan_description.hpp"
+#include "scene/edit/lint.hpp"
+#include "scene/spherical_harmonics.hpp"
 
 namespace tureen::cli {
 

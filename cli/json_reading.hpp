@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/json_view.hpp"
+#include "base/json_view.hpp"
 
 namespace tureen::cli {
 

@@ -1,8 +1,8 @@
 #include "cli/memory_option.hpp"
 
-#include "formats/memory_budget.hpp"
-#include "formats/memory_help.hpp"
-#include "soup/error.hpp"
+#include "base/error.hpp"
+#include "base/memory_budget.hpp"
+#include "base/memory_help.hpp"
 
 namespace tureen::cli {
 

@@ -5,7 +5,7 @@
 
 namespace tureen::cli {
 
-/// Sets what reading may take (formats/memory_budget.hpp) as soon as the option is parsed.
+/// Sets what reading may take (base/memory_budget.hpp) as soon as the option is parsed.
 void add_memory_option(Command& command);
 
 }  // namespace tureen::cli

@@ -1,10 +1,10 @@
 #include "cli/output_argument.hpp"
 
-#include "formats/diffsoup_export.hpp"
-#include "formats/existing_path.hpp"
-#include "formats/output.hpp"
-#include "formats/output_path.hpp"
-#include "soup/error.hpp"
+#include "base/error.hpp"
+#include "base/existing_path.hpp"
+#include "base/output.hpp"
+#include "base/output_path.hpp"
+#include "formats/diffsoup/diffsoup_export.hpp"
 
 namespace tureen::cli {
 

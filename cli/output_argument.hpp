@@ -11,7 +11,7 @@ namespace tureen::cli {
 /// folder `input`, whether it is read or not; and where it is a folder that holds `input`.
 void require_not_input(const std::filesystem::path& output, const std::filesystem::path& input);
 
-/// Throws OutputError unless a file can be written there (formats/output_path.hpp). Tries it: a
+/// Throws OutputError unless a file can be written there (base/output_path.hpp). Tries it: a
 /// temporary file beside it, which goes again.
 void require_writable_file(const std::filesystem::path& path);
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "formats/existing_path.hpp"
-#include "formats/extension.hpp"
-#include "formats/output.hpp"
-#include "formats/png.hpp"
+#include "base/existing_path.hpp"
+#include "base/extension.hpp"
+#include "base/output.hpp"
+#include "image/png.hpp"
 
 namespace tureen::cli {
 

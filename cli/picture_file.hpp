@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "soup/image.hpp"
+#include "image/image.hpp"
 
 namespace tureen::cli {
 

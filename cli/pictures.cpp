@@ -8,13 +8,13 @@
 #include <cstdint>
 #include <utility>
 
+#include "base/error.hpp"
+#include "base/output.hpp"
 #include "cli/contact_sheet.hpp"
 #include "cli/picture_file.hpp"
 #include "cli/progress.hpp"
-#include "formats/output.hpp"
-#include "formats/png_rows.hpp"
-#include "formats/video_file.hpp"
-#include "soup/error.hpp"
+#include "image/png_rows.hpp"
+#include "image/video_file.hpp"
 
 namespace tureen::cli {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/inspector.hpp"
+#include "runtime/debug_views/inspector.hpp"
 #include "runtime/picture_tiles.hpp"
 #include "runtime/renderer.hpp"
 
@@ -50,7 +50,7 @@ struct PictureNames {
 Pictures draw_pictures(const Drawer& drawer, const gl::Capabilities& device,
                        const std::vector<Camera>& cameras, const PictureNames& names);
 
-/// Frame by frame into a video (formats/video_file.hpp), whole or not at all.
+/// Frame by frame into a video (image/video_file.hpp), whole or not at all.
 Pictures draw_video(const Drawer& drawer, const std::vector<Camera>& cameras,
                     double frames_per_second, const std::string& path);
 

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "base/json_view.hpp"
 #include "cli/report.hpp"
-#include "formats/json_view.hpp"
-#include "runtime/specialisation.hpp"
+#include "runtime/plan/specialisation.hpp"
 
 namespace tureen::cli {
 

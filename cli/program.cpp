@@ -4,12 +4,12 @@
 #include <new>
 #include <sstream>
 
+#include "base/error.hpp"
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/report.hpp"
 #include "cli/version.hpp"
-#include "soup/error.hpp"
 
 namespace tureen::cli {
 

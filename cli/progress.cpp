@@ -11,8 +11,8 @@
 #include <unistd.h>
 #endif
 
+#include "base/shown_text.hpp"
 #include "cli/interrupt.hpp"
-#include "formats/shown_text.hpp"
 
 namespace tureen::cli {
 

@@ -3,8 +3,8 @@
 // Include it in sources only.
 #pragma once
 
+#include "base/json_view.hpp"
 #include "cli/bench_result.hpp"
-#include "formats/json_view.hpp"
 
 namespace tureen::cli {
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/error.hpp"
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/drawing_options.hpp"
@@ -18,11 +19,10 @@
 #include "cli/show_option.hpp"
 #include "cli/values.hpp"
 #include "cli/view_options.hpp"
-#include "formats/video_file.hpp"
-#include "runtime/inspector.hpp"
-#include "runtime/plan_description.hpp"
+#include "image/video_file.hpp"
+#include "runtime/debug_views/inspector.hpp"
+#include "runtime/plan/plan_description.hpp"
 #include "runtime/renderer.hpp"
-#include "soup/error.hpp"
 
 namespace tureen::cli {
 

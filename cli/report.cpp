@@ -9,9 +9,9 @@
 #include <ctime>
 #include <string_view>
 
-#include "formats/shown_text.hpp"
-#include "soup/error.hpp"
-#include "soup/remark.hpp"
+#include "base/error.hpp"
+#include "base/shown_text.hpp"
+#include "scene/remark.hpp"
 
 namespace tureen::cli {
 

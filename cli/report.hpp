@@ -16,7 +16,7 @@ namespace tureen::cli {
 using Json = nlohmann::ordered_json;
 
 /// A line of prose, never more than one: what files say steers no terminal and passes for no line
-/// of ours (formats/shown_text.hpp).
+/// of ours (base/shown_text.hpp).
 void say(const std::string& line);
 
 /// Lines under a heading, indented; nothing when there are none.

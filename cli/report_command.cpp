@@ -5,13 +5,13 @@
 #include <cstdlib>
 #include <memory>
 
+#include "base/error.hpp"
+#include "base/extension.hpp"
+#include "base/output.hpp"
 #include "cli/commands.hpp"
 #include "cli/output_argument.hpp"
 #include "cli/report.hpp"
 #include "cli/report_results.hpp"
-#include "formats/extension.hpp"
-#include "formats/output.hpp"
-#include "soup/error.hpp"
 
 extern char** environ;
 

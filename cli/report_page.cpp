@@ -3,9 +3,9 @@
 #include <cctype>
 #include <string_view>
 
+#include "base/output.hpp"
 #include "cli/report.hpp"
 #include "cli/report_files.hpp"
-#include "formats/output.hpp"
 
 namespace tureen::cli {
 

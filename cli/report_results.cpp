@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
+#include "base/existing_path.hpp"
+#include "base/extension.hpp"
+#include "base/input.hpp"
 #include "cli/json_reading.hpp"
 #include "cli/provenance.hpp"
 #include "cli/tradeoff_report.hpp"
 #include "cli/training_log.hpp"
 #include "cli/web_bench.hpp"
-#include "formats/existing_path.hpp"
-#include "formats/extension.hpp"
-#include "formats/input.hpp"
 
 namespace tureen::cli {
 

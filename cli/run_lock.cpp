@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "soup/error.hpp"
+#include "base/error.hpp"
 
 namespace tureen::cli {
 

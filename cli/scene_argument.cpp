@@ -2,10 +2,10 @@
 
 #include <glm/geometric.hpp>
 
+#include "base/error.hpp"
+#include "base/existing_path.hpp"
 #include "cli/progress.hpp"
 #include "cli/values.hpp"
-#include "formats/existing_path.hpp"
-#include "soup/error.hpp"
 
 namespace tureen::cli {
 

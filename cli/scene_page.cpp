@@ -6,15 +6,15 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/base64.hpp"
+#include "base/base64.hpp"
+#include "base/error.hpp"
+#include "base/extension.hpp"
+#include "base/input.hpp"
+#include "base/output.hpp"
 #include "cli/html_escape.hpp"
 #include "cli/program_folder.hpp"
-#include "formats/extension.hpp"
-#include "formats/glb_container.hpp"
-#include "formats/input.hpp"
-#include "formats/output.hpp"
-#include "formats/tureen_glb.hpp"
-#include "soup/error.hpp"
+#include "formats/gltf/glb_container.hpp"
+#include "formats/tureen_glb/tureen_glb.hpp"
 
 namespace tureen::cli {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "soup/error.hpp"
+#include "base/error.hpp"
 
 namespace tureen::cli {
 

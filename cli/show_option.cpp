@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/error.hpp"
 #include "cli/values.hpp"
-#include "soup/error.hpp"
 
 namespace tureen::cli {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/arguments.hpp"
-#include "runtime/inspection.hpp"
+#include "runtime/debug_views/inspection.hpp"
 
 namespace tureen::cli {
 

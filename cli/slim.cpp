@@ -8,13 +8,13 @@
 #include <limits>
 #include <span>
 
+#include "base/error.hpp"
+#include "camera/camera_sets.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/slim_importance.hpp"
-#include "runtime/camera_sets.hpp"
-#include "runtime/visibility_count.hpp"
-#include "soup/error.hpp"
-#include "soup/keep_faces.hpp"
-#include "soup/lattice_levels.hpp"
+#include "jobs/visibility/visibility_count.hpp"
+#include "scene/edit/keep_faces.hpp"
+#include "scene/edit/lattice_levels.hpp"
 
 namespace tureen::cli {
 

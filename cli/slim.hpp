@@ -1,6 +1,6 @@
 // How coarse a slim file may be: the search for the smallest one whose loss stays within a bound
-// (`tureen convert --compress`). formats/tureen_glb_slim.hpp writes it; docs/slim.md describes how
-// it works and what it reaches.
+// (`tureen convert --compress`). formats/tureen_glb/tureen_glb_slim.hpp writes it; docs/slim.md
+// describes how it works and what it reaches.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli/slim_judge.hpp"
-#include "formats/tureen_glb_slim.hpp"
+#include "formats/tureen_glb/tureen_glb_slim.hpp"
 
 namespace tureen::cli {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "cli/interrupt.hpp"
-#include "runtime/visibility_count.hpp"
-#include "soup/lattice.hpp"
+#include "jobs/visibility/visibility_count.hpp"
+#include "scene/lattice.hpp"
 
 namespace tureen::cli {
 

@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "formats/slim_texels.hpp"
+#include "formats/tureen_glb/slim_texels.hpp"
 #include "runtime/gl/context.hpp"
-#include "soup/camera.hpp"
-#include "soup/feature_sensitivity.hpp"
-#include "soup/triangle_soup.hpp"
+#include "scene/camera.hpp"
+#include "scene/edit/feature_sensitivity.hpp"
+#include "scene/triangle_soup.hpp"
 
 namespace tureen::cli {
 

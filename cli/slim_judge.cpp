@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
+#include "base/error.hpp"
+#include "camera/camera_sets.hpp"
 #include "cli/bench_words.hpp"
 #include "cli/interrupt.hpp"
-#include "runtime/camera_sets.hpp"
+#include "image/metrics.hpp"
+#include "image/render_error.hpp"
 #include "runtime/renderer.hpp"
-#include "soup/error.hpp"
-#include "soup/metrics.hpp"
-#include "soup/render_error.hpp"
 
 namespace tureen::cli {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "formats/dataset.hpp"
+#include "formats/dataset/dataset.hpp"
 #include "runtime/gl/context.hpp"
-#include "soup/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen::cli {
 

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/error.hpp"
+#include "base/output.hpp"
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/drawing_options.hpp"
@@ -16,8 +18,6 @@
 #include "cli/tradeoff_report.hpp"
 #include "cli/tradeoff_run.hpp"
 #include "cli/tradeoff_write.hpp"
-#include "formats/output.hpp"
-#include "soup/error.hpp"
 
 namespace tureen::cli {
 

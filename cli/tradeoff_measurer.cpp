@@ -5,9 +5,9 @@
 #include <thread>
 #include <tuple>
 
+#include "base/error.hpp"
 #include "cli/tradeoff_pictures.hpp"
-#include "runtime/benchmark.hpp"
-#include "soup/error.hpp"
+#include "jobs/timing/benchmark.hpp"
 
 namespace tureen::cli {
 

@@ -8,7 +8,7 @@
 
 #include "cli/evaluation.hpp"
 #include "cli/tradeoff_report.hpp"
-#include "formats/dataset.hpp"
+#include "formats/dataset/dataset.hpp"
 
 namespace tureen::cli {
 

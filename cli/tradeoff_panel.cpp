@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "runtime/benchmark.hpp"
-#include "runtime/tradeoff/reference.hpp"
+#include "jobs/timing/benchmark.hpp"
+#include "jobs/tradeoff/reference.hpp"
 
 namespace tureen::cli {
 

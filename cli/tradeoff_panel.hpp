@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "runtime/frame_statistics.hpp"
-#include "runtime/tradeoff/pareto.hpp"
-#include "runtime/tradeoff/quality_settings.hpp"
-#include "soup/render_error.hpp"
+#include "image/render_error.hpp"
+#include "jobs/timing/frame_statistics.hpp"
+#include "jobs/tradeoff/pareto.hpp"
+#include "jobs/tradeoff/quality_settings.hpp"
 
 namespace tureen::cli {
 

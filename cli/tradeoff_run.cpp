@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/error.hpp"
 #include "cli/bench_device.hpp"
 #include "cli/progress.hpp"
 #include "cli/tradeoff_model.hpp"
 #include "cli/tradeoff_study.hpp"
 #include "cli/tradeoff_views.hpp"
 #include "cli/version.hpp"
-#include "soup/error.hpp"
 
 namespace tureen::cli {
 

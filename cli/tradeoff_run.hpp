@@ -7,9 +7,9 @@
 #include "cli/dataset_argument.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/tradeoff_report.hpp"
+#include "jobs/tradeoff/pareto.hpp"
+#include "jobs/tradeoff/reference.hpp"
 #include "runtime/gl/context.hpp"
-#include "runtime/tradeoff/pareto.hpp"
-#include "runtime/tradeoff/reference.hpp"
 
 namespace tureen::cli {
 

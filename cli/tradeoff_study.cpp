@@ -9,8 +9,8 @@
 
 #include "cli/tradeoff_measurer.hpp"
 #include "cli/tradeoff_pictures.hpp"
-#include "runtime/benchmark.hpp"
-#include "runtime/visibility_count.hpp"
+#include "jobs/timing/benchmark.hpp"
+#include "jobs/visibility/visibility_count.hpp"
 
 namespace tureen::cli {
 

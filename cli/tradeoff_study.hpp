@@ -2,8 +2,8 @@
 // device, with one set of cameras. Says nothing and writes nothing.
 //
 // Time and error are taken of the same renderer: the frames that are compared are drawn by the one
-// that was timed, once more. Configurations take turns frame by frame (runtime/benchmark.hpp), in
-// groups, each of which the defaults are part of; a group's times are multiplied by what makes
+// that was timed, once more. Configurations take turns frame by frame (jobs/timing/benchmark.hpp),
+// in groups, each of which the defaults are part of; a group's times are multiplied by what makes
 // those of its defaults the first group's.
 #pragma once
 
@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "cli/tradeoff_panel.hpp"
+#include "jobs/tradeoff/experiment.hpp"
+#include "jobs/tradeoff/reference.hpp"
 #include "runtime/renderer.hpp"
-#include "runtime/tradeoff/experiment.hpp"
-#include "runtime/tradeoff/reference.hpp"
 
 namespace tureen::cli {
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "camera/camera_sets.hpp"
+#include "camera/navigation.hpp"
 #include "cli/values.hpp"
-#include "runtime/camera_sets.hpp"
-#include "runtime/navigation.hpp"
 
 namespace tureen::cli {
 

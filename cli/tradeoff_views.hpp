@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/bench_views.hpp"
-#include "soup/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen::cli {
 

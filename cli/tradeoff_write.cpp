@@ -2,12 +2,12 @@
 
 #include <utility>
 
+#include "base/error.hpp"
+#include "base/extension.hpp"
 #include "cli/output_argument.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
-#include "formats/extension.hpp"
 #include "formats/scene_file.hpp"
-#include "soup/error.hpp"
 
 namespace tureen::cli {
 

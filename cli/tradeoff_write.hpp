@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "cli/tradeoff_report.hpp"
-#include "soup/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen::cli {
 

@@ -6,6 +6,10 @@
 #include <cstdio>
 #include <memory>
 
+#include "base/error.hpp"
+#include "base/existing_path.hpp"
+#include "base/output.hpp"
+#include "base/suggestion.hpp"
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/config_options.hpp"
@@ -20,20 +24,16 @@
 #include "cli/scene_argument.hpp"
 #include "cli/table.hpp"
 #include "cli/training_session.hpp"
-#include "formats/diffsoup_export.hpp"
-#include "formats/existing_path.hpp"
-#include "formats/output.hpp"
+#include "formats/diffsoup/diffsoup_export.hpp"
 #include "formats/scene_file.hpp"
-#include "formats/suggestion.hpp"
-#include "soup/error.hpp"
-#include "soup/lattice_bytes.hpp"
-#include "trainer/config_fields.hpp"
-#include "trainer/config_file.hpp"
-#include "trainer/device.hpp"
-#include "trainer/initialise.hpp"
-#include "trainer/kernels/projection.hpp"
-#include "trainer/near_zone.hpp"
-#include "trainer/training_views.hpp"
+#include "scene/edit/lattice_bytes.hpp"
+#include "trainer/common/kernels/projection.hpp"
+#include "trainer/common/training_views.hpp"
+#include "trainer/diffsoup/config_fields.hpp"
+#include "trainer/diffsoup/config_file.hpp"
+#include "trainer/diffsoup/device.hpp"
+#include "trainer/diffsoup/initialise.hpp"
+#include "trainer/diffsoup/near_zone.hpp"
 
 namespace tureen::cli {
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <string_view>
 
+#include "base/error.hpp"
+#include "base/extension.hpp"
+#include "base/input.hpp"
 #include "cli/output_argument.hpp"
-#include "formats/extension.hpp"
-#include "formats/input.hpp"
-#include "soup/error.hpp"
 
 namespace tureen::cli {
 

@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "formats/existing_path.hpp"
-#include "formats/input.hpp"
-#include "formats/json_view.hpp"
-#include "soup/error.hpp"
+#include "base/error.hpp"
+#include "base/existing_path.hpp"
+#include "base/input.hpp"
+#include "base/json_view.hpp"
 
 namespace tureen::cli {
 

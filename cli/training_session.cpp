@@ -10,7 +10,7 @@
 #include "cli/picture_file.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
-#include "soup/metrics.hpp"
+#include "image/metrics.hpp"
 
 namespace tureen::cli {
 

@@ -10,9 +10,9 @@
 
 #include "cli/training_files.hpp"
 #include "cli/training_log.hpp"
-#include "formats/dataset.hpp"
-#include "trainer/checkpoint.hpp"
-#include "trainer/trainer.hpp"
+#include "formats/dataset/dataset.hpp"
+#include "trainer/diffsoup/checkpoint.hpp"
+#include "trainer/diffsoup/trainer.hpp"
 
 namespace tureen::cli {
 

@@ -6,8 +6,8 @@
 #include <glm/common.hpp>
 #include <optional>
 
-#include "formats/png.hpp"
-#include "soup/error.hpp"
+#include "base/error.hpp"
+#include "image/png.hpp"
 
 namespace tureen::cli {
 

@@ -11,9 +11,9 @@
 #include <unistd.h>
 #endif
 
+#include "base/error.hpp"
 #include "cli/commands.hpp"
 #include "cli/program_folder.hpp"
-#include "soup/error.hpp"
 
 namespace tureen::cli {
 

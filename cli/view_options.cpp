@@ -7,13 +7,13 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 
+#include "base/error.hpp"
+#include "base/existing_path.hpp"
+#include "camera/camera_path.hpp"
+#include "camera/navigation.hpp"
 #include "cli/values.hpp"
-#include "formats/camera_file.hpp"
-#include "formats/existing_path.hpp"
+#include "formats/dataset/camera_file.hpp"
 #include "formats/scene_file.hpp"
-#include "runtime/camera_path.hpp"
-#include "runtime/navigation.hpp"
-#include "soup/error.hpp"
 
 namespace tureen::cli {
 

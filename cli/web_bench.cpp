@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "base/json_file.hpp"
 #include "cli/json_reading.hpp"
 #include "cli/plan_json.hpp"
-#include "formats/json_file.hpp"
 
 namespace tureen::cli {
 

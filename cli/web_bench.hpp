@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/input.hpp"
 #include "cli/bench_result.hpp"
-#include "formats/input.hpp"
 
 namespace tureen::cli {
 

@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <thread>
 
+#include "base/output.hpp"
 #include "examples/nerf_synthetic.hpp"
 #include "examples/parallel.hpp"
 #include "examples/photograph.hpp"
 #include "examples/still_life.hpp"
-#include "formats/output.hpp"
-#include "formats/png.hpp"
+#include "image/png.hpp"
 
 namespace {
 

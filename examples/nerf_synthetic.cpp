@@ -5,7 +5,7 @@
 #include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
-#include "formats/output.hpp"
+#include "base/output.hpp"
 
 namespace tureen::example {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "soup/camera.hpp"
+#include "scene/camera.hpp"
 
 namespace tureen::example {
 

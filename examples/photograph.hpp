@@ -10,8 +10,8 @@
 #include "examples/noise.hpp"
 #include "examples/ray_caster.hpp"
 #include "examples/surface.hpp"
-#include "soup/camera.hpp"
-#include "soup/image.hpp"
+#include "image/image.hpp"
+#include "scene/camera.hpp"
 
 namespace tureen::example {
 

@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <span>
 
-#include "formats/checkpoint.hpp"
-#include "formats/diffsoup_export.hpp"
-#include "formats/extension.hpp"
-#include "formats/gltf.hpp"
-#include "formats/input.hpp"
-#include "formats/mobilenerf.hpp"
-#include "formats/off.hpp"
-#include "formats/ply.hpp"
-#include "formats/stray_content.hpp"
-#include "formats/tureen_glb.hpp"
+#include "base/extension.hpp"
+#include "base/input.hpp"
+#include "formats/diffsoup/diffsoup_export.hpp"
+#include "formats/gltf/gltf.hpp"
+#include "formats/mesh/mobilenerf.hpp"
+#include "formats/mesh/off.hpp"
+#include "formats/mesh/ply.hpp"
+#include "formats/mesh/stray_content.hpp"
+#include "formats/torch/checkpoint.hpp"
+#include "formats/tureen_glb/tureen_glb.hpp"
 
 namespace tureen {
 

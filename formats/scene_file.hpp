@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "soup/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen {
 

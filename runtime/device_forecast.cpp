@@ -6,17 +6,17 @@
 #include <set>
 #include <utility>
 
-#include "runtime/lattice_source.hpp"
-#include "runtime/texel_store.hpp"
-#include "soup/lattice.hpp"
-#include "soup/spherical_harmonics.hpp"
+#include "runtime/passes/lattice_source.hpp"
+#include "runtime/passes/texel_store.hpp"
+#include "scene/lattice.hpp"
+#include "scene/spherical_harmonics.hpp"
 
 namespace tureen {
 
 namespace {
 
-/// Adds up the stores that runtime/appearance_source.cpp makes, appearance by appearance; a test
-/// holds the sum against what it really makes.
+/// Adds up the stores that runtime/passes/appearance_source.cpp makes, appearance by appearance; a
+/// test holds the sum against what it really makes.
 class Forecaster {
  public:
   Forecaster(const TriangleSoup& soup, const RenderPlan& plan) : soup_(soup), plan_(plan) {}

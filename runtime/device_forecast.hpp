@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "runtime/plan.hpp"
+#include "runtime/plan/plan.hpp"
 
 namespace tureen {
 

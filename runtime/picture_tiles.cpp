@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "soup/error.hpp"
+#include "base/error.hpp"
 
 namespace tureen {
 

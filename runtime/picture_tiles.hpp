@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <functional>
 
-#include "runtime/inspector.hpp"
+#include "runtime/debug_views/inspector.hpp"
 #include "runtime/renderer.hpp"
 
 namespace tureen {

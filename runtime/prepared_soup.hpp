@@ -6,10 +6,10 @@
 
 #include <glm/vec3.hpp>
 
-#include "runtime/appearance_source.hpp"
-#include "runtime/geometry_source.hpp"
-#include "runtime/plan.hpp"
-#include "soup/triangle_soup.hpp"
+#include "runtime/passes/appearance_source.hpp"
+#include "runtime/passes/geometry_source.hpp"
+#include "runtime/plan/plan.hpp"
+#include "scene/triangle_soup.hpp"
 
 namespace tureen {
 

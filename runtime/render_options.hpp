@@ -4,7 +4,7 @@
 #include <glm/vec4.hpp>
 #include <optional>
 
-#include "runtime/plan.hpp"
+#include "runtime/plan/plan.hpp"
 
 namespace tureen {
 

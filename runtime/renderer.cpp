@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cassert>
 
-#include "runtime/clip_range.hpp"
-#include "runtime/depth_probe.hpp"
+#include "base/error.hpp"
 #include "runtime/gl/state.hpp"
-#include "runtime/pipeline.hpp"
-#include "runtime/resampled_pipeline.hpp"
-#include "runtime/targets.hpp"
-#include "soup/error.hpp"
+#include "runtime/passes/depth_probe.hpp"
+#include "runtime/passes/pipeline.hpp"
+#include "runtime/passes/resampled_pipeline.hpp"
+#include "runtime/passes/targets.hpp"
+#include "scene/clip_range.hpp"
 
 namespace tureen {
 

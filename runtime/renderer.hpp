@@ -17,13 +17,13 @@
 #include <optional>
 #include <vector>
 
+#include "image/image.hpp"
 #include "runtime/gl/context.hpp"
-#include "runtime/plan.hpp"
+#include "runtime/plan/plan.hpp"
 #include "runtime/prepared_soup.hpp"
 #include "runtime/render_options.hpp"
-#include "soup/camera.hpp"
-#include "soup/image.hpp"
-#include "soup/triangle_soup.hpp"
+#include "scene/camera.hpp"
+#include "scene/triangle_soup.hpp"
 
 namespace tureen {
 

@@ -1,4 +1,4 @@
-// Real spherical harmonics up to HARMONICS_DEGREE (0..4) in the order of soup/spherical_harmonics.hpp;
+// Real spherical harmonics up to HARMONICS_DEGREE (0..4) in the order of scene/spherical_harmonics.hpp;
 // a test holds the two equal. `d` is of unit length.
 #define HARMONICS_COUNT ((HARMONICS_DEGREE + 1) * (HARMONICS_DEGREE + 1))
 

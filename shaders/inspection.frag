@@ -37,7 +37,7 @@ vec3 shown(uint face, vec2 b) {
   float alpha = inspected_alpha(face, b);
   float threshold = inspected_threshold(face);
   if (alpha >= threshold) return vec3(alpha);
-  // cut_out_color() of runtime/inspection.cpp.
+  // cut_out_color() of runtime/debug_views/inspection.cpp.
   return mix(vec3(0.22, 0.08, 0.36), vec3(0.78, 0.42, 0.70), max(alpha, 0.0) / threshold);
 #elif SHOWN == SHOW_MLP_WEIGHT || SHOWN == SHOW_FEATURES
   vec4 first, second;

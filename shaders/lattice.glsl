@@ -1,4 +1,4 @@
-// The triangular lattice of one face; soup/lattice.hpp states the same rule, a test holds them equal.
+// The triangular lattice of one face; scene/lattice.hpp states the same rule, a test holds them equal.
 struct LatticeFootprint {
   uvec3 texels;
   vec3 weights;

@@ -29,7 +29,7 @@ if(TUREEN_HAS_CUDA)
   if(CCACHE)
     set(CMAKE_CUDA_COMPILER_LAUNCHER "${CCACHE}")
   endif()
-  add_library(tureen_cuda OBJECT cuda/cuda_backend.cu cuda/cuda_machine.cu)
+  add_library(tureen_cuda OBJECT common/cuda/cuda_machine.cu diffsoup/cuda/cuda_backend.cu)
   target_include_directories(tureen_cuda PRIVATE
     $<TARGET_PROPERTY:tureen_trainer,INTERFACE_INCLUDE_DIRECTORIES>)
   # CMake 3.25 knows no CUDA 20. 20012: glm marks defaulted functions for the device.

@@ -6,12 +6,12 @@
 #include <glm/common.hpp>
 #include <utility>
 
-#include "formats/output.hpp"
-#include "formats/png.hpp"
+#include "base/error.hpp"
+#include "base/output.hpp"
+#include "image/png.hpp"
 #include "runtime/gl/api.hpp"
 #include "runtime/gl/state.hpp"
-#include "runtime/targets.hpp"
-#include "soup/error.hpp"
+#include "runtime/passes/targets.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/shortcuts.hpp"
 

@@ -1,7 +1,7 @@
 // What is looked at beside the colours, prepared when it is first asked for: inspections, and the
 // comparison with a photograph.
-#include "soup/error.hpp"
-#include "soup/heat_map.hpp"
+#include "base/error.hpp"
+#include "image/heat_map.hpp"
 #include "viewer/application.hpp"
 #include "viewer/names.hpp"
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <span>
 
-#include "formats/camera_file.hpp"
-#include "formats/output.hpp"
+#include "base/output.hpp"
+#include "formats/dataset/camera_file.hpp"
 #include "viewer/application.hpp"
 #include "viewer/names.hpp"
 #include "viewer/render_command.hpp"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "formats/extension.hpp"
+#include "base/extension.hpp"
 #include "viewer/application.hpp"
 #include "viewer/names.hpp"
 

@@ -4,9 +4,9 @@
 
 #include <optional>
 
-#include "soup/camera.hpp"
-#include "soup/image.hpp"
-#include "soup/metrics.hpp"
+#include "image/image.hpp"
+#include "image/metrics.hpp"
+#include "scene/camera.hpp"
 #include "viewer/texture.hpp"
 
 namespace tureen::viewer {

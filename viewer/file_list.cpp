@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "formats/extension.hpp"
+#include "base/extension.hpp"
 #include "formats/scene_file.hpp"
 
 namespace tureen::viewer {

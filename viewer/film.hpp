@@ -4,7 +4,7 @@
 #include <glm/vec2.hpp>
 #include <string>
 
-#include "runtime/camera_path.hpp"
+#include "camera/camera_path.hpp"
 
 namespace tureen::viewer {
 

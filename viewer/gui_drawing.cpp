@@ -10,7 +10,7 @@
 
 #include "runtime/gl/api.hpp"
 #include "runtime/gl/state.hpp"
-#include "runtime/shader_source.hpp"
+#include "runtime/passes/shader_source.hpp"
 
 namespace tureen::viewer {
 

@@ -1,7 +1,7 @@
 // What of the soup the window shows.
 #pragma once
 
-#include "runtime/inspection.hpp"
+#include "runtime/debug_views/inspection.hpp"
 
 namespace tureen::viewer {
 

@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 
-#include "formats/memory_budget.hpp"
-#include "formats/memory_help.hpp"
-#include "formats/shown_text.hpp"
-#include "soup/error.hpp"
+#include "base/error.hpp"
+#include "base/memory_budget.hpp"
+#include "base/memory_help.hpp"
+#include "base/shown_text.hpp"
 #include "viewer/application.hpp"
 
 namespace tureen::viewer {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "formats/shown_text.hpp"
+#include "base/shown_text.hpp"
 
 namespace tureen::viewer {
 

@@ -21,7 +21,7 @@ class Messages {
   static constexpr double note_seconds = 6;
   static constexpr std::size_t most = 5;  // of which the newest stay
 
-  /// Texts may come from files: shown_line (formats/shown_text.hpp).
+  /// Texts may come from files: shown_line (base/shown_text.hpp).
   void note(const std::string& text, double now);
   void error(const std::string& title, const std::string& reason, double now);
   void dismiss(std::size_t index);

@@ -1,11 +1,11 @@
 // From events to the camera: which drag, wheel and key means what. The maths is the runtime's
-// (runtime/camera_controls.hpp).
+// (camera/camera_controls.hpp).
 #pragma once
 
 #include <array>
 #include <glm/vec2.hpp>
 
-#include "runtime/camera_controls.hpp"
+#include "camera/camera_controls.hpp"
 #include "viewer/event.hpp"
 
 namespace tureen::viewer {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "soup/camera.hpp"
+#include "scene/camera.hpp"
 #include "viewer/look.hpp"
 #include "viewer/stage.hpp"
 

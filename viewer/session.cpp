@@ -4,10 +4,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "formats/input.hpp"
-#include "formats/json_file.hpp"
-#include "formats/json_view.hpp"
-#include "soup/error.hpp"
+#include "base/error.hpp"
+#include "base/input.hpp"
+#include "base/json_file.hpp"
+#include "base/json_view.hpp"
 
 namespace tureen::viewer {
 

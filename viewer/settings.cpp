@@ -5,10 +5,10 @@
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 
-#include "formats/input.hpp"
-#include "formats/json_file.hpp"
-#include "formats/output.hpp"
-#include "soup/error.hpp"
+#include "base/error.hpp"
+#include "base/input.hpp"
+#include "base/json_file.hpp"
+#include "base/output.hpp"
 
 namespace tureen::viewer {
 

@@ -7,10 +7,10 @@
 #include <memory>
 #include <optional>
 
-#include "runtime/navigation.hpp"
+#include "camera/navigation.hpp"
+#include "camera/up_axis.hpp"
 #include "runtime/renderer.hpp"
-#include "runtime/up_axis.hpp"
-#include "soup/scene.hpp"
+#include "scene/scene.hpp"
 #include "viewer/file_watch.hpp"
 
 namespace tureen::viewer {

@@ -10,9 +10,9 @@
 #include <variant>
 #include <vector>
 
-#include "formats/dataset.hpp"
-#include "runtime/camera_controls.hpp"
-#include "runtime/inspector.hpp"
+#include "camera/camera_controls.hpp"
+#include "formats/dataset/dataset.hpp"
+#include "runtime/debug_views/inspector.hpp"
 #include "viewer/comparison.hpp"
 #include "viewer/file_list.hpp"
 #include "viewer/film.hpp"

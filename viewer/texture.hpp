@@ -3,8 +3,8 @@
 
 #include <glm/vec2.hpp>
 
+#include "image/image.hpp"
 #include "runtime/gl/objects.hpp"
-#include "soup/image.hpp"
 
 namespace tureen::viewer {
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <utility>
 
-#include "soup/error.hpp"
+#include "base/error.hpp"
 
 namespace tureen::viewer {
 

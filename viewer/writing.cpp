@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "formats/output.hpp"
-#include "formats/png.hpp"
-#include "formats/png_rows.hpp"
-#include "formats/video_file.hpp"
-#include "runtime/inspector.hpp"
+#include "base/error.hpp"
+#include "base/output.hpp"
+#include "image/png.hpp"
+#include "image/png_rows.hpp"
+#include "image/video_file.hpp"
+#include "runtime/debug_views/inspector.hpp"
 #include "runtime/picture_tiles.hpp"
-#include "soup/error.hpp"
 
 namespace tureen::viewer {
 

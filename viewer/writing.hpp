@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "runtime/camera_path.hpp"
+#include "camera/camera_path.hpp"
 #include "viewer/look.hpp"
 #include "viewer/stage.hpp"
 
@@ -27,7 +27,7 @@ struct FilmJob {
   StageSource scene;
   CameraPath path;
   FrameRate rate;
-  /// A video where its name is one's (formats/video_file.hpp), otherwise a folder for frames.
+  /// A video where its name is one's (image/video_file.hpp), otherwise a folder for frames.
   std::filesystem::path output;
 };
 

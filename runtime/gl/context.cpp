@@ -6,9 +6,9 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "base/error.hpp"
 #include "runtime/gl/api.hpp"
 #include "runtime/gl/platform.hpp"
-#include "soup/error.hpp"
 
 #ifdef __EMSCRIPTEN__
 #include <emscripten/html5.h>

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "runtime/gl/platform.hpp"
-#include "soup/error.hpp"
 
 namespace tureen::gl {
 

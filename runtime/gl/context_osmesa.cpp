@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "runtime/gl/platform.hpp"
-#include "soup/error.hpp"
 
 namespace tureen::gl {
 

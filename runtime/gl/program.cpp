@@ -4,7 +4,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <sstream>
 
-#include "soup/error.hpp"
+#include "base/error.hpp"
 
 namespace tureen::gl {
 

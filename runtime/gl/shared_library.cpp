@@ -1,7 +1,7 @@
 #include <dlfcn.h>
 
+#include "base/error.hpp"
 #include "runtime/gl/platform.hpp"
-#include "soup/error.hpp"
 
 namespace tureen::gl {
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "formats/scene_file.hpp"
-#include "runtime/benchmark.hpp"
+#include "jobs/timing/benchmark.hpp"
 #include "runtime/renderer.hpp"
 #include "tests/bench/plain_renderer.hpp"
 

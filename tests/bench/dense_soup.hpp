@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "soup/triangle_soup.hpp"
+#include "scene/triangle_soup.hpp"
 
 namespace tureen::test {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "soup/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen::test {
 

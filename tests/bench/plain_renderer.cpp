@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "runtime/clip_range.hpp"
 #include "runtime/gl/state.hpp"
-#include "runtime/targets.hpp"
+#include "runtime/passes/targets.hpp"
+#include "scene/clip_range.hpp"
 
 namespace tureen::test {
 

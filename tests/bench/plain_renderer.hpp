@@ -2,11 +2,11 @@
 // (three floats and a colour), unshared, in file order, one draw call, one matrix.
 #pragma once
 
+#include "image/image.hpp"
 #include "runtime/gl/objects.hpp"
 #include "runtime/gl/program.hpp"
-#include "soup/camera.hpp"
-#include "soup/image.hpp"
-#include "soup/triangle_soup.hpp"
+#include "scene/camera.hpp"
+#include "scene/triangle_soup.hpp"
 
 namespace tureen::test {
 

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "camera/navigation.hpp"
 #include "formats/scene_file.hpp"
-#include "runtime/benchmark.hpp"
-#include "runtime/navigation.hpp"
+#include "jobs/timing/benchmark.hpp"
 #include "runtime/renderer.hpp"
 #include "tests/support/cutout_cloud.hpp"
 #include "tests/support/trait_soups.hpp"

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "tests/support/cutout_cloud.hpp"
-#include "trainer/backend.hpp"
-#include "trainer/model.hpp"
-#include "trainer/trainer.hpp"
+#include "trainer/diffsoup/backend.hpp"
+#include "trainer/diffsoup/model.hpp"
+#include "trainer/diffsoup/trainer.hpp"
 
 namespace tureen::test {
 namespace {

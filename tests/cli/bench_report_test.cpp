@@ -4,11 +4,11 @@
 
 #include <fstream>
 
+#include "base/error.hpp"
+#include "base/output.hpp"
 #include "cli/bench_comparison.hpp"
 #include "cli/bench_reports.hpp"
 #include "cli/bench_words.hpp"
-#include "formats/output.hpp"
-#include "soup/error.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/support/errors.hpp"
 

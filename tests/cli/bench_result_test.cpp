@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <set>
 
+#include "base/error.hpp"
 #include "cli/version.hpp"
-#include "soup/error.hpp"
 #include "tests/support/errors.hpp"
 
 namespace tureen::cli {

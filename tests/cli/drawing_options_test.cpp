@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "soup/error.hpp"
+#include "base/error.hpp"
 #include "tests/support/errors.hpp"
 
 namespace tureen::cli {

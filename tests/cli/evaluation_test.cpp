@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "soup/error.hpp"
+#include "base/error.hpp"
 
 namespace tureen::cli {
 namespace evaluation_test {

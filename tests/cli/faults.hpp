@@ -86,7 +86,7 @@ inline std::vector<std::string> names_in(const std::filesystem::path& folder) {
 }
 
 /// Removes what a program that was killed had half written (temporary_beside in
-/// formats/output_path.hpp), and tells how many that were.
+/// base/output_path.hpp), and tells how many that were.
 inline int remove_temporaries(const std::filesystem::path& folder) {
   int removed = 0;
   for (const std::string& name : names_in(folder))

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "formats/camera_file.hpp"
-#include "formats/video_file.hpp"
+#include "formats/dataset/camera_file.hpp"
+#include "image/video_file.hpp"
 #include "tests/cli/program_fixture.hpp"
 #include "tests/support/errors.hpp"
 

@@ -4,7 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "formats/input.hpp"
+#include "base/input.hpp"
 #include "formats/scene_file.hpp"
 #include "tests/cli/nobody.hpp"
 #include "tests/cli/program_fixture.hpp"

@@ -5,14 +5,14 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 
+#include "base/error.hpp"
+#include "base/suggestion.hpp"
 #include "cli/contact_sheet.hpp"
 #include "cli/picture_file.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/values.hpp"
 #include "cli/view_options.hpp"
-#include "formats/suggestion.hpp"
-#include "soup/error.hpp"
 
 namespace tureen::cli {
 namespace parts_test {

@@ -1,7 +1,7 @@
 // For tests that run the program on photographs: those that it took itself.
 #pragma once
 
-#include "soup/camera.hpp"
+#include "scene/camera.hpp"
 #include "tests/cli/program_fixture.hpp"
 #include "tests/cli/transforms.hpp"
 

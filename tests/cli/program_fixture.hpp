@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "formats/output.hpp"
-#include "formats/png.hpp"
+#include "base/output.hpp"
+#include "image/png.hpp"
 #include "tests/cli/child.hpp"
 
 namespace tureen::test {

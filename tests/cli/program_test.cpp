@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "formats/camera_file.hpp"
+#include "formats/dataset/camera_file.hpp"
 #include "formats/scene_file.hpp"
-#include "soup/camera.hpp"
+#include "scene/camera.hpp"
 #include "tests/cli/program_fixture.hpp"
 #include "tests/support/errors.hpp"
 

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "formats/scene_file.hpp"
-#include "formats/tureen_glb.hpp"
+#include "formats/tureen_glb/tureen_glb.hpp"
 #include "tests/cli/program_fixture.hpp"
 
 namespace tureen::test {

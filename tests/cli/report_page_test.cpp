@@ -8,9 +8,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/error.hpp"
+#include "base/output.hpp"
 #include "cli/report_results.hpp"
-#include "formats/output.hpp"
-#include "soup/error.hpp"
 #include "tests/cli/tradeoff_fixture.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/support/errors.hpp"

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <set>
 
+#include "formats/gltf/uri.hpp"
 #include "formats/scene_file.hpp"
-#include "formats/uri.hpp"
 #include "tests/cli/program_fixture.hpp"
 #include "tests/support/errors.hpp"
 

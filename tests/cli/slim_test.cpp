@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/error.hpp"
 #include "formats/scene_file.hpp"
 #include "runtime/renderer.hpp"
-#include "soup/error.hpp"
-#include "soup/lattice.hpp"
+#include "scene/lattice.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/random.hpp"
 

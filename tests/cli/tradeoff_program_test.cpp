@@ -9,7 +9,7 @@
 #include <string>
 
 #include "formats/scene_file.hpp"
-#include "soup/lattice_refine.hpp"
+#include "scene/edit/lattice_refine.hpp"
 #include "tests/cli/photographs_fixture.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/random_soups.hpp"

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "cli/tradeoff_model.hpp"
-#include "runtime/tradeoff/reference.hpp"
+#include "jobs/tradeoff/reference.hpp"
 #include "tests/support/errors.hpp"
 
 namespace tureen::cli {

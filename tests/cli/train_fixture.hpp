@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "soup/camera.hpp"
+#include "scene/camera.hpp"
 #include "tests/cli/program_fixture.hpp"
 #include "tests/cli/transforms.hpp"
 

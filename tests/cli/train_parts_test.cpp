@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/error.hpp"
 #include "cli/config_options.hpp"
 #include "cli/held_out.hpp"
 #include "cli/training_files.hpp"
 #include "cli/training_session.hpp"
-#include "soup/error.hpp"
 #include "tests/support/errors.hpp"
-#include "trainer/config_fields.hpp"
+#include "trainer/diffsoup/config_fields.hpp"
 
 namespace tureen::cli {
 namespace train_parts_test {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <sstream>
 
-#include "soup/error.hpp"
+#include "base/error.hpp"
 #include "tests/support/errors.hpp"
 
 namespace tureen::cli {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "soup/camera.hpp"
+#include "scene/camera.hpp"
 
 namespace tureen::test {
 

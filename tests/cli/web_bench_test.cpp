@@ -7,9 +7,9 @@
 #include <fstream>
 #include <set>
 
+#include "base/error.hpp"
 #include "cli/bench_table.hpp"
 #include "cli/bench_words.hpp"
-#include "soup/error.hpp"
 #include "tests/support/errors.hpp"
 
 namespace tureen::cli {

@@ -10,14 +10,14 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "base/output.hpp"
 #include "examples/curve.hpp"
 #include "examples/nerf_synthetic.hpp"
 #include "examples/parallel.hpp"
 #include "examples/shapes.hpp"
 #include "examples/still_life.hpp"
-#include "formats/dataset.hpp"
-#include "formats/output.hpp"
-#include "formats/png.hpp"
+#include "formats/dataset/dataset.hpp"
+#include "image/png.hpp"
 
 namespace tureen::example {
 namespace photograph_test {

@@ -10,9 +10,9 @@
 #include "examples/photograph.hpp"
 #include "examples/still_life.hpp"
 #include "formats/scene_file.hpp"
-#include "runtime/oracle/oracle.hpp"
-#include "soup/lint.hpp"
-#include "soup/metrics.hpp"
+#include "image/metrics.hpp"
+#include "oracle/oracle.hpp"
+#include "scene/edit/lint.hpp"
 
 namespace tureen {
 namespace shipped_soup_test {

@@ -1,4 +1,4 @@
-#include "formats/camera_file.hpp"
+#include "formats/dataset/camera_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "formats/camera_file.hpp"
+#include "formats/dataset/camera_file.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/truncation.hpp"
 #include "tests/support/random.hpp"

@@ -1,11 +1,11 @@
-#include "formats/checkpoint.hpp"
+#include "formats/torch/checkpoint.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <random>
 
-#include "soup/lattice.hpp"
+#include "scene/lattice.hpp"
 #include "tests/formats/torch_fixture.hpp"
 #include "tests/formats/truncation.hpp"
 #include "tests/support/errors.hpp"

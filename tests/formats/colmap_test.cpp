@@ -1,4 +1,4 @@
-#include "formats/colmap.hpp"
+#include "formats/dataset/colmap.hpp"
 
 #include <cmath>
 #include <functional>

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/png.hpp"
+#include "image/png.hpp"
 
 namespace tureen::test {
 

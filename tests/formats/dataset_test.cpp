@@ -1,10 +1,10 @@
-#include "formats/dataset.hpp"
+#include "formats/dataset/dataset.hpp"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "soup/box_scale.hpp"
+#include "image/box_scale.hpp"
 #include "tests/formats/dataset_fixture.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/truncation.hpp"

@@ -1,4 +1,4 @@
-#include "formats/diffsoup_export.hpp"
+#include "formats/diffsoup/diffsoup_export.hpp"
 
 #include <gmock/gmock.h>
 
@@ -8,13 +8,13 @@
 #include <random>
 #include <span>
 
-#include "formats/diffsoup_mesh.hpp"
-#include "formats/output.hpp"
-#include "formats/png.hpp"
-#include "soup/lattice.hpp"
+#include "base/output.hpp"
+#include "formats/diffsoup/diffsoup_mesh.hpp"
+#include "image/png.hpp"
+#include "scene/lattice.hpp"
 #include "tests/formats/format_testing.hpp"
-#include "tests/formats/png_sums.hpp"
 #include "tests/formats/truncation.hpp"
+#include "tests/image/png_sums.hpp"
 
 namespace tureen {
 namespace diffsoup_export_test {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "formats/input.hpp"
-#include "soup/scene.hpp"
+#include "base/input.hpp"
+#include "scene/scene.hpp"
 #include "tests/support/errors.hpp"
 
 namespace tureen::test {

@@ -1,6 +1,6 @@
 // Long because each sentence of the glTF specification that we rely on has a test of its own here.
 // Foreign glTF: small files made here, each about one thing; then the hostile ones and a real one.
-#include "formats/gltf.hpp"
+#include "formats/gltf/gltf.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,10 +14,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "formats/output.hpp"
-#include "formats/png.hpp"
-#include "formats/tureen_glb.hpp"
-#include "soup/srgb.hpp"
+#include "base/output.hpp"
+#include "formats/tureen_glb/tureen_glb.hpp"
+#include "image/png.hpp"
+#include "image/srgb.hpp"
 #include "tests/formats/truncation.hpp"
 #include "tests/support/errors.hpp"
 

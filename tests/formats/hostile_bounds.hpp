@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/memory_budget.hpp"
+#include "base/memory_budget.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/memory_limit.hpp"
 #include "tests/formats/memory_meter.hpp"

@@ -10,8 +10,8 @@
 #include <set>
 #include <string>
 
-#include "formats/png.hpp"
 #include "formats/scene_file.hpp"
+#include "image/png.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/hostile_bounds.hpp"
 

@@ -11,13 +11,13 @@
 #include <set>
 #include <utility>
 
-#include "formats/checkpoint.hpp"
-#include "formats/off.hpp"
-#include "formats/ply.hpp"
+#include "formats/mesh/off.hpp"
+#include "formats/mesh/ply.hpp"
 #include "formats/scene_file.hpp"
-#include "formats/slim_geometry.hpp"
-#include "formats/slim_texels.hpp"
-#include "formats/zip_archive.hpp"
+#include "formats/torch/checkpoint.hpp"
+#include "formats/torch/zip_archive.hpp"
+#include "formats/tureen_glb/slim_geometry.hpp"
+#include "formats/tureen_glb/slim_texels.hpp"
 #include "tests/formats/dataset_fixture.hpp"
 #include "tests/formats/hostile_bounds.hpp"
 #include "tests/formats/torch_fixture.hpp"
@@ -26,7 +26,7 @@
 #include "tests/fuzz/folder_files.hpp"
 #include "tests/fuzz/targets.hpp"
 #include "tests/support/errors.hpp"
-#include "trainer/model.hpp"
+#include "trainer/diffsoup/model.hpp"
 
 namespace tureen {
 namespace hostile_sizes_test {
@@ -129,8 +129,8 @@ TEST(HostileSizes, InBinaryFiles) {
     EXPECT_TRUE(tried.contains(name)) << name;
 }
 
-/// Where the counts of a checkpoint stand, by what they count: its layout (trainer/checkpoint.hpp)
-/// once more, by hand.
+/// Where the counts of a checkpoint stand, by what they count: its layout
+/// (trainer/diffsoup/checkpoint.hpp) once more, by hand.
 std::vector<std::pair<const char*, std::size_t>> counts_of_checkpoint(const Bytes& bytes) {
   std::vector<std::pair<const char*, std::size_t>> counts;
   std::size_t at = 8 + 4;  // behind the magic and the version

@@ -15,12 +15,12 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "formats/camera_file.hpp"
-#include "formats/checkpoint.hpp"
-#include "formats/colmap.hpp"
-#include "formats/dataset.hpp"
-#include "formats/png.hpp"
+#include "formats/dataset/camera_file.hpp"
+#include "formats/dataset/colmap.hpp"
+#include "formats/dataset/dataset.hpp"
 #include "formats/scene_file.hpp"
+#include "formats/torch/checkpoint.hpp"
+#include "image/png.hpp"
 #include "tests/formats/dataset_fixture.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/hostile_bounds.hpp"

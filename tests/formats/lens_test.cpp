@@ -1,4 +1,4 @@
-#include "formats/lens.hpp"
+#include "formats/dataset/lens.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "formats/memory_budget.hpp"
+#include "base/memory_budget.hpp"
 
 namespace tureen::test {
 

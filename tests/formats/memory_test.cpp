@@ -3,9 +3,9 @@
 
 #include <cstring>
 
-#include "formats/decoder_memory.hpp"
-#include "formats/memory_budget.hpp"
-#include "formats/png.hpp"
+#include "base/memory_budget.hpp"
+#include "image/decoder_memory.hpp"
+#include "image/png.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/memory_limit.hpp"
 #include "tests/fuzz/fixtures.hpp"

@@ -1,4 +1,4 @@
-#include "formats/mobilenerf.hpp"
+#include "formats/mesh/mobilenerf.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "formats/obj.hpp"
-#include "formats/png.hpp"
+#include "formats/mesh/obj.hpp"
 #include "formats/scene_file.hpp"
+#include "image/png.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/truncation.hpp"
 

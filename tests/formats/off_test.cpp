@@ -1,4 +1,4 @@
-#include "formats/off.hpp"
+#include "formats/mesh/off.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <random>
 #include <string>
 
-#include "soup/spherical_harmonics.hpp"
+#include "scene/spherical_harmonics.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/truncation.hpp"
 

@@ -1,4 +1,4 @@
-#include "formats/pickle.hpp"
+#include "formats/torch/pickle.hpp"
 
 #include <gmock/gmock.h>
 

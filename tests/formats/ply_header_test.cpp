@@ -1,4 +1,4 @@
-#include "formats/ply_header.hpp"
+#include "formats/mesh/ply_header.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "formats/ply.hpp"
+#include "formats/mesh/ply.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

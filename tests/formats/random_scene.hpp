@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "soup/lattice.hpp"
-#include "soup/scene.hpp"
-#include "soup/spherical_harmonics.hpp"
+#include "scene/lattice.hpp"
+#include "scene/scene.hpp"
+#include "scene/spherical_harmonics.hpp"
 
 namespace tureen::test {
 

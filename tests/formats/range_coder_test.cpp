@@ -1,5 +1,5 @@
 // The range coder: what goes in comes out, in about as many bytes as it holds information.
-#include "formats/range_coder.hpp"
+#include "formats/tureen_glb/range_coder.hpp"
 
 #include <gtest/gtest.h>
 

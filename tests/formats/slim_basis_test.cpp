@@ -1,12 +1,12 @@
 // The basis of slim features: it comes back from whole numbers, and its axes do what they promise.
-#include "formats/slim_basis.hpp"
+#include "formats/tureen_glb/slim_basis.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "soup/lattice.hpp"
+#include "scene/lattice.hpp"
 #include "tests/formats/random_scene.hpp"
 
 namespace tureen {

@@ -1,5 +1,5 @@
 // Geometry of slim files: the same triangles, each corner within half a step of where it was.
-#include "formats/slim_geometry.hpp"
+#include "formats/tureen_glb/slim_geometry.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "soup/error.hpp"
+#include "base/error.hpp"
 #include "tests/formats/random_scene.hpp"
 #include "tests/formats/truncation.hpp"
 

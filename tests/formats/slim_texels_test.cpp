@@ -1,12 +1,12 @@
 // Texels of slim files: exact where they lose nothing, within their step where they do, and no
 // bytes do worse than an InputError.
-#include "formats/slim_texels.hpp"
+#include "formats/tureen_glb/slim_texels.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "soup/lattice.hpp"
+#include "scene/lattice.hpp"
 #include "tests/formats/random_scene.hpp"
 #include "tests/formats/truncation.hpp"
 

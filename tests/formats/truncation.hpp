@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "soup/error.hpp"
+#include "base/error.hpp"
 
 namespace tureen::test {
 

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "formats/input.hpp"
-#include "formats/tureen_glb.hpp"
+#include "base/input.hpp"
+#include "formats/tureen_glb/tureen_glb.hpp"
 #include "tests/formats/random_scene.hpp"
 
 namespace tureen::test {

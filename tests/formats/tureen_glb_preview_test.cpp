@@ -1,5 +1,5 @@
 // A scene from the first bytes of its file: what it shows is what the whole file says.
-#include "formats/tureen_glb_preview.hpp"
+#include "formats/tureen_glb/tureen_glb_preview.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <functional>
 #include <stdexcept>
 
-#include "formats/tureen_glb_slim.hpp"
-#include "soup/mean_color.hpp"
+#include "formats/tureen_glb/tureen_glb_slim.hpp"
+#include "scene/edit/mean_color.hpp"
 #include "tests/formats/truncation.hpp"
 #include "tests/formats/tureen_glb_kinds.hpp"
 #include "tests/support/errors.hpp"

@@ -1,5 +1,5 @@
 // Slim files: what a reader makes of them is what the encoder said it would.
-#include "formats/tureen_glb_slim.hpp"
+#include "formats/tureen_glb/tureen_glb_slim.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "formats/tureen_glb.hpp"
+#include "formats/tureen_glb/tureen_glb.hpp"
 #include "tests/formats/random_scene.hpp"
 #include "tests/formats/truncation.hpp"
 #include "tests/formats/tureen_glb_kinds.hpp"

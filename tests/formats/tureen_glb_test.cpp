@@ -1,6 +1,6 @@
 // TUREEN_triangle_soup: what is written comes back to the bit, and no damage does worse than an
 // InputError.
-#include "formats/tureen_glb.hpp"
+#include "formats/tureen_glb/tureen_glb.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,10 +10,10 @@
 #include <limits>
 #include <set>
 
-#include "formats/memory_budget.hpp"
-#include "soup/edits.hpp"
-#include "soup/mean_color.hpp"
-#include "soup/srgb.hpp"
+#include "base/memory_budget.hpp"
+#include "image/srgb.hpp"
+#include "scene/edit/edits.hpp"
+#include "scene/edit/mean_color.hpp"
 #include "tests/formats/truncation.hpp"
 #include "tests/formats/tureen_glb_kinds.hpp"
 #include "tests/support/errors.hpp"

@@ -1,4 +1,4 @@
-#include "formats/uri.hpp"
+#include "formats/gltf/uri.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "formats/zip_archive.hpp"
+#include "formats/torch/zip_archive.hpp"
 
 #include <gmock/gmock.h>
 

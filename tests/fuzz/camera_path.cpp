@@ -1,5 +1,5 @@
 // A camera path of ours.
-#include "formats/camera_file.hpp"
+#include "formats/dataset/camera_file.hpp"
 #include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {

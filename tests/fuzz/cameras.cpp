@@ -1,5 +1,5 @@
 // Camera files in JSON: ours, transforms.json, and that of 3D Gaussian Splatting.
-#include "formats/camera_file.hpp"
+#include "formats/dataset/camera_file.hpp"
 #include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {

@@ -1,5 +1,5 @@
 // A checkpoint by torch: the zip archive, the pickle in it, its tensors.
-#include "formats/checkpoint.hpp"
+#include "formats/torch/checkpoint.hpp"
 
 #include "tests/fuzz/scratch.hpp"
 

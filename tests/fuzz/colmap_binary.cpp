@@ -1,5 +1,5 @@
 // COLMAP's binary files. The first byte says which of the three.
-#include "formats/colmap.hpp"
+#include "formats/dataset/colmap.hpp"
 #include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {

@@ -1,5 +1,5 @@
 // One file of a DiffSoup export beside valid others; the first byte says which.
-#include "formats/diffsoup_export.hpp"
+#include "formats/diffsoup/diffsoup_export.hpp"
 #include "tests/fuzz/folder_files.hpp"
 #include "tests/fuzz/scratch.hpp"
 

@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "formats/memory_budget.hpp"
-#include "soup/error.hpp"
+#include "base/error.hpp"
+#include "base/memory_budget.hpp"
 #include "tests/fuzz/targets.hpp"
 
 extern "C" int LLVMFuzzerInitialize(int*, char***) {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "formats/diffsoup_export.hpp"
-#include "formats/input.hpp"
-#include "formats/png.hpp"
+#include "base/input.hpp"
+#include "formats/diffsoup/diffsoup_export.hpp"
+#include "image/png.hpp"
 #include "tests/formats/random_scene.hpp"
 
 namespace tureen::fuzz {

@@ -1,5 +1,5 @@
 // A .glb or .gltf: ours with all its kinds, and everybody else's.
-#include "formats/gltf.hpp"
+#include "formats/gltf/gltf.hpp"
 
 #include "tests/fuzz/scratch.hpp"
 

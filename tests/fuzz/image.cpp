@@ -1,8 +1,8 @@
 // A PNG or a JPEG. The chunks of a PNG get the checksums that their bytes have, which no fuzzer
-// would find; that others are refused is in tests/formats/png_test.cpp.
-#include "formats/png.hpp"
-#include "tests/formats/png_sums.hpp"
+// would find; that others are refused is in tests/image/png_test.cpp.
+#include "image/png.hpp"
 #include "tests/fuzz/targets.hpp"
+#include "tests/image/png_sums.hpp"
 
 namespace tureen::fuzz {
 

@@ -1,5 +1,5 @@
 // One file of a MobileNeRF scene beside valid others; the first byte says which.
-#include "formats/mobilenerf.hpp"
+#include "formats/mesh/mobilenerf.hpp"
 
 #include "tests/fuzz/folder_files.hpp"
 #include "tests/fuzz/scratch.hpp"

@@ -1,5 +1,5 @@
 // The OBJ of a MobileNeRF shape.
-#include "formats/obj.hpp"
+#include "formats/mesh/obj.hpp"
 
 #include "tests/fuzz/targets.hpp"
 

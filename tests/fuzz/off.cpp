@@ -1,5 +1,5 @@
 // An OFF or COFF.
-#include "formats/off.hpp"
+#include "formats/mesh/off.hpp"
 
 #include "tests/fuzz/scratch.hpp"
 

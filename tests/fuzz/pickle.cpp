@@ -1,5 +1,5 @@
 // A pickle as torch writes it, without the archive around it.
-#include "formats/pickle.hpp"
+#include "formats/torch/pickle.hpp"
 
 #include <array>
 

@@ -1,5 +1,5 @@
 // A PLY, text or binary of either byte order.
-#include "formats/ply.hpp"
+#include "formats/mesh/ply.hpp"
 
 #include "tests/fuzz/scratch.hpp"
 

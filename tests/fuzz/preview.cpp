@@ -1,5 +1,5 @@
 // The first bytes of a GLB of ours, while it arrives.
-#include "formats/tureen_glb_preview.hpp"
+#include "formats/tureen_glb/tureen_glb_preview.hpp"
 #include "tests/fuzz/scratch.hpp"
 
 namespace tureen::fuzz {

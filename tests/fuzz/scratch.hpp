@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "soup/scene.hpp"
+#include "scene/scene.hpp"
 #include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {

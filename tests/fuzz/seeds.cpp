@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "formats/output.hpp"
+#include "base/output.hpp"
 #include "tests/fuzz/fixtures.hpp"
 
 int main(int argc, char** argv) {

@@ -1,5 +1,5 @@
 // The coded triangles of a slim file. The first two bytes are the numbers of faces and vertices.
-#include "formats/slim_geometry.hpp"
+#include "formats/tureen_glb/slim_geometry.hpp"
 
 #include "tests/fuzz/targets.hpp"
 

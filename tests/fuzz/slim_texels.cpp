@@ -1,5 +1,5 @@
 // The coded texels of a slim file. The first byte is the number of faces.
-#include "formats/slim_texels.hpp"
+#include "formats/tureen_glb/slim_texels.hpp"
 
 #include "tests/fuzz/targets.hpp"
 

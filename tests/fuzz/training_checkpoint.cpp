@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tests/fuzz/targets.hpp"
-#include "trainer/checkpoint.hpp"
+#include "trainer/diffsoup/checkpoint.hpp"
 
 namespace tureen::fuzz {
 

@@ -1,6 +1,6 @@
 // The configuration of a training run.
 #include "tests/fuzz/targets.hpp"
-#include "trainer/config_file.hpp"
+#include "trainer/diffsoup/config_file.hpp"
 
 namespace tureen::fuzz {
 

@@ -1,6 +1,6 @@
 // A dataset by its transforms.json, beside one picture.
-#include "formats/dataset.hpp"
-#include "formats/png.hpp"
+#include "formats/dataset/dataset.hpp"
+#include "image/png.hpp"
 #include "tests/fuzz/scratch.hpp"
 
 namespace tureen::fuzz {

@@ -1,7 +1,7 @@
 // A zip archive and all that its entries hold.
 #include <algorithm>
 
-#include "formats/zip_archive.hpp"
+#include "formats/torch/zip_archive.hpp"
 #include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {

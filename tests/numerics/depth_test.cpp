@@ -5,12 +5,12 @@
 #include <cmath>
 #include <vector>
 
-#include "runtime/clip_range.hpp"
 #include "runtime/renderer.hpp"
+#include "scene/clip_range.hpp"
 #include "tests/numerics/recorder.hpp"
 #include "tests/numerics/scenes.hpp"
 #include "tests/trainer/stages.hpp"
-#include "trainer/kernels/fragments.hpp"
+#include "trainer/common/kernels/fragments.hpp"
 
 namespace tureen::test {
 namespace depth_test {

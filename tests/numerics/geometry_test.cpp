@@ -11,19 +11,19 @@
 #include <string>
 #include <vector>
 
-#include "runtime/inspector.hpp"
-#include "runtime/oracle/hits.hpp"
+#include "oracle/hits.hpp"
+#include "runtime/debug_views/inspector.hpp"
 #include "runtime/renderer.hpp"
-#include "soup/lint.hpp"
+#include "scene/edit/lint.hpp"
 #include "tests/numerics/recorder.hpp"
 #include "tests/numerics/scenes.hpp"
 #include "tests/numerics/vertex_probe.hpp"
 #include "tests/support/agreement.hpp"
 #include "tests/support/random.hpp"
 #include "tests/trainer/stages.hpp"
-#include "trainer/backend.hpp"
-#include "trainer/cuda/device_picture.hpp"
-#include "trainer/kernels/fragments.hpp"
+#include "trainer/common/kernels/fragments.hpp"
+#include "trainer/diffsoup/backend.hpp"
+#include "trainer/diffsoup/cuda/device_picture.hpp"
 
 namespace tureen::test {
 namespace geometry_test {

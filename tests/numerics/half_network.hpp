@@ -9,8 +9,8 @@
 #include <span>
 #include <utility>
 
-#include "soup/color_mlp.hpp"
-#include "soup/spherical_harmonics.hpp"
+#include "scene/color_mlp.hpp"
+#include "scene/spherical_harmonics.hpp"
 
 namespace tureen::test {
 

@@ -4,15 +4,15 @@
 #include <cstdint>
 #include <string>
 
-#include "runtime/fragment_store.hpp"
-#include "runtime/geometry.hpp"
 #include "runtime/gl/program.hpp"
 #include "runtime/gl/state.hpp"
-#include "runtime/shader_source.hpp"
+#include "runtime/passes/fragment_store.hpp"
+#include "runtime/passes/geometry.hpp"
+#include "runtime/passes/shader_source.hpp"
 #include "tests/numerics/recorder.hpp"
 #include "tests/numerics/scenes.hpp"
 #include "tests/support/shader_probe.hpp"
-#include "trainer/cuda/device_picture.hpp"
+#include "trainer/diffsoup/cuda/device_picture.hpp"
 
 namespace tureen::test {
 namespace large_faces_test {

@@ -10,8 +10,8 @@
 #include "tests/numerics/scenes.hpp"
 #include "tests/support/random.hpp"
 #include "tests/trainer/stages.hpp"
-#include "trainer/kernels/random.hpp"
-#include "trainer/kernels/score.hpp"
+#include "trainer/common/kernels/random.hpp"
+#include "trainer/common/kernels/score.hpp"
 
 namespace tureen::test {
 namespace masking_test {

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/oracle/hits.hpp"
-#include "runtime/oracle/shade.hpp"
+#include "oracle/hits.hpp"
+#include "oracle/shade.hpp"
 #include "runtime/renderer.hpp"
 #include "tests/numerics/recorder.hpp"
 #include "tests/numerics/scenes.hpp"

@@ -15,14 +15,14 @@
 #include "tests/numerics/scenes.hpp"
 #include "tests/support/random.hpp"
 #include "tests/trainer/host_machine.hpp"
-#include "trainer/cpu/image_loss.hpp"
-#include "trainer/cuda/kernel.hpp"
-#include "trainer/cuda/kernel_backend.hpp"
-#include "trainer/kernels/adam.hpp"
-#include "trainer/kernels/color_network.hpp"
-#include "trainer/kernels/image_loss.hpp"
-#include "trainer/mlp_parameters.hpp"
-#include "trainer/trainer.hpp"
+#include "trainer/common/cpu/image_loss.hpp"
+#include "trainer/common/cuda/kernel.hpp"
+#include "trainer/common/kernels/adam.hpp"
+#include "trainer/common/kernels/image_loss.hpp"
+#include "trainer/diffsoup/cuda/kernel_backend.hpp"
+#include "trainer/diffsoup/kernels/color_network.hpp"
+#include "trainer/diffsoup/mlp_parameters.hpp"
+#include "trainer/diffsoup/trainer.hpp"
 
 namespace tureen::test {
 namespace optimiser_test {

@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "soup/quantise.hpp"
-#include "soup/scene.hpp"
+#include "image/quantise.hpp"
+#include "scene/scene.hpp"
 #include "tests/numerics/recorder.hpp"
 #include "tests/numerics/scenes.hpp"
 #include "tests/support/agreement.hpp"
 #include "tests/support/hazardous_scenes.hpp"
 #include "tests/trainer/stages.hpp"
-#include "trainer/backend.hpp"
+#include "trainer/diffsoup/backend.hpp"
 
 namespace tureen::test {
 namespace random_scenes_test {

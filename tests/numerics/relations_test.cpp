@@ -10,8 +10,8 @@
 #include <numeric>
 #include <vector>
 
-#include "runtime/oracle/oracle.hpp"
-#include "soup/lattice.hpp"
+#include "oracle/oracle.hpp"
+#include "scene/lattice.hpp"
 #include "tests/numerics/recorder.hpp"
 #include "tests/numerics/scenes.hpp"
 #include "tests/support/agreement.hpp"

@@ -7,8 +7,8 @@
 #include <numeric>
 #include <utility>
 
-#include "runtime/oracle/oracle.hpp"
-#include "runtime/oracle/shade.hpp"
+#include "oracle/oracle.hpp"
+#include "oracle/shade.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/trainer/stages.hpp"
 

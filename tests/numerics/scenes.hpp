@@ -7,10 +7,10 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "oracle/hits.hpp"
 #include "runtime/gl/context.hpp"
-#include "runtime/oracle/hits.hpp"
-#include "soup/camera.hpp"
-#include "soup/triangle_soup.hpp"
+#include "scene/camera.hpp"
+#include "scene/triangle_soup.hpp"
 #include "tests/support/agreement.hpp"
 
 namespace tureen::test {

@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "formats/png.hpp"
-#include "runtime/color_mlp_source.hpp"
+#include "image/png.hpp"
+#include "image/quantise.hpp"
+#include "image/srgb.hpp"
+#include "runtime/plan/color_mlp_source.hpp"
 #include "runtime/renderer.hpp"
-#include "soup/lattice.hpp"
-#include "soup/quantise.hpp"
-#include "soup/srgb.hpp"
+#include "scene/lattice.hpp"
 #include "tests/numerics/half_network.hpp"
 #include "tests/numerics/recorder.hpp"
 #include "tests/numerics/scenes.hpp"
@@ -24,7 +24,7 @@
 #include "tests/support/random.hpp"
 #include "tests/support/random_soups.hpp"
 #include "tests/support/shader_probe.hpp"
-#include "trainer/kernels/scalar.hpp"
+#include "trainer/common/kernels/scalar.hpp"
 
 namespace tureen::test {
 

@@ -17,10 +17,10 @@
 #include "tests/support/random.hpp"
 #include "tests/trainer/host_machine.hpp"
 #include "tests/trainer/random_model.hpp"
-#include "trainer/cuda/kernel_backend.hpp"
-#include "trainer/kernels/adam.hpp"
-#include "trainer/kernels/color_network.hpp"
-#include "trainer/trainer.hpp"
+#include "trainer/common/kernels/adam.hpp"
+#include "trainer/diffsoup/cuda/kernel_backend.hpp"
+#include "trainer/diffsoup/kernels/color_network.hpp"
+#include "trainer/diffsoup/trainer.hpp"
 
 namespace tureen::test {
 namespace training_test {

@@ -1,8 +1,8 @@
 #include "tests/numerics/vertex_probe.hpp"
 
-#include "runtime/geometry.hpp"
 #include "runtime/gl/api.hpp"
-#include "runtime/shader_source.hpp"
+#include "runtime/passes/geometry.hpp"
+#include "runtime/passes/shader_source.hpp"
 #include "tests/numerics/scenes.hpp"
 
 namespace tureen::test {

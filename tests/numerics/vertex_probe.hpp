@@ -5,7 +5,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
-#include "runtime/pipeline.hpp"
+#include "runtime/passes/pipeline.hpp"
 
 namespace tureen::test {
 

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "runtime/geometry.hpp"
-#include "runtime/oracle/hits.hpp"
-#include "runtime/oracle/shade.hpp"
-#include "runtime/texel_store.hpp"
-#include "soup/lattice.hpp"
-#include "soup/spherical_harmonics.hpp"
+#include "oracle/hits.hpp"
+#include "oracle/shade.hpp"
+#include "runtime/passes/geometry.hpp"
+#include "runtime/passes/texel_store.hpp"
+#include "scene/lattice.hpp"
+#include "scene/spherical_harmonics.hpp"
 #include "tests/numerics/recorder.hpp"
 #include "tests/numerics/scenes.hpp"
 #include "tests/support/agreement.hpp"

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "runtime/color_mlp_source.hpp"
+#include "image/quantise.hpp"
+#include "runtime/passes/shader_source.hpp"
+#include "runtime/plan/color_mlp_source.hpp"
 #include "runtime/prepared_soup.hpp"
 #include "runtime/render_options.hpp"
-#include "runtime/shader_source.hpp"
-#include "soup/lattice.hpp"
-#include "soup/quantise.hpp"
-#include "soup/spherical_harmonics.hpp"
+#include "scene/lattice.hpp"
+#include "scene/spherical_harmonics.hpp"
 #include "tests/numerics/half_network.hpp"
 #include "tests/numerics/recorder.hpp"
 #include "tests/numerics/scenes.hpp"
@@ -25,8 +25,8 @@
 #include "tests/support/shader_probe.hpp"
 #include "tests/trainer/host_machine.hpp"
 #include "tests/trainer/stages.hpp"
-#include "trainer/cuda/kernel_backend.hpp"
-#include "trainer/kernels/color_network.hpp"
+#include "trainer/diffsoup/cuda/kernel_backend.hpp"
+#include "trainer/diffsoup/kernels/color_network.hpp"
 
 namespace tureen::test {
 namespace weights_test {

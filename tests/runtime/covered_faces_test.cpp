@@ -1,6 +1,6 @@
 // Faces that cover no pixel's centre are dropped, and nothing else: against an obvious search in
 // double precision, and by pictures that stay the same to the bit.
-#include "runtime/covered_faces.hpp"
+#include "runtime/passes/covered_faces.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "runtime/face_alpha.hpp"
+#include "runtime/plan/face_alpha.hpp"
 #include "runtime/renderer.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/random_soups.hpp"

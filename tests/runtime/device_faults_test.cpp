@@ -8,10 +8,10 @@
 #include <cstring>
 #include <utility>
 
+#include "base/error.hpp"
 #include "runtime/gl/api.hpp"
 #include "runtime/gl/program.hpp"
 #include "runtime/renderer.hpp"
-#include "soup/error.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/cutout_cloud.hpp"
 #include "tests/support/errors.hpp"

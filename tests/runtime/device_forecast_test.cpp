@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "runtime/passes/texel_store.hpp"
 #include "runtime/renderer.hpp"
-#include "runtime/texel_store.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/cutout_cloud.hpp"
 #include "tests/support/random_soups.hpp"

@@ -1,10 +1,10 @@
-// Soups with edits (soup/edits.hpp): what the device shows against the oracle's image, and what it
-// takes against the forecast.
+// Soups with edits (scene/edit/edits.hpp): what the device shows against the oracle's image, and
+// what it takes against the forecast.
 #include <gtest/gtest.h>
 
 #include "runtime/device_forecast.hpp"
 #include "runtime/renderer.hpp"
-#include "soup/edits.hpp"
+#include "scene/edit/edits.hpp"
 #include "tests/support/agreement.hpp"
 #include "tests/support/random_soups.hpp"
 

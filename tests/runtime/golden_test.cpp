@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/scene_file.hpp"
-#include "runtime/inspector.hpp"
+#include "runtime/debug_views/inspector.hpp"
 #include "runtime/renderer.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/golden_scenes.hpp"

@@ -8,10 +8,10 @@
 #include <numbers>
 #include <numeric>
 
-#include "runtime/lattice_traits.hpp"
-#include "runtime/view_dependence.hpp"
-#include "soup/lattice.hpp"
-#include "soup/spherical_harmonics.hpp"
+#include "runtime/plan/lattice_traits.hpp"
+#include "runtime/plan/view_dependence.hpp"
+#include "scene/lattice.hpp"
+#include "scene/spherical_harmonics.hpp"
 #include "tests/runtime/specialised_pictures.hpp"
 
 namespace tureen::test {

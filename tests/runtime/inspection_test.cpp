@@ -1,6 +1,6 @@
 // What inspections show, held against values that the oracle's rays and the model give on the CPU,
 // on random soups of every appearance and on every context.
-#include "runtime/inspection.hpp"
+#include "runtime/debug_views/inspection.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,13 +10,13 @@
 #include <functional>
 #include <glm/geometric.hpp>
 
-#include "runtime/inspector.hpp"
-#include "runtime/oracle/hits.hpp"
-#include "runtime/oracle/shade.hpp"
-#include "runtime/oracle/uv_sampling.hpp"
+#include "base/error.hpp"
+#include "oracle/hits.hpp"
+#include "oracle/shade.hpp"
+#include "oracle/uv_sampling.hpp"
+#include "runtime/debug_views/inspector.hpp"
 #include "runtime/renderer.hpp"
-#include "soup/error.hpp"
-#include "soup/lattice.hpp"
+#include "scene/lattice.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/random_soups.hpp"

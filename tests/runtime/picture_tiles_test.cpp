@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "runtime/oracle/oracle.hpp"
-#include "soup/error.hpp"
+#include "base/error.hpp"
+#include "oracle/oracle.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/random_soups.hpp"
 

@@ -1,5 +1,5 @@
 // The English of plans. Other tests look at a plan's fields.
-#include "runtime/plan_description.hpp"
+#include "runtime/plan/plan_description.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

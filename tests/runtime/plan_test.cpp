@@ -1,15 +1,15 @@
 // What the plan leaves out, and that leaving it out changes nothing.
-#include "runtime/plan.hpp"
+#include "runtime/plan/plan.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "runtime/face_alpha.hpp"
-#include "soup/error.hpp"
-#include "soup/lattice.hpp"
-#include "soup/spherical_harmonics.hpp"
+#include "base/error.hpp"
+#include "runtime/plan/face_alpha.hpp"
+#include "scene/lattice.hpp"
+#include "scene/spherical_harmonics.hpp"
 #include "tests/runtime/specialised_pictures.hpp"
 #include "tests/support/cutout_cloud.hpp"
 #include "tests/support/errors.hpp"

@@ -2,7 +2,7 @@
 // not paid for in error.
 #include <gtest/gtest.h>
 
-#include "soup/metrics.hpp"
+#include "image/metrics.hpp"
 #include "tests/support/agreement.hpp"
 #include "tests/support/cutout_cloud.hpp"
 

@@ -2,8 +2,8 @@
 // next.
 #include <gtest/gtest.h>
 
+#include "base/error.hpp"
 #include "runtime/gl/api.hpp"
-#include "soup/error.hpp"
 #include "tests/runtime/quality_drawing.hpp"
 #include "tests/support/contexts.hpp"
 

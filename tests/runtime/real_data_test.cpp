@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <string>
 
+#include "camera/navigation.hpp"
 #include "formats/scene_file.hpp"
-#include "runtime/navigation.hpp"
-#include "soup/metrics.hpp"
+#include "image/metrics.hpp"
 #include "tests/support/agreement.hpp"
 
 namespace tureen {

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 
+#include "base/error.hpp"
 #include "runtime/gl/api.hpp"
-#include "soup/error.hpp"
-#include "soup/lattice.hpp"
+#include "scene/lattice.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/cutout_cloud.hpp"
 #include "tests/support/errors.hpp"

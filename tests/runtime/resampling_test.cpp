@@ -5,8 +5,8 @@
 #include <cmath>
 #include <functional>
 
-#include "runtime/resampled_pipeline.hpp"
-#include "soup/error.hpp"
+#include "base/error.hpp"
+#include "runtime/passes/resampled_pipeline.hpp"
 #include "tests/runtime/quality_drawing.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/errors.hpp"

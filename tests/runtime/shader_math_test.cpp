@@ -5,12 +5,12 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "image/heat_map.hpp"
+#include "runtime/debug_views/inspection.hpp"
 #include "runtime/gl/api.hpp"
-#include "runtime/inspection.hpp"
-#include "runtime/texel_store.hpp"
-#include "soup/heat_map.hpp"
-#include "soup/lattice.hpp"
-#include "soup/spherical_harmonics.hpp"
+#include "runtime/passes/texel_store.hpp"
+#include "scene/lattice.hpp"
+#include "scene/spherical_harmonics.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/shader_probe.hpp"

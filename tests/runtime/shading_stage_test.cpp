@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "soup/error.hpp"
+#include "base/error.hpp"
 #include "tests/runtime/quality_drawing.hpp"
 #include "tests/support/contexts.hpp"
 

@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "image/image.hpp"
+#include "oracle/oracle.hpp"
 #include "runtime/gl/context.hpp"
-#include "runtime/oracle/oracle.hpp"
-#include "runtime/plan.hpp"
-#include "soup/camera.hpp"
-#include "soup/image.hpp"
-#include "soup/triangle_soup.hpp"
+#include "runtime/plan/plan.hpp"
+#include "scene/camera.hpp"
+#include "scene/triangle_soup.hpp"
 
 namespace tureen::test {
 

@@ -6,7 +6,7 @@
 #include <glm/trigonometric.hpp>
 #include <string>
 
-#include "soup/lattice.hpp"
+#include "scene/lattice.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/random_soups.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "soup/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace tureen::test {
 

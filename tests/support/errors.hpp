@@ -20,7 +20,7 @@
 #include <string_view>
 #include <vector>
 
-#include "soup/error.hpp"
+#include "base/error.hpp"
 
 namespace tureen::test {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "formats/output.hpp"
-#include "formats/png.hpp"
+#include "base/output.hpp"
+#include "image/png.hpp"
 
 namespace tureen::test {
 

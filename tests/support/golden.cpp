@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "formats/input.hpp"
-#include "formats/png.hpp"
+#include "base/input.hpp"
+#include "image/png.hpp"
 #include "tests/support/evidence.hpp"
 
 namespace tureen::test {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "soup/image.hpp"
+#include "image/image.hpp"
 
 namespace tureen::test {
 

@@ -2,7 +2,7 @@
 // (tests/runtime/golden_test.cpp) and in a browser (tests/web/goldens.test.mjs).
 #pragma once
 
-#include "soup/scene.hpp"
+#include "scene/scene.hpp"
 #include "tests/support/random_soups.hpp"
 
 namespace tureen::test {

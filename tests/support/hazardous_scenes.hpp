@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "soup/camera.hpp"
-#include "soup/triangle_soup.hpp"
+#include "scene/camera.hpp"
+#include "scene/triangle_soup.hpp"
 #include "tests/support/random_soups.hpp"
 
 namespace tureen::test {

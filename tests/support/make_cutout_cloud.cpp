@@ -8,7 +8,7 @@
 #include <string>
 
 #include "formats/scene_file.hpp"
-#include "soup/lattice.hpp"
+#include "scene/lattice.hpp"
 #include "tests/support/cutout_cloud.hpp"
 
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "soup/lattice.hpp"
-#include "soup/spherical_harmonics.hpp"
+#include "scene/lattice.hpp"
+#include "scene/spherical_harmonics.hpp"
 
 namespace tureen::test {
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <string>
 
-#include "soup/camera.hpp"
-#include "soup/triangle_soup.hpp"
+#include "scene/camera.hpp"
+#include "scene/triangle_soup.hpp"
 #include "tests/support/random.hpp"
 
 namespace tureen::test {

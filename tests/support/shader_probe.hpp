@@ -8,8 +8,8 @@
 
 #include "runtime/gl/api.hpp"
 #include "runtime/gl/program.hpp"
-#include "runtime/shader_source.hpp"
-#include "runtime/targets.hpp"
+#include "runtime/passes/shader_source.hpp"
+#include "runtime/passes/targets.hpp"
 
 namespace tureen::test {
 

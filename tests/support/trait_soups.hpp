@@ -1,10 +1,10 @@
 // Soups that have, or plainly lack, what lets a plan leave something out: one trait for each entry
-// of runtime/specialisation.hpp. Tests prove with them that nothing changes, benchmarks what it
-// gains.
+// of runtime/plan/specialisation.hpp. Tests prove with them that nothing changes, benchmarks what
+// it gains.
 #pragma once
 
-#include "runtime/specialisation.hpp"
-#include "soup/triangle_soup.hpp"
+#include "runtime/plan/specialisation.hpp"
+#include "scene/triangle_soup.hpp"
 #include "tests/support/random_soups.hpp"
 
 namespace tureen::test {

@@ -1,4 +1,4 @@
-#include "trainer/kernels/adam.hpp"
+#include "trainer/common/kernels/adam.hpp"
 
 #include <gtest/gtest.h>
 

@@ -14,8 +14,8 @@
 
 #include "tests/support/random.hpp"
 #include "tests/trainer/random_model.hpp"
-#include "trainer/checkpoint.hpp"
-#include "trainer/trainer.hpp"
+#include "trainer/diffsoup/checkpoint.hpp"
+#include "trainer/diffsoup/trainer.hpp"
 
 namespace tureen::trainer::test {
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-#include "trainer/backend.hpp"
+#include "trainer/diffsoup/backend.hpp"
 
 namespace tureen::trainer::test {
 

@@ -1,4 +1,4 @@
-#include "trainer/checkpoint.hpp"
+#include "trainer/diffsoup/checkpoint.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "trainer/kernels/color_network.hpp"
+#include "trainer/diffsoup/kernels/color_network.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <limits>
 #include <vector>
 
-#include "soup/spherical_harmonics.hpp"
+#include "scene/spherical_harmonics.hpp"
 #include "tests/support/random.hpp"
-#include "trainer/kernels/pack.hpp"
-#include "trainer/kernels/scalar.hpp"
-#include "trainer/mlp_parameters.hpp"
+#include "trainer/common/kernels/pack.hpp"
+#include "trainer/common/kernels/scalar.hpp"
+#include "trainer/diffsoup/mlp_parameters.hpp"
 
 namespace tureen::trainer {
 namespace color_network_test {

@@ -1,5 +1,5 @@
 // Configurations: the table of fields against the struct, and files of them.
-#include "trainer/config.hpp"
+#include "trainer/diffsoup/config.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,10 +11,10 @@
 #include <random>
 #include <set>
 
-#include "soup/error.hpp"
+#include "base/error.hpp"
 #include "tests/support/errors.hpp"
-#include "trainer/config_fields.hpp"
-#include "trainer/config_file.hpp"
+#include "trainer/diffsoup/config_fields.hpp"
+#include "trainer/diffsoup/config_file.hpp"
 
 namespace tureen::trainer {
 namespace config_test {
@@ -74,7 +74,7 @@ TEST(ConfigFields, AreAllMembersOfConfigOnceAndInOrder) {
   }
   // Distinct members, as many as there are: all.
   EXPECT_EQ(values, value_count<>())
-      << "Config has members that trainer/config_fields.cpp does not list, or the reverse";
+      << "Config has members that trainer/diffsoup/config_fields.cpp does not list, or the reverse";
 }
 
 TEST(ConfigFields, HaveAReasonForEveryRange) {

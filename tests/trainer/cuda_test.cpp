@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "soup/error.hpp"
+#include "base/error.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/trainer/backend_agreement.hpp"
-#include "trainer/device.hpp"
+#include "trainer/diffsoup/device.hpp"
 
 namespace tureen::trainer::test {
 

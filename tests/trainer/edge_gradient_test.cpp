@@ -4,7 +4,7 @@
 //
 // G is an affine function of the place, fixed to the scene and not to the grid. So the integral
 // over a polygon is known exactly, and the derivative by a motion is taken from it by differences.
-#include "trainer/kernels/edge_gradient.hpp"
+#include "trainer/common/kernels/edge_gradient.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "soup/triangle_soup.hpp"
+#include "scene/triangle_soup.hpp"
 #include "tests/support/random.hpp"
 #include "tests/trainer/stages.hpp"
 
@@ -255,7 +255,7 @@ TEST(EdgeGradient, ATexturedTriangleTakesItsTextureAlong) {
 TEST(EdgeGradient, AnOpacityEdgeMovesWithItsTriangle) {
   const std::array<double, 3> alpha = {0.05, 0.85, 0.9};  // by corner; the edge is far from these
   test::Faces faces(floats({wall, tilted}));
-  // Texels of level 0 are those of corners 2, 0, 1 (soup/lattice.hpp).
+  // Texels of level 0 are those of corners 2, 0, 1 (scene/lattice.hpp).
   for (std::size_t k = 0; k < 3; ++k)
     faces.model.logits[(3 + (k + 1) % 3) * channels + alpha_channel] =
         float(std::log(alpha[k] / (1 - alpha[k])));

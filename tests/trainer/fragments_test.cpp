@@ -1,4 +1,4 @@
-#include "trainer/kernels/fragments.hpp"
+#include "trainer/common/kernels/fragments.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include "tests/trainer/backend_agreement.hpp"
 #include "tests/trainer/host_machine.hpp"
-#include "trainer/cuda/kernel_backend.hpp"
+#include "trainer/diffsoup/cuda/kernel_backend.hpp"
 
 namespace tureen::trainer::test {
 

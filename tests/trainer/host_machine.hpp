@@ -17,7 +17,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "trainer/cuda/kernel.hpp"
+#include "trainer/common/cuda/kernel.hpp"
 
 namespace tureen::trainer::test {
 

@@ -1,4 +1,4 @@
-#include "trainer/cpu/image_loss.hpp"
+#include "trainer/common/cpu/image_loss.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "soup/separable_filter.hpp"
-#include "soup/ssim.hpp"
+#include "image/separable_filter.hpp"
+#include "image/ssim.hpp"
 #include "tests/support/random.hpp"
-#include "trainer/kernels/image_loss.hpp"
+#include "trainer/common/kernels/image_loss.hpp"
 
 namespace tureen::trainer {
 namespace image_loss_test {

@@ -1,4 +1,4 @@
-#include "trainer/initialise.hpp"
+#include "trainer/diffsoup/initialise.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,10 +9,10 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/matrix.hpp>
 
-#include "soup/error.hpp"
+#include "base/error.hpp"
 #include "tests/support/random_soups.hpp"
 #include "tests/trainer/random_model.hpp"
-#include "trainer/neighbours.hpp"
+#include "trainer/common/neighbours.hpp"
 
 namespace tureen::trainer {
 namespace initialise_test {

@@ -1,8 +1,8 @@
-#include "trainer/levels.hpp"
+#include "trainer/diffsoup/levels.hpp"
 
 #include <gtest/gtest.h>
 
-#include "soup/lattice_refine.hpp"
+#include "scene/edit/lattice_refine.hpp"
 #include "tests/trainer/random_model.hpp"
 
 namespace tureen::trainer {

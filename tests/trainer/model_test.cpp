@@ -1,4 +1,4 @@
-#include "trainer/model.hpp"
+#include "trainer/diffsoup/model.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/error.hpp"
 #include "formats/scene_file.hpp"
-#include "soup/error.hpp"
 #include "tests/support/random_soups.hpp"
 #include "tests/trainer/random_model.hpp"
 #include "tests/trainer/stages.hpp"
-#include "trainer/backend.hpp"
-#include "trainer/levels.hpp"
+#include "trainer/diffsoup/backend.hpp"
+#include "trainer/diffsoup/levels.hpp"
 
 namespace tureen::trainer {
 namespace model_test {

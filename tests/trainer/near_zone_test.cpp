@@ -1,5 +1,5 @@
 // The room before cameras: held against many points of each triangle, looked at one by one.
-#include "trainer/near_zone.hpp"
+#include "trainer/diffsoup/near_zone.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Projection against rays: e_k = b_k / w of the triangle's edge functions, in float, against the
 // intersection of a pixel's ray with the triangle's plane, in double.
-#include "trainer/kernels/projection.hpp"
+#include "trainer/common/kernels/projection.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "soup/lattice.hpp"
+#include "scene/lattice.hpp"
 #include "tests/support/random.hpp"
-#include "trainer/mlp_parameters.hpp"
-#include "trainer/model.hpp"
+#include "trainer/diffsoup/mlp_parameters.hpp"
+#include "trainer/diffsoup/model.hpp"
 
 namespace tureen::trainer::test {
 

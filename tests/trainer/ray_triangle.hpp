@@ -12,7 +12,7 @@
 #include <string>
 
 #include "tests/support/random.hpp"
-#include "trainer/kernels/projection.hpp"
+#include "trainer/common/kernels/projection.hpp"
 
 namespace tureen::trainer::test {
 

@@ -9,7 +9,7 @@
 
 #include "tests/trainer/random_model.hpp"
 #include "tests/trainer/stages.hpp"
-#include "trainer/trainer.hpp"
+#include "trainer/diffsoup/trainer.hpp"
 
 namespace tureen::trainer {
 

@@ -1,6 +1,6 @@
 // The score function of opacity: exactly by enumeration of all outcomes, and on average through the
 // stages of a step.
-#include "trainer/kernels/score.hpp"
+#include "trainer/common/kernels/score.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "soup/triangle_soup.hpp"
+#include "scene/triangle_soup.hpp"
 #include "tests/support/random.hpp"
 #include "tests/trainer/stages.hpp"
-#include "trainer/kernels/random.hpp"
+#include "trainer/common/kernels/random.hpp"
 
 namespace tureen::trainer {
 namespace score_test {

@@ -8,12 +8,12 @@
 #include "examples/photograph.hpp"
 #include "examples/still_life.hpp"
 #include "formats/scene_file.hpp"
-#include "soup/metrics.hpp"
-#include "soup/quantise.hpp"
-#include "trainer/checkpoint.hpp"
-#include "trainer/initialise.hpp"
-#include "trainer/trainer.hpp"
-#include "trainer/training_views.hpp"
+#include "image/metrics.hpp"
+#include "image/quantise.hpp"
+#include "trainer/common/training_views.hpp"
+#include "trainer/diffsoup/checkpoint.hpp"
+#include "trainer/diffsoup/initialise.hpp"
+#include "trainer/diffsoup/trainer.hpp"
 
 namespace tureen::trainer {
 namespace smoke_test {

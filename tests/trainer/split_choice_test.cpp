@@ -1,4 +1,4 @@
-#include "trainer/split_choice.hpp"
+#include "trainer/diffsoup/split_choice.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,10 +6,10 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "trainer/cpu/face_stage.hpp"
-#include "trainer/cpu/picture.hpp"
-#include "trainer/cpu/visibility.hpp"
-#include "trainer/levels.hpp"
+#include "trainer/diffsoup/cpu/face_stage.hpp"
+#include "trainer/diffsoup/cpu/picture.hpp"
+#include "trainer/diffsoup/cpu/visibility.hpp"
+#include "trainer/diffsoup/levels.hpp"
 
 namespace tureen::trainer::test {
 

@@ -11,17 +11,17 @@
 #include <string>
 #include <vector>
 
-#include "soup/lattice.hpp"
-#include "soup/spherical_harmonics.hpp"
-#include "soup/triangle_soup.hpp"
+#include "scene/lattice.hpp"
+#include "scene/spherical_harmonics.hpp"
+#include "scene/triangle_soup.hpp"
 #include "tests/support/random.hpp"
 #include "tests/trainer/random_model.hpp"
 #include "tests/trainer/ray_triangle.hpp"
 #include "tests/trainer/stages.hpp"
-#include "trainer/backend.hpp"
-#include "trainer/cpu/image_loss.hpp"
-#include "trainer/kernels/color_network.hpp"
-#include "trainer/levels.hpp"
+#include "trainer/common/cpu/image_loss.hpp"
+#include "trainer/diffsoup/backend.hpp"
+#include "trainer/diffsoup/kernels/color_network.hpp"
+#include "trainer/diffsoup/levels.hpp"
 
 namespace tureen::trainer {
 namespace step_test {

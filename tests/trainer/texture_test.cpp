@@ -1,4 +1,4 @@
-#include "trainer/kernels/texture.hpp"
+#include "trainer/diffsoup/kernels/texture.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "soup/lattice_refine.hpp"
+#include "scene/edit/lattice_refine.hpp"
 #include "tests/trainer/random_model.hpp"
 #include "tests/trainer/stages.hpp"
-#include "trainer/levels.hpp"
+#include "trainer/diffsoup/levels.hpp"
 
 namespace tureen::trainer {
 namespace texture_test {

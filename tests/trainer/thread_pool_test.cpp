@@ -1,4 +1,4 @@
-#include "trainer/cpu/thread_pool.hpp"
+#include "trainer/common/cpu/thread_pool.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "trainer/topology.hpp"
+#include "trainer/diffsoup/topology.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

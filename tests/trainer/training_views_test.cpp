@@ -1,4 +1,4 @@
-#include "trainer/training_views.hpp"
+#include "trainer/common/training_views.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tests/support/random.hpp"
-#include "trainer/config_fields.hpp"
+#include "trainer/diffsoup/config_fields.hpp"
 
 namespace tureen::trainer {
 namespace training_views_test {

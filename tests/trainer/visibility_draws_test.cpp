@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "soup/triangle_soup.hpp"
+#include "scene/triangle_soup.hpp"
 #include "tests/support/random.hpp"
 #include "tests/trainer/stages.hpp"
-#include "trainer/kernels/random.hpp"
+#include "trainer/common/kernels/random.hpp"
 
 namespace tureen::trainer {
 namespace visibility_draws_test {

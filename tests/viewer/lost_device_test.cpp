@@ -10,11 +10,11 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "formats/input.hpp"
-#include "formats/output.hpp"
-#include "formats/png.hpp"
+#include "base/error.hpp"
+#include "base/input.hpp"
+#include "base/output.hpp"
+#include "image/png.hpp"
 #include "runtime/gl/api.hpp"
-#include "soup/error.hpp"
 #include "tests/cli/child.hpp"
 #include "viewer/application.hpp"
 

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <sstream>
 
-#include "runtime/camera_controls.hpp"
+#include "camera/camera_controls.hpp"
 
 namespace tureen::viewer {
 namespace render_command_test {

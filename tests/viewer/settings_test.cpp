@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "soup/error.hpp"
+#include "base/error.hpp"
 #include "tests/support/errors.hpp"
 
 namespace tureen::viewer {

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "formats/input.hpp"
-#include "formats/png.hpp"
+#include "base/input.hpp"
 #include "formats/scene_file.hpp"
+#include "image/png.hpp"
 #include "tests/cli/child.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/golden.hpp"

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "runtime/navigation.hpp"
-#include "runtime/plan_description.hpp"
+#include "camera/navigation.hpp"
+#include "runtime/plan/plan_description.hpp"
 #include "runtime/renderer.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/random_soups.hpp"

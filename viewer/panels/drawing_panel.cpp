@@ -1,5 +1,5 @@
 // How it is drawn: the plan in words, and what can be switched to see what it costs.
-#include "runtime/plan_description.hpp"
+#include "runtime/plan/plan_description.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
 

@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 #include <optional>
 
-#include "formats/video_file.hpp"
+#include "image/video_file.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <glm/common.hpp>
 
-#include "formats/png.hpp"
+#include "image/png.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
 
@@ -18,7 +18,7 @@ void picture_panel(State& state) {
   if (!wish.window_size) {
     ImGui::SetNextItemWidth(10 * ImGui::GetFontSize());
     ImGui::InputInt2("pixels", &wish.size.x);
-    // What readers of pictures take (formats/png.hpp).
+    // What readers of pictures take (image/png.hpp).
     wish.size = glm::clamp(wish.size, 1, max_image_side);
     tip("Any size, beyond the window's and the device's: it is drawn in tiles");
   }

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "soup/heat_map.hpp"
+#include "image/heat_map.hpp"
 
 namespace tureen::viewer {
 

@@ -55,7 +55,7 @@ export type BenchCase =
 /** Milliseconds a frame: round by round, in each the same views in the same order. */
 export type FrameTimes = readonly (readonly number[])[];
 
-/** Milliseconds where nothing else is said: runtime/frame_statistics.hpp. */
+/** Milliseconds where nothing else is said: jobs/timing/frame_statistics.hpp. */
 export interface Statistics {
   readonly mean: number;
   readonly median: number;

@@ -9,7 +9,7 @@ import { sizeText } from './request.js';
 
 const percentText = (part: number) => `${(100 * part).toFixed(1)} %`;
 
-/** Of fewer no spread of rounds is known, as runtime/frame_statistics.hpp has it. */
+/** Of fewer no spread of rounds is known, as jobs/timing/frame_statistics.hpp has it. */
 const leastRounds = 3;
 
 /** Of the smallest medians of a round, as `tureen bench` has its ratios: null where the difference is none that

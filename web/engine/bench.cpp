@@ -1,17 +1,17 @@
 // bench.html's commands: scenes side by side, and frames timed by the protocol of `tureen bench`
-// (runtime/benchmark.hpp), a few samples at a time.
+// (jobs/timing/benchmark.hpp), a few samples at a time.
 #include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
-#include "formats/camera_file.hpp"
+#include "base/error.hpp"
+#include "camera/camera_path.hpp"
+#include "camera/camera_sets.hpp"
+#include "formats/dataset/camera_file.hpp"
 #include "formats/scene_file.hpp"
-#include "runtime/benchmark.hpp"
-#include "runtime/camera_path.hpp"
-#include "runtime/camera_sets.hpp"
-#include "runtime/plan_description.hpp"
-#include "soup/error.hpp"
+#include "jobs/timing/benchmark.hpp"
+#include "runtime/plan/plan_description.hpp"
 #include "web/engine/page_view.hpp"
 #include "web/engine/scene_path.hpp"
 #include "web/engine/unpacking.hpp"

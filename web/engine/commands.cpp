@@ -4,7 +4,7 @@
 
 #include <new>
 
-#include "soup/error.hpp"
+#include "base/error.hpp"
 
 namespace tureen::web {
 

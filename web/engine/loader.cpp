@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <optional>
 
+#include "camera/up_axis.hpp"
 #include "formats/scene_file.hpp"
-#include "formats/tureen_glb_preview.hpp"
-#include "runtime/inspection.hpp"
+#include "formats/tureen_glb/tureen_glb_preview.hpp"
+#include "runtime/debug_views/inspection.hpp"
 #include "runtime/render_options.hpp"
-#include "runtime/up_axis.hpp"
-#include "soup/edits.hpp"
+#include "scene/edit/edits.hpp"
 #include "web/engine/commands.hpp"
 #include "web/engine/prepared_archive.hpp"
 #include "web/engine/scene_path.hpp"

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "runtime/camera_controls.hpp"
+#include "camera/camera_controls.hpp"
+#include "image/image.hpp"
+#include "runtime/debug_views/inspector.hpp"
 #include "runtime/gl/context.hpp"
-#include "runtime/inspector.hpp"
 #include "runtime/renderer.hpp"
-#include "soup/image.hpp"
 
 namespace tureen::web {
 

@@ -5,9 +5,9 @@
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
-#include "runtime/navigation.hpp"
-#include "runtime/plan.hpp"
-#include "soup/camera.hpp"
+#include "camera/navigation.hpp"
+#include "runtime/plan/plan.hpp"
+#include "scene/camera.hpp"
 
 namespace tureen::web {
 

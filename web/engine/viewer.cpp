@@ -4,10 +4,10 @@
 #include <memory>
 #include <numbers>
 
+#include "base/error.hpp"
+#include "camera/view_state.hpp"
 #include "formats/scene_file.hpp"
-#include "runtime/plan_description.hpp"
-#include "runtime/view_state.hpp"
-#include "soup/error.hpp"
+#include "runtime/plan/plan_description.hpp"
 #include "web/engine/commands.hpp"
 #include "web/engine/page_view.hpp"
 #include "web/engine/scene_path.hpp"

@@ -154,7 +154,7 @@ const subtitle = ({ scene, device, date }) => paragraph([scene && `${count(scene
 const place = (m) => `${m.camera_set}, ${m.size}`;
 const best = (m) => m.frame_ms?.min_of_medians;
 
-/** How many times as fast `m` is as `other`: a number, or a word where noise decides (verdict_on in runtime/frame_statistics.hpp). */
+/** How many times as fast `m` is as `other`: a number, or a word where noise decides (verdict_on in jobs/timing/frame_statistics.hpp). */
 function speedup(m, other) {
   if (!other || m === other) return other ? 1 : undefined;
   const rounds = Math.min(m.rounds, other.rounds), smaller = Math.min(best(m), best(other));

@@ -1,0 +1,59 @@
+// Reading untrusted JSON: every access is checked, and every failure is an InputError that names
+// the file and the path within it, as in "accessors[3].count: expected a number". Include it in
+// sources only.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/error.hpp"
+#include "base/memory_budget.hpp"
+
+namespace tureen {
+
+/// Throws InputError with the byte at which `text`, which begins at `first_byte` of `file`, stops
+/// being JSON or keeping to the limits of base/json_limits.hpp.
+nlohmann::json parse_json(std::string_view text, const std::string& file,
+                          std::uint64_t first_byte = 0, MemoryBudget budget = MemoryBudget());
+
+/// A place within a parsed document. The document and the file's name must outlive it.
+class JsonView {
+ public:
+  JsonView(const nlohmann::json& value, const std::string& file, std::string path = "")
+      : value_(&value), file_(&file), path_(std::move(path)) {}
+
+  const nlohmann::json& value() const { return *value_; }
+  const std::string& path() const { return path_; }
+
+  /// The member `key`; a missing one, or a value that is no object, fails.
+  JsonView operator[](const char* key) const;
+  /// The same, but nothing where it is missing.
+  std::optional<JsonView> find(const char* key) const;
+
+  /// The elements of an array; a value that is no array fails.
+  std::size_t size() const;
+  JsonView at(std::size_t index) const;
+
+  /// A whole number in 0..limit. Numbers such as 3.0 count as whole, as JSON means them.
+  std::uint64_t natural(std::uint64_t limit = std::numeric_limits<std::uint64_t>::max()) const;
+  double number() const;
+  /// A number that a float can hold.
+  float number_float() const;
+  const std::string& text() const;
+  /// Which of `names` the text is; anything else fails and lists them.
+  std::size_t one_of(std::span<const char* const> names) const;
+
+  [[noreturn]] void fail(const std::string& reason, const std::string& hint = {}) const;
+
+ private:
+  const nlohmann::json* value_;
+  const std::string* file_;
+  std::string path_;
+};
+
+}  // namespace tureen

@@ -1,0 +1,76 @@
+#include "base/output_path.hpp"
+
+#include <atomic>
+#include <string>
+
+#include "base/error.hpp"
+
+#ifdef _WIN32
+#include <io.h>
+#include <process.h>
+#define getpid _getpid
+#else
+#include <fcntl.h>
+#include <unistd.h>
+#endif
+
+namespace tureen {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool may_write(const fs::path& path) {
+#ifdef _WIN32
+  return _waccess(path.c_str(), 2) == 0;
+#else
+  // For whom the program runs, as opening would ask, and not who started it.
+  return faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0;
+#endif
+}
+
+}  // namespace
+
+fs::path followed(const fs::path& path) {
+  constexpr int most_links = 40;  // as Linux follows in one path
+  fs::path target = path;
+  for (int i = 0; i < most_links; ++i) {
+    std::error_code none;
+    const fs::path next = fs::read_symlink(target, none);
+    if (none) break;
+    target = target.parent_path() / next;  // which is `next` where that is absolute
+  }
+  return target;
+}
+
+fs::path writable_file(const fs::path& path) {
+  const auto fail = [&](const std::string& reason) {
+    throw OutputError({path.string(), {}, {}}, reason);
+  };
+  if (path.empty()) throw UsageError("the name of an output is empty");
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::status_known(status)) fail("cannot be written: " + error.message());
+  if (!fs::exists(status)) return followed(path);
+  if (fs::is_directory(status)) fail("cannot be written: it is a folder");
+  if (!fs::is_regular_file(status))
+    fail("cannot be written: it is a pipe or a device, and only files are replaced");
+  if (!may_write(path)) fail("cannot be replaced: it is write-protected");
+  return followed(path);
+}
+
+fs::path writable_folder(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error) && !may_write(path))
+    throw OutputError({path.string(), {}, {}}, "cannot be replaced: it is write-protected");
+  return followed(path);
+}
+
+fs::path temporary_beside(const fs::path& path) {
+  static std::atomic<unsigned> counter{0};
+  fs::path name = path;
+  name += ".tmp" + std::to_string(getpid()) + "-" + std::to_string(counter++);
+  return name;
+}
+
+}  // namespace tureen

@@ -1,0 +1,154 @@
+#include "base/text_scanner.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace tureen {
+
+namespace {
+
+constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+constexpr bool is_line_break(char c) { return c == '\n' || c == '\r'; }
+
+/// A word as it may appear in a message: cut short, unprintable characters as dots.
+std::string quoted(std::string_view word) {
+  constexpr std::size_t most = 40;
+  std::string text = "'";
+  for (const char c : word.substr(0, most)) text += c < ' ' || c > '~' ? '.' : c;
+  return text + (word.size() > most ? "..'" : "'");
+}
+
+}  // namespace
+
+TextScanner::TextScanner(Input& input, TextSyntax syntax)
+    : input_(input),
+      syntax_(syntax),
+      // Small files are many where readers are fuzzed.
+      buffer_(static_cast<std::size_t>(std::min<std::uint64_t>(window, input.remaining())) + 1),
+      line_(syntax.first_line) {
+  next_ = end_ = buffer_.data();
+}
+
+void TextScanner::refill() {
+  const auto kept = static_cast<std::size_t>(end_ - next_);
+  std::memmove(buffer_.data(), next_, kept);
+  const std::size_t got = input_.read_some(
+      std::as_writable_bytes(std::span(buffer_.data() + kept, buffer_.size() - 1 - kept)));
+  next_ = buffer_.data();
+  end_ = next_ + kept + got;
+  buffer_[kept + got] = '\0';
+}
+
+bool TextScanner::ends_word(char c) const {
+  return is_blank(c) || is_line_break(c) || c == '\0' || (c == syntax_.comment);
+}
+
+void TextScanner::skip_blanks() {
+  look_ahead();
+  while (is_blank(*next_)) {
+    ++next_;
+    // Blanks may run on for longer than the window.
+    if (next_ == end_) refill();
+  }
+  look_ahead();
+}
+
+bool TextScanner::at_line_end() {
+  skip_blanks();
+  if (syntax_.comment && *next_ == syntax_.comment && next_ != end_) {
+    for (;;) {
+      while (next_ != end_ && !is_line_break(*next_)) ++next_;
+      if (next_ != end_) break;
+      refill();
+      if (next_ == end_) return true;
+    }
+  }
+  return next_ == end_ || is_line_break(*next_);
+}
+
+bool TextScanner::next_line() {
+  for (;;) {
+    while (next_ != end_ && !is_line_break(*next_)) ++next_;
+    if (next_ != end_) break;
+    refill();
+    if (next_ == end_) return false;
+  }
+  look_ahead();  // so that a CR LF is seen whole
+  next_ += next_[0] == '\r' && next_[1] == '\n' ? 2 : 1;
+  ++line_;
+  return true;
+}
+
+bool TextScanner::next_content() {
+  while (at_line_end())
+    if (!next_line()) return false;
+  return true;
+}
+
+void TextScanner::expect_line_end(const char* what) {
+  if (!at_line_end())
+    fail(std::string("more than ") + what + " on this line: " + quoted(peek(max_word)));
+}
+
+Decimal TextScanner::read_decimal(const char* what) {
+  skip_blanks();
+  const Decimal number = parse_decimal({next_, std::size_t(end_ - next_)});
+  pass_number(number.end, what, "a number");
+  return number;
+}
+
+std::int64_t TextScanner::read_integer(const char* what) {
+  skip_blanks();
+  const Integer number = parse_integer({next_, std::size_t(end_ - next_)});
+  pass_number(number.end, what, "a whole number");
+  return number.value;
+}
+
+std::int64_t TextScanner::read_integer(const char* what, std::int64_t low, std::int64_t high) {
+  const std::int64_t value = read_integer(what);
+  if (value < low || value > high)
+    fail(std::string(what) + " of " + std::to_string(value) + " is outside " + std::to_string(low) +
+         ".." + std::to_string(high));
+  return value;
+}
+
+std::string TextScanner::read_word(const char* what) {
+  if (at_line_end()) fail_expected(what, "a word");
+  std::string word(peek(max_word));
+  if (word.empty() || !ends_word(next_[word.size()])) fail_expected(what, "a word");
+  skip(word.size());
+  return word;
+}
+
+std::string_view TextScanner::peek(std::size_t count) {
+  skip_blanks();
+  count = std::min(count, static_cast<std::size_t>(end_ - next_));
+  std::size_t length = 0;
+  while (length < count && !ends_word(next_[length])) ++length;
+  return {next_, length};
+}
+
+void TextScanner::pass_number(const char* end, const char* what, const char* kind) {
+  if (!end || !ends_word(*end)) fail_expected(what, kind);
+  // A number that fills the window to its end may go on behind it.
+  if (std::size_t(end - next_) > max_word)
+    fail(std::string(what) + " has more than " + std::to_string(max_word) + " characters");
+  next_ = end;
+}
+
+void TextScanner::fail_expected(const char* what, const char* kind) {
+  if (at_line_end())
+    fail(std::string(next_ == end_ ? "the file" : "the line") + " ends where " + what +
+         " is expected");
+  const std::string_view word = peek(max_word);
+  // Only a NUL can stand here and yet belong to no word.
+  if (word.empty()) fail(std::string("a NUL byte where ") + what + " is expected");
+  fail(quoted(word) + " where " + what + " is expected" +
+       (*kind ? std::string(": not ") + kind : std::string()));
+}
+
+void TextScanner::fail(const std::string& reason, const std::string& hint) const {
+  throw InputError({input_.name(), {}, line_}, reason, hint);
+}
+
+}  // namespace tureen

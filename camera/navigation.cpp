@@ -1,0 +1,106 @@
+#include "camera/navigation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <string>
+
+namespace tureen {
+
+namespace {
+
+using std::numbers::pi;
+
+glm::dvec3 unit_up(const glm::dvec3& up) {
+  const double length = glm::length(up);
+  return length > 0 ? up / length : glm::dvec3(0, 1, 0);
+}
+
+/// The horizontal direction of azimuth 0.
+glm::dvec3 front_of(const glm::dvec3& up) {
+  // Where y is up the front is +z; where z is up it is -y; any other axis takes whichever of the
+  // two lies nearer to its horizon.
+  const glm::dvec3 preferred =
+      std::abs(up.z) > std::abs(up.y) ? glm::dvec3(0, -1, 0) : glm::dvec3(0, 0, 1);
+  return glm::normalize(preferred - up * glm::dot(up, preferred));
+}
+
+Camera camera_at(const Subject& subject, const Bearing& bearing, const Lens& lens,
+                 double distance) {
+  const glm::dvec3 eye = subject.centre() + distance * direction_of(subject.up, bearing);
+  return look_at(eye, subject.centre(), unit_up(subject.up), lens.fov_y, lens.width, lens.height);
+}
+
+}  // namespace
+
+Subject subject_of(const Scene& scene) {
+  Bounds box;
+  if (const auto* soup = std::get_if<TriangleSoup>(&scene.primitives)) {
+    box = bounds(*soup);
+  } else {
+    // The box of soft triangles is that of their corners: the window never reaches past them.
+    TriangleSoup corners;
+    corners.positions = std::get<SoftTriangles>(scene.primitives).positions;
+    for (std::uint32_t i = 0; i + 2 < corners.positions.size(); i += 3)
+      corners.triangles.push_back({i, i + 1, i + 2});
+    box = bounds(corners);
+  }
+  return {scene.origin + glm::dvec3(box.low), scene.origin + glm::dvec3(box.high),
+          glm::dvec3(scene.info.up)};
+}
+
+glm::dvec3 direction_of(const glm::dvec3& up, const Bearing& bearing) {
+  const glm::dvec3 axis = unit_up(up), front = front_of(axis), side = glm::cross(axis, front);
+  const glm::dvec3 level = std::cos(bearing.azimuth) * front + std::sin(bearing.azimuth) * side;
+  return std::cos(bearing.elevation) * level + std::sin(bearing.elevation) * axis;
+}
+
+double framing_distance(const Subject& subject, const Bearing& bearing, const Lens& lens) {
+  // The rotation of the camera depends neither on its distance nor on where the subject is; far
+  // from the origin a distance of 1 would drown in the coordinates.
+  const Subject at_origin{glm::dvec3(0.0), glm::dvec3(0.0), subject.up};
+  const Camera camera = camera_at(at_origin, bearing, lens, 1.0);
+  return std::max(1e-6, framing_distance(subject, camera.world_from_view_rotation(), lens));
+}
+
+double framing_distance(const Subject& subject, const glm::dmat3& world_from_view,
+                        const Lens& lens) {
+  constexpr double margin = 1.05;
+  const double slope_y = std::tan(0.5 * lens.fov_y) / margin;
+  const double slope_x = slope_y * lens.width / lens.height;
+  double distance = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 half = 0.5 * (subject.high - subject.low);
+    const glm::dvec3 p =
+        half * glm::dvec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+    // Towards the eye by z: the eye must be |x| / slope beyond that.
+    const double x = std::abs(glm::dot(p, world_from_view[0]));
+    const double y = std::abs(glm::dot(p, world_from_view[1]));
+    const double z = glm::dot(p, world_from_view[2]);
+    distance = std::max({distance, z + x / slope_x, z + y / slope_y});
+  }
+  return distance;
+}
+
+Camera frame(const Subject& subject, const Bearing& bearing, const Lens& lens) {
+  return camera_at(subject, bearing, lens, framing_distance(subject, bearing, lens));
+}
+
+std::vector<Camera> orbit(const Subject& subject, int count, const Bearing& start,
+                          const Lens& lens) {
+  std::vector<Bearing> bearings;
+  double distance = 0;
+  for (int i = 0; i < count; ++i) {
+    bearings.push_back({start.azimuth + 2 * pi * i / count, start.elevation});
+    distance = std::max(distance, framing_distance(subject, bearings.back(), lens));
+  }
+  std::vector<Camera> cameras;
+  for (const Bearing& bearing : bearings) {
+    cameras.push_back(camera_at(subject, bearing, lens, distance));
+    cameras.back().name = "orbit " + std::to_string(cameras.size() - 1);
+  }
+  return cameras;
+}
+
+}  // namespace tureen

@@ -1,0 +1,65 @@
+// Where to look from: views that frame a scene, and orbits around it. Plain maths, shared by the
+// program, the window and the page.
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "scene/camera.hpp"
+#include "scene/scene.hpp"
+
+namespace tureen {
+
+/// What a view is to show: a box in world coordinates and the direction that is up.
+struct Subject {
+  glm::dvec3 low{-1.0};
+  glm::dvec3 high{1.0};
+  glm::dvec3 up{0.0, 1.0, 0.0};  // of any length; (0, 0, 0) stands for y
+
+  glm::dvec3 centre() const { return 0.5 * (low + high); }
+};
+
+/// The bounds of the scene's soup, moved by its origin, and its up axis. O(data).
+Subject subject_of(const Scene& scene);
+
+/// The optics of a view.
+struct Lens {
+  int width = 1280;
+  int height = 720;
+  double fov_y = 0.69813170079773183;  // the full vertical angle in radians: 40 degrees
+};
+
+/// Where the eye stands as seen from the subject, in radians. Azimuth 0 is the front: +z where y
+/// is up (glTF), -y where z is up (Blender); it grows to the right as seen from the front, counter-
+/// clockwise seen from above. Elevation is above the horizon.
+struct Bearing {
+  double azimuth = 0;
+  double elevation = 0;
+};
+
+/// From the front, a little to the right and from above: shows three sides of a box.
+inline constexpr Bearing three_quarter_view{0.6108652381980153, 0.3490658503988659};  // 35°, 20°
+
+/// Elevation of an orbit: enough to see that the top is not the front.
+inline constexpr double orbit_elevation = 0.3490658503988659;  // 20 degrees
+
+/// The unit vector from the subject to the eye.
+glm::dvec3 direction_of(const glm::dvec3& up, const Bearing& bearing);
+
+/// How far from the box's centre the eye must be in this direction for the whole box to lie
+/// inside the picture with a margin of 5 % at the tightest side. At least 1e-6, even for a point.
+double framing_distance(const Subject& subject, const Bearing& bearing, const Lens& lens);
+/// The same for a camera with these axes (Camera::world_from_view_rotation); 0 for a point.
+double framing_distance(const Subject& subject, const glm::dmat3& world_from_view,
+                        const Lens& lens);
+
+/// A camera that looks at the centre of the box and shows all of it.
+Camera frame(const Subject& subject, const Bearing& bearing, const Lens& lens);
+
+/// `count` cameras evenly around the up axis, from `start` on, all at the distance at which each
+/// shows the whole box, so that the subject does not breathe.
+std::vector<Camera> orbit(const Subject& subject, int count, const Bearing& start,
+                          const Lens& lens);
+
+}  // namespace tureen

@@ -1,0 +1,254 @@
+#include "formats/dataset/camera_file.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "formats/dataset/camera_json.hpp"
+#ifndef __EMSCRIPTEN__  // its sources are left out there, see CMakeLists.txt
+#include "formats/dataset/colmap.hpp"
+#endif
+#include "base/json_file.hpp"
+#include "formats/dataset/gaussian_cameras.hpp"
+#include "formats/dataset/transforms_json.hpp"
+
+namespace tureen {
+
+namespace {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+CameraFile from_transforms(const Json& root, const std::string& file) {
+  // NeRF's synthetic scenes, whose files name no size, are of 800 x 800 pixels.
+  constexpr int assumed_side = 800;
+  CameraFile result;
+  bool size_assumed = false, distorted = false;
+  for (const TransformsFrame& frame : read_transforms(root, file)) {
+    size_assumed = size_assumed || !frame.width || !frame.height;
+    distorted = distorted || !frame.lens.is_pinhole() || !frame.other_lens.empty();
+    result.cameras.push_back(
+        pinhole(frame, frame.width.value_or(assumed_side), frame.height.value_or(assumed_side)));
+  }
+  if (size_assumed)
+    result.remarks.push_back({Remark::Kind::image_size_missing, {assumed_side, assumed_side}});
+  if (distorted) result.remarks.push_back({Remark::Kind::lens_dropped});
+  return result;
+}
+
+Camera our_camera(const CameraJson& json) {
+  Camera camera;
+  camera.name = json.text("name");
+  camera.width = json.side("width");
+  camera.height = json.side("height");
+  camera.fx = json.number("fx");
+  camera.fy = json.number("fy");
+  camera.cx = json.number("cx");
+  camera.cy = json.number("cy");
+  if (!(camera.fx > 0 && camera.fy > 0)) json.fail("a focal length is not positive");
+  camera.view_from_world = json.rigid("view_from_world");
+  return camera;
+}
+
+/// The cameras of a file of ours, each to be read by our_camera.
+std::vector<CameraJson> our_cameras(const Json& root, const std::string& file) {
+  const auto version = root.find("tureen_cameras");
+  if (version != root.end() && *version != 1)
+    throw InputError({file, {}, {}}, "tureen_cameras is not version 1");
+  std::vector<CameraJson> result;
+  const Json& cameras = json_list(root, "cameras", file);
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+    result.push_back(CameraJson(
+        {.object = cameras[i], .file = file, .where = "camera " + std::to_string(i) + ": "}));
+  return result;
+}
+
+CameraFile from_ours(const Json& root, const std::string& file) {
+  CameraFile result;
+  for (const CameraJson& json : our_cameras(root, file)) result.cameras.push_back(our_camera(json));
+  return result;
+}
+
+// ---- Paths
+// ---------------------------------------------------------------------------------------
+
+// Eleven days: whoever means more has mistaken the unit, and doubles keep a nanosecond up to here.
+constexpr double longest_path = 1e6;
+
+CameraKeyframe our_keyframe(const CameraJson& json) {
+  CameraKeyframe keyframe{.camera = our_camera(json),
+                          .seconds = json.number("seconds"),
+                          .target_distance = json.maybe_number("target_distance").value_or(0)};
+  if (!(keyframe.seconds >= 0 && keyframe.seconds <= longest_path))
+    json.fail("seconds is not from 0 to 1000000");
+  if (!(keyframe.target_distance >= 0 && std::isfinite(keyframe.target_distance)))
+    json.fail("target_distance is negative");
+  return keyframe;
+}
+
+/// After how many seconds the loop begins anew; 0 for none.
+double our_loop(const Json& root, const std::vector<CameraKeyframe>& keyframes,
+                const std::string& file) {
+  const auto fail = [&](const char* reason) { throw InputError({file, {}, {}}, reason); };
+  const auto loop = root.find("loop");
+  if (loop == root.end()) return 0;
+  if (!loop->is_boolean()) fail("loop is neither true nor false");
+  if (!loop->get<bool>()) return 0;
+  const auto seconds = root.find("loop_seconds");
+  const double span = keyframes.back().seconds - keyframes.front().seconds;
+  if (seconds == root.end()) {
+    const double gaps = double(keyframes.size()) - 1;
+    return span > 0 ? span + span / gaps : 1.0;
+  }
+  if (!seconds->is_number()) fail("loop_seconds is no number");
+  const double value = seconds->get<double>();
+  if (!(value > 0 && value <= longest_path)) fail("loop_seconds is not above 0, up to 1000000");
+  return value;
+}
+
+CameraPathData our_path(const Json& root, const std::string& file) {
+  if (!root.is_object() || !root.contains("cameras"))
+    throw InputError({file, {}, {}}, "there is no \"cameras\" in it: no camera path of ours");
+  CameraPathData path;
+  for (const CameraJson& json : our_cameras(root, file)) {
+    path.keyframes.push_back(our_keyframe(json));
+    const std::size_t count = path.keyframes.size();
+    if (count > 1 && path.keyframes[count - 1].seconds < path.keyframes[count - 2].seconds)
+      json.fail("seconds is less than that of the camera before it");
+  }
+  if (path.keyframes.empty()) throw InputError({file, {}, {}}, "it holds no cameras");
+  path.loop_seconds = our_loop(root, path.keyframes, file);
+  return path;
+}
+
+#ifndef __EMSCRIPTEN__
+/// The folder of COLMAP's model that `path` names in one of the ways of the header.
+std::optional<fs::path> colmap_model(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored))
+    return is_colmap_model(path) ? std::optional(path) : colmap_folder(path);
+  const std::string name = path.filename().string();
+  for (const char* file : {"cameras.bin", "cameras.txt", "images.bin", "images.txt"})
+    if (name == file && is_colmap_model(path.parent_path())) return path.parent_path();
+  return {};
+}
+
+CameraFile from_colmap(const fs::path& folder) {
+  ColmapModel model = read_colmap_poses(folder);
+  std::sort(model.images.begin(), model.images.end(),
+            [](const ColmapImage& a, const ColmapImage& b) { return a.name < b.name; });
+  CameraFile result;
+  bool distorted = false;
+  for (const ColmapImage& image : model.images) {
+    const ColmapCamera& taken_by = model.cameras.at(image.camera);
+    distorted = distorted || !taken_by.lens.is_pinhole();
+    Camera& camera = result.cameras.emplace_back(taken_by.pinhole);
+    camera.name = image.name;
+    camera.view_from_world = image.view_from_world;
+  }
+  if (distorted) result.remarks.push_back({Remark::Kind::lens_dropped});
+  return result;
+}
+#else
+std::optional<fs::path> colmap_model(const fs::path&) { return {}; }
+CameraFile from_colmap(const fs::path&) { return {}; }
+#endif
+
+}  // namespace
+
+bool is_camera_file(const fs::path& path) {
+  if (colmap_model(path)) return true;
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) return false;
+  std::ifstream stream(path, std::ios::binary);
+  char c = 0;
+  while (stream.get(c) && std::isspace(static_cast<unsigned char>(c))) {
+  }
+  return c == '{' || c == '[';
+}
+
+CameraFile read_cameras(Input& input) {
+  const Json root = read_json(input);
+  const std::string& file = input.name();
+  if (root.is_array()) return {read_gaussian_cameras(root, file), {}};
+  if (!root.is_object()) throw InputError({file, {}, {}}, "the file holds no JSON object or list");
+  if (root.contains("frames")) return from_transforms(root, file);
+  if (root.contains("cameras")) return from_ours(root, file);
+  throw InputError({file, {}, {}},
+                   "neither \"cameras\" nor \"frames\" is there: no camera file that we know");
+}
+
+CameraFile read_cameras(const std::filesystem::path& path) {
+  if (const std::optional<fs::path> folder = colmap_model(path)) return from_colmap(*folder);
+  Input input = Input::open(path);
+  return read_cameras(input);
+}
+
+CameraPathData read_path(Input& input) { return our_path(read_json(input), input.name()); }
+
+CameraPathData read_path(const std::filesystem::path& path) {
+  Input input = Input::open(path);
+  return read_path(input);
+}
+
+// ---- Writing
+// -------------------------------------------------------------------------------------
+
+namespace {
+
+using Ordered = nlohmann::ordered_json;
+
+/// Adds what a camera has.
+void put_camera(const Camera& camera, Ordered& json) {
+  if (!camera.name.empty()) json["name"] = camera.name;
+  json["width"] = camera.width;
+  json["height"] = camera.height;
+  json["fx"] = camera.fx;
+  json["fy"] = camera.fy;
+  json["cx"] = camera.cx;
+  json["cy"] = camera.cy;
+  Ordered rows = Ordered::array();
+  for (int row = 0; row < 3; ++row) {
+    Ordered columns = Ordered::array();
+    for (int column = 0; column < 4; ++column)
+      columns.push_back(camera.view_from_world[column][row]);
+    rows.push_back(std::move(columns));
+  }
+  json["view_from_world"] = std::move(rows);
+}
+
+std::string text_of(const Ordered& root) {
+  // A name need not be UTF-8: the bytes that are not become U+FFFD instead of an exception.
+  return root.dump(2, ' ', false, Ordered::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string cameras_to_json(std::span<const Camera> cameras) {
+  Ordered list = Ordered::array();
+  for (const Camera& camera : cameras) put_camera(camera, list.emplace_back(Ordered::object()));
+  return text_of({{"tureen_cameras", 1}, {"cameras", std::move(list)}});
+}
+
+std::string path_to_json(const CameraPathData& path) {
+  Ordered list = Ordered::array();
+  [[maybe_unused]] double before = 0;
+  for (const CameraKeyframe& keyframe : path.keyframes) {
+    assert(keyframe.seconds >= before);
+    before = keyframe.seconds;
+    Ordered& json = list.emplace_back(Ordered::object());
+    json["seconds"] = keyframe.seconds;
+    if (keyframe.target_distance > 0) json["target_distance"] = keyframe.target_distance;
+    put_camera(keyframe.camera, json);
+  }
+  Ordered root = {{"tureen_cameras", 1}, {"loop", path.loop_seconds > 0}};
+  if (path.loop_seconds > 0) root["loop_seconds"] = path.loop_seconds;
+  root["cameras"] = std::move(list);
+  return text_of(root);
+}
+
+}  // namespace tureen

@@ -1,0 +1,130 @@
+// COLMAP's binary files: little-endian, packed, a count of 64 bits and then the records.
+#include <algorithm>
+#include <bit>
+
+#include "formats/dataset/colmap.hpp"
+#include "formats/dataset/colmap_records.hpp"
+
+namespace tureen {
+
+static_assert(std::endian::native == std::endian::little);
+
+namespace {
+
+/// A count of records of at least `bytes` bytes each, checked against the bytes that are left.
+std::uint64_t read_count(Input& input, std::uint64_t bytes, const char* what) {
+  const auto count = input.read_value<std::uint64_t>(what);
+  if (count > input.remaining() / bytes)
+    input.fail_at(input.position() - 8, "a count of " + std::to_string(count) + " " + what +
+                                            ", which cannot be in the " +
+                                            std::to_string(input.remaining()) + " bytes left");
+  return count;
+}
+
+/// Calls `convert`, and names the place of the record that it refuses.
+template <class Convert>
+auto convert_at(const Input& input, std::uint64_t begin, Convert&& convert) {
+  try {
+    return convert();
+  } catch (const ColmapRefusal& refusal) {
+    input.fail_at(begin, refusal.reason, refusal.hint);
+  }
+}
+
+void expect_end(const Input& input, const char* what) {
+  if (input.remaining() > 0)
+    input.fail(std::to_string(input.remaining()) + " bytes after the last of the " + what);
+}
+
+void skip(Input& input, std::uint64_t bytes) { input.seek(input.position() + bytes); }
+
+const ColmapLensModel& read_lens_model(Input& input) {
+  const auto number = input.read_value<std::int32_t>("a camera model");
+  const auto models = colmap_lens_models();
+  if (number < 0 || std::size_t(number) >= models.size())
+    throw ColmapRefusal{"the camera model number " + std::to_string(number) +
+                        " is none that we know"};
+  const ColmapLensModel& model = models[std::size_t(number)];
+  require_undoable(model);
+  return model;
+}
+
+std::string read_name(Input& input) {
+  // Longer than any path that a file system takes.
+  constexpr std::size_t most = 4096;
+  std::string name;
+  while (const char c = input.read_value<char>("an image's name")) {
+    name += c;
+    if (name.size() > most) input.fail("an image's name of more than 4096 characters");
+  }
+  return name;
+}
+
+}  // namespace
+
+ColmapCameras read_colmap_cameras_binary(Input& input) {
+  ColmapCameras cameras;
+  const std::uint64_t count = read_count(input, 4 + 4 + 8 + 8, "cameras");
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const std::uint64_t begin = input.position();
+    const auto number = input.read_value<std::uint32_t>("a camera");
+    const ColmapCamera camera = convert_at(input, begin, [&] {
+      ColmapCameraRecord record;
+      record.model = &read_lens_model(input);
+      record.width = input.read_value<std::uint64_t>("a camera");
+      record.height = input.read_value<std::uint64_t>("a camera");
+      record.parameters = input.read_values<double>(record.model->parameters, "a camera");
+      return to_camera(record);
+    });
+    input.take_memory(1, colmap_camera_bytes, "the cameras");
+    if (!cameras.emplace(number, camera).second)
+      input.fail_at(begin, "camera " + std::to_string(number) + " stands here twice");
+  }
+  expect_end(input, "cameras");
+  return cameras;
+}
+
+std::vector<ColmapImage> read_colmap_images_binary(Input& input) {
+  std::vector<ColmapImage> images;
+  const std::uint64_t count = read_count(input, 4 + 7 * 8 + 4 + 1 + 8, "images");
+  for (std::uint64_t i = 0; i < count; ++i) {
+    ColmapImage image;
+    const std::uint64_t begin = input.position();
+    skip(input, std::min<std::uint64_t>(4, input.remaining()));  // the image's number
+    ColmapPoseRecord pose;
+    pose.rotation = input.read_value<std::array<double, 4>>("an image");
+    pose.translation = input.read_value<std::array<double, 3>>("an image");
+    image.view_from_world = convert_at(input, begin, [&] { return to_view_from_world(pose); });
+    image.camera = input.read_value<std::uint32_t>("an image");
+    image.name = read_name(input);
+    // Where features were found: x, y, and the point they belong to.
+    skip(input, 24 * read_count(input, 24, "features"));
+    input.take_memory(1, image.name.capacity(), "the images");
+    input.make_room_in(images, 1, "the images");
+    images.push_back(std::move(image));
+  }
+  expect_end(input, "images");
+  return images;
+}
+
+std::vector<DatasetPoint> read_colmap_points_binary(Input& input) {
+  std::vector<DatasetPoint> points;
+  const std::uint64_t count = read_count(input, 8 + 3 * 8 + 3 + 8 + 8, "points");
+  input.make_room_in(points, count, "the points");
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const std::uint64_t begin = input.position();
+    input.read_value<std::uint64_t>("a point");  // its number
+    const auto position = input.read_value<std::array<double, 3>>("a point");
+    const auto color = input.read_value<std::array<std::uint8_t, 3>>("a point");
+    input.read_value<double>("a point");  // the mean error of its projections
+    points.push_back(convert_at(input, begin, [&] {
+      return to_point({position[0], position[1], position[2]}, {color[0], color[1], color[2]});
+    }));
+    // The images that see it: an image's and a feature's number each.
+    skip(input, 8 * read_count(input, 8, "sightings"));
+  }
+  expect_end(input, "points");
+  return points;
+}
+
+}  // namespace tureen

@@ -1,0 +1,135 @@
+#include "formats/dataset/photograph.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "base/decimal.hpp"
+#include "formats/gltf/uri.hpp"
+#include "image/box_scale.hpp"
+#include "image/png.hpp"
+
+namespace tureen {
+
+namespace {
+
+std::string size_text(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height);
+}
+
+/// The camera of the same view where its picture is resized to width x height.
+Camera stretched(Camera camera, int width, int height) {
+  const double x = double(width) / camera.width, y = double(height) / camera.height;
+  camera.fx *= x;
+  camera.cx *= x;
+  camera.fy *= y;
+  camera.cy *= y;
+  camera.width = width;
+  camera.height = height;
+  return camera;
+}
+
+/// The camera of a picture of this size from a folder whose images are `shrunk` times smaller than
+/// those that the dataset speaks of.
+Camera camera_for(const DatasetFrame& frame, const Image8& image, int shrunk,
+                  const std::string& file) {
+  const glm::ivec2 full =
+      frame.size.value_or(glm::ivec2(image.width * shrunk, image.height * shrunk));
+  // What does not divide was rounded, by whoever made the folder, up or down.
+  const auto fits = [&](int have, int want) { return std::abs(have * shrunk - want) < shrunk; };
+  if (!fits(image.width, full.x) || !fits(image.height, full.y))
+    throw InputError({file, {}, {}}, "the picture is " + size_text(image.width, image.height) +
+                                         ", but its camera's is " + size_text(full.x, full.y) +
+                                         (shrunk > 1 ? " / " + std::to_string(shrunk) : ""));
+  return stretched(frame.camera(full.x, full.y), image.width, image.height);
+}
+
+/// Pixels of the scaled picture whose area lies within `known` of a picture of this size.
+PixelRectangle scaled_rectangle(const PixelRectangle& known, glm::ivec2 from, glm::ivec2 to) {
+  // 64 bits: sides go to 2^16.
+  const auto up = [](std::int64_t a, std::int64_t b, std::int64_t c) {
+    return int((a * b + c - 1) / c);
+  };
+  const auto down = [](std::int64_t a, std::int64_t b, std::int64_t c) { return int(a * b / c); };
+  return {up(known.left, to.x, from.x), up(known.top, to.y, from.y),
+          down(known.right, to.x, from.x), down(known.bottom, to.y, from.y)};
+}
+
+Image8 cropped(const Image8& image, const PixelRectangle& area) {
+  Image8 result(area.right - area.left, area.bottom - area.top);
+  for (int y = 0; y < result.height; ++y)
+    std::copy_n(&image.at(area.left, area.top + y), result.width, &result.at(0, y));
+  return result;
+}
+
+}  // namespace
+
+std::optional<std::filesystem::path> find_picture(const DatasetFrame& frame, int images_folder) {
+  std::error_code ignored;
+  if (!frame.folder.empty() && !std::filesystem::is_directory(frame.folder, ignored)) return {};
+  const auto exists = [&](const std::string& name) -> std::optional<std::filesystem::path> {
+    const std::filesystem::path path = resolve_name_in_folder(frame.folder, name);
+    if (std::filesystem::is_regular_file(path, ignored)) return path;
+    return {};
+  };
+  if (auto path = exists(frame.file)) return path;
+  const std::string bare = std::filesystem::path(frame.file).replace_extension().string();
+  for (const char* extension : {".png", ".jpg", ".jpeg", ".PNG", ".JPG", ".JPEG"}) {
+    if (auto path = exists(frame.file + extension)) return path;
+    if (images_folder == 1) continue;
+    if (auto path = exists(bare + extension)) return path;
+  }
+  return {};
+}
+
+int scaled_side(int side, double scale) { return std::max(1, int(std::lround(side * scale))); }
+
+ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem::path& picture,
+                               const DatasetOptions& options, const MemoryBudget& budget) {
+  PassingMemory passing(budget);
+  Input input = Input::open(picture, budget);
+  Image8 image = read_image(input);
+  Camera camera = camera_for(frame, image, options.images_folder, input.name());
+  const glm::ivec2 full(image.width, image.height);
+  PixelRectangle known{0, 0, full.x, full.y};
+  if (!frame.lens.is_pinhole()) {
+    // The same picture in floats, with a border, and without its lens.
+    input.take_memory(std::uint64_t(full.x + 4) * std::uint64_t(full.y + 4),
+                      sizeof(glm::vec4) + sizeof(glm::u8vec4) + 1, "the picture without its lens");
+    Undistorted without_lens = undistorted(image, camera, frame.lens);
+    image = std::move(without_lens.image);
+    known = without_lens.known;
+    if (known.right == 0)
+      throw InputError({input.name(), {}, {}},
+                       "the distortion of its lens cannot be undone: less than half of the "
+                       "picture would be left");
+  }
+  const glm::ivec2 size(scaled_side(full.x, options.scale), scaled_side(full.y, options.scale));
+  known = scaled_rectangle(known, full, size);
+  if (known.left >= known.right || known.top >= known.bottom)
+    throw InputError({input.name(), {}, {}}, "nothing is left of it at " +
+                                                 size_text(size.x, size.y) + ", scaled by " +
+                                                 float_text(float(options.scale)));
+  camera = stretched(std::move(camera), size.x, size.y);
+  // Scaled, and perhaps cropped once more.
+  input.take_memory(std::uint64_t(size.x) * std::uint64_t(size.y), 2 * sizeof(glm::u8vec4),
+                    "the scaled picture");
+  image = box_scaled(image, size.x, size.y);
+
+  ReadPhotograph result;
+  Photograph& photograph = result.photograph;
+  photograph.camera = std::move(camera);
+  photograph.camera.name = frame.name;
+  photograph.camera.width = known.right - known.left;
+  photograph.camera.height = known.bottom - known.top;
+  photograph.camera.cx -= known.left;
+  photograph.camera.cy -= known.top;
+  result.lost_columns = size.x - photograph.camera.width;
+  result.lost_rows = size.y - photograph.camera.height;
+  photograph.image =
+      result.lost_columns + result.lost_rows > 0 ? cropped(image, known) : std::move(image);
+  passing.keep(photograph.image.pixels.size() * sizeof photograph.image.pixels[0]);
+  return result;
+}
+
+}  // namespace tureen

@@ -1,0 +1,100 @@
+#include "formats/dataset/transforms_json.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "formats/dataset/camera_json.hpp"
+
+namespace tureen {
+
+namespace {
+
+using Json = nlohmann::json;
+
+std::optional<double> positive(const CameraJson& json, const char* key) {
+  const std::optional<double> value = json.maybe_number(key);
+  if (value && !(*value > 0)) json.fail(std::string("the focal length is not positive: ") + key);
+  return value;
+}
+
+std::optional<double> angle(const CameraJson& json, const char* key) {
+  const std::optional<double> value = json.maybe_number(key);
+  if (value && !(*value > 0 && *value < 3.1415)) json.fail(std::string(key) + " is outside 0..pi");
+  return value;
+}
+
+/// Models that Lens describes, as nerfstudio names them.
+constexpr std::array described{"",       "OPENCV",        "PINHOLE",    "SIMPLE_PINHOLE",
+                               "RADIAL", "SIMPLE_RADIAL", "PERSPECTIVE"};
+
+std::string other_lens(const CameraJson& json) {
+  for (const char* key : {"is_fisheye", "ftheta_p0", "latlong", "equirectangular"})
+    if (json.truth(key)) return key;
+  std::string model = json.text("camera_model");
+  if (std::find(described.begin(), described.end(), model) == described.end()) return model;
+  // In OpenCV's order the fourth radial number belongs to a quotient of polynomials, in others'
+  // to r^8.
+  if (json.maybe_number("k4").value_or(0) != 0) return "k4";
+  return {};
+}
+
+TransformsFrame read_frame(const CameraJson& json) {
+  TransformsFrame frame;
+  frame.file_path = json.text("file_path");
+  frame.width = json.maybe_side("w");
+  frame.height = json.maybe_side("h");
+  frame.fl_x = positive(json, "fl_x");
+  frame.fl_y = positive(json, "fl_y");
+  if (!frame.fl_x) frame.camera_angle_x = angle(json, "camera_angle_x");
+  if (!frame.fl_y) frame.camera_angle_y = angle(json, "camera_angle_y");
+  if (!frame.fl_x && !frame.fl_y && !frame.camera_angle_x && !frame.camera_angle_y)
+    json.fail("neither fl_x nor camera_angle_x is there");
+  frame.cx = json.maybe_number("cx");
+  frame.cy = json.maybe_number("cy");
+  const auto coefficient = [&](const char* key) { return json.maybe_number(key).value_or(0); };
+  frame.lens = {.k1 = coefficient("k1"),
+                .k2 = coefficient("k2"),
+                .k3 = coefficient("k3"),
+                .p1 = coefficient("p1"),
+                .p2 = coefficient("p2")};
+  frame.other_lens = other_lens(json);
+  frame.view_from_world = rigid_inverse(json.rigid("transform_matrix"));
+  return frame;
+}
+
+}  // namespace
+
+std::vector<TransformsFrame> read_transforms(const Json& root, const std::string& file) {
+  const Json& frames = json_list(root, "frames", file);
+  std::vector<TransformsFrame> result;
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    result.push_back(read_frame(CameraJson({.object = frames[i],
+                                            .common = &root,
+                                            .file = file,
+                                            .where = "frame " + std::to_string(i) + ": "})));
+  return result;
+}
+
+Camera pinhole(const TransformsFrame& frame, int width, int height) {
+  const auto focal = [](std::optional<double> length, std::optional<double> full_angle,
+                        int side) -> std::optional<double> {
+    if (length || !full_angle) return length;
+    return 0.5 * side / std::tan(0.5 * *full_angle);
+  };
+  const std::optional<double> fx = focal(frame.fl_x, frame.camera_angle_x, width);
+  const std::optional<double> fy = focal(frame.fl_y, frame.camera_angle_y, height);
+  Camera camera;
+  camera.name = frame.file_path;
+  camera.width = width;
+  camera.height = height;
+  camera.fx = fx ? *fx : *fy;  // pixels are square where the file gives one of the two
+  camera.fy = fy ? *fy : *fx;
+  camera.cx = frame.cx.value_or(0.5 * width);
+  camera.cy = frame.cy.value_or(0.5 * height);
+  camera.view_from_world = frame.view_from_world;
+  return camera;
+}
+
+}  // namespace tureen

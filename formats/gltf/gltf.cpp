@@ -1,0 +1,252 @@
+#include "formats/gltf/gltf.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
+#include <set>
+#include <string_view>
+
+#include "formats/gltf/gltf_soup.hpp"
+#include "formats/tureen_glb/tureen_glb.hpp"
+#include "image/png.hpp"
+
+namespace tureen {
+
+namespace {
+
+bool contains_ignoring_case(const std::string& text, const char* word) {
+  const std::string wanted(word);
+  return std::search(text.begin(), text.end(), wanted.begin(), wanted.end(), [](char a, char b) {
+           return std::tolower(static_cast<unsigned char>(a)) ==
+                  std::tolower(static_cast<unsigned char>(b));
+         }) != text.end();
+}
+
+/// Python tools that write the colours they hold, display-referred, into COLOR_0 as they are.
+bool writes_srgb_colors(const std::string& generator) {
+  for (const char* tool : {"trimesh", "open3d", "pymeshlab", "pygltflib", "pyvista"})
+    if (contains_ignoring_case(generator, tool)) return true;
+  return false;
+}
+
+class Importer {
+ public:
+  Importer(GltfDocument& document, const ReadOptions& options)
+      : document_(document),
+        options_(options),
+        generator_(document.model().asset.generator),
+        builder_(document, color_space()) {}
+
+  Scene scene() {
+    walk();
+    Scene scene;
+    TriangleSoup soup = builder_.finish();
+    if (const auto reason = defect(soup)) document_.fail("", *reason);
+    if (builder_.has_vertex_colors()) builder_.remarks.push_back({color_remark()});
+    if (!document_.model().animations.empty())
+      builder_.remarks.push_back({Remark::Kind::animations_dropped});
+    scene.primitives = std::move(soup);
+    scene.cameras = std::move(cameras_);
+    scene.info.source = generator_.empty() ? "glTF" : "glTF by " + generator_;
+    if (contains_ignoring_case(generator_, "trimesh")) {
+      // trimesh writes coordinates as it holds them, and the soups that come this way are z up.
+      scene.info.up = {0, 0, 1};
+      scene.info.up_is_assumed = true;
+      builder_.remarks.push_back({Remark::Kind::up_unknown_to_trimesh});
+    }
+    std::set<Remark> known;
+    for (Remark& remark : builder_.remarks)
+      if (known.insert(remark).second) scene.info.remarks.push_back(std::move(remark));
+    if (options_.progress) options_.progress(1.0);
+    return scene;
+  }
+
+ private:
+  VertexColorSpace color_space() const {
+    if (options_.vertex_colors != VertexColorSpace::automatic) return options_.vertex_colors;
+    return writes_srgb_colors(generator_) ? VertexColorSpace::srgb : VertexColorSpace::linear;
+  }
+
+  Remark::Kind color_remark() const {
+    const bool srgb = color_space() == VertexColorSpace::srgb;
+    if (options_.vertex_colors != VertexColorSpace::automatic)
+      return srgb ? Remark::Kind::vertex_colors_srgb : Remark::Kind::vertex_colors_linear;
+    return srgb ? Remark::Kind::vertex_colors_srgb_by_generator
+                : Remark::Kind::vertex_colors_linear_by_gltf;
+  }
+
+  /// The roots of the scene to draw: the default one, else the first, else all nodes that are
+  /// nobody's child.
+  std::vector<int> roots() const {
+    const tinygltf::Model& model = document_.model();
+    if (model.defaultScene >= 0 || !model.scenes.empty()) {
+      const auto index = std::size_t(std::max(model.defaultScene, 0));
+      if (index >= model.scenes.size())
+        document_.fail("scene", "there is no scene " + std::to_string(index) + " of " +
+                                    std::to_string(model.scenes.size()));
+      return model.scenes[index].nodes;
+    }
+    std::vector<bool> is_child(model.nodes.size(), false);
+    for (const tinygltf::Node& node : model.nodes)
+      for (const int child : node.children)
+        if (child >= 0 && std::size_t(child) < is_child.size()) is_child[std::size_t(child)] = true;
+    std::vector<int> result;
+    for (std::size_t i = 0; i < is_child.size(); ++i)
+      if (!is_child[i]) result.push_back(int(i));
+    return result;
+  }
+
+  /// Visits every node once, on a stack of our own: a file may nest as deeply as it likes.
+  void walk() {
+    struct Visit {
+      int node;
+      glm::dmat4 world_from_parent;
+    };
+    const tinygltf::Model& model = document_.model();
+    std::vector<Visit> stack;
+    const std::vector<int> first = roots();
+    for (auto it = first.rbegin(); it != first.rend(); ++it)
+      stack.push_back({*it, glm::dmat4(1.0)});
+    std::vector<bool> visited(model.nodes.size(), false);
+    std::size_t done = 0;
+    while (!stack.empty()) {
+      const Visit visit = stack.back();
+      stack.pop_back();
+      if (visit.node < 0 || std::size_t(visit.node) >= model.nodes.size())
+        document_.fail("nodes", "there is no node " + std::to_string(visit.node) + " of " +
+                                    std::to_string(model.nodes.size()));
+      const std::string where = "nodes[" + std::to_string(visit.node) + "]";
+      if (visited[std::size_t(visit.node)])
+        document_.fail(where, "is reached twice: it has two parents or is its own ancestor");
+      visited[std::size_t(visit.node)] = true;
+      const tinygltf::Node& node = model.nodes[std::size_t(visit.node)];
+      const glm::dmat4 world_from_node = visit.world_from_parent * parent_from_node(node, where);
+      if (node.mesh != -1) {
+        if (node.skin != -1) builder_.remarks.push_back({Remark::Kind::skins_dropped});
+        builder_.add_mesh(node.mesh, world_from_node);
+      }
+      if (node.camera != -1) add_camera(node.camera, world_from_node, where);
+      for (auto it = node.children.rbegin(); it != node.children.rend(); ++it)
+        stack.push_back({*it, world_from_node});
+      if (options_.progress) options_.progress(double(++done) / double(model.nodes.size() + 1));
+    }
+  }
+
+  glm::dmat4 parent_from_node(const tinygltf::Node& node, const std::string& where) const {
+    const auto expect = [&](const std::vector<double>& values, std::size_t count,
+                            const char* what) {
+      if (!values.empty() && values.size() != count)
+        document_.fail(where + "." + what, "expected " + std::to_string(count) + " numbers");
+      return !values.empty();
+    };
+    glm::dmat4 matrix(1.0);
+    if (expect(node.matrix, 16, "matrix")) {
+      for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = node.matrix[std::size_t(i)];
+      return matrix;
+    }
+    if (expect(node.rotation, 4, "rotation")) {
+      const std::vector<double>& q = node.rotation;
+      const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+      if (!(length > 0.0)) document_.fail(where + ".rotation", "is no rotation");
+      matrix = glm::dmat4(
+          glm::mat3_cast(glm::dquat(q[3] / length, q[0] / length, q[1] / length, q[2] / length)));
+    }
+    if (expect(node.scale, 3, "scale"))
+      for (int k = 0; k < 3; ++k) matrix[k] *= node.scale[std::size_t(k)];
+    if (expect(node.translation, 3, "translation"))
+      matrix[3] = {node.translation[0], node.translation[1], node.translation[2], 1.0};
+    return matrix;
+  }
+
+  /// glTF cameras look along their own -z with y up, as ours do; they have no size in pixels.
+  void add_camera(int index, const glm::dmat4& world_from_node, const std::string& where) {
+    constexpr int height = 720;
+    const auto& all = document_.model().cameras;
+    if (index < 0 || std::size_t(index) >= all.size())
+      document_.fail(where,
+                     "names camera " + std::to_string(index) + " of " + std::to_string(all.size()));
+    const tinygltf::Camera& json = all[std::size_t(index)];
+    if (json.type != "perspective") {
+      builder_.remarks.push_back({Remark::Kind::other_projections_dropped});
+      return;
+    }
+    const double fov = json.perspective.yfov;
+    // Half a turn is a plane; the camera's aspect may be absent, and the viewer's rules then.
+    const double aspect =
+        json.perspective.aspectRatio > 0.0 ? json.perspective.aspectRatio : 16.0 / 9.0;
+    glm::dmat3 axes(world_from_node);
+    const double volume = std::abs(glm::determinant(axes));
+    if (!(fov > 0.0 && fov < 3.14159) || !(aspect > 0.01) || !(height * aspect <= max_image_side) ||
+        !(volume > 0.0) || !std::isfinite(volume)) {
+      builder_.remarks.push_back({Remark::Kind::blind_cameras_dropped});
+      return;
+    }
+    // A scale does not change what a camera sees; shear is taken out with it.
+    const glm::dvec3 backward = glm::normalize(axes[2]);
+    const glm::dvec3 right = glm::normalize(glm::cross(axes[1], backward));
+    const glm::dvec3 up = glm::cross(backward, right);
+    const glm::dmat3 view_rotation = glm::transpose(glm::dmat3(right, up, backward));
+    Camera camera;
+    camera.name = json.name;
+    camera.height = height;
+    camera.width = std::max(1, int(std::lround(height * aspect)));
+    camera.fx = camera.fy = 0.5 * height / std::tan(0.5 * fov);
+    camera.cx = 0.5 * camera.width;
+    camera.cy = 0.5 * camera.height;
+    camera.view_from_world = glm::dmat4(view_rotation);
+    camera.view_from_world[3] = glm::dvec4(-(view_rotation * glm::dvec3(world_from_node[3])), 1.0);
+    cameras_.push_back(camera);
+  }
+
+  GltfDocument& document_;
+  const ReadOptions& options_;
+  std::string generator_;
+  GltfSoupBuilder builder_;
+  std::vector<Camera> cameras_;
+};
+
+GlbContainer read_json_file(Input& input) {
+  const auto bytes = input.read_rest();
+  if (!is_gltf(bytes))
+    input.fail_at(
+        0, "neither a GLB, which begins with \"glTF\", nor glTF, which is JSON with an \"asset\"");
+  GlbContainer glb;
+  glb.json = parse_json(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()),
+                        input.name(), 0, input.budget());
+  return glb;
+}
+
+}  // namespace
+
+bool is_gltf(std::span<const std::byte> head) {
+  const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
+  if (text.substr(0, 4) == "glTF") return true;
+  const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");  // a UTF-8 mark, too
+  return first != std::string_view::npos && text[first] == '{' &&
+         text.find("\"asset\"") != std::string_view::npos;
+}
+
+Scene read_gltf_or_glb(const std::filesystem::path& path, const ReadOptions& options) {
+  Input input = Input::open(path);
+  return read_gltf_or_glb(input, path.parent_path(), options);
+}
+
+Scene read_gltf_or_glb(Input& input, const std::filesystem::path& folder,
+                       const ReadOptions& options) {
+  const bool binary = is_glb(input);
+  GlbContainer glb = binary ? read_glb_container(input) : read_json_file(input);
+  if (binary && is_tureen_glb(glb)) return read_tureen_glb(input, glb, options);
+  const bool ours = is_tureen_glb(glb);
+  GltfDocument document(input, std::move(glb), folder);
+  Scene scene = Importer(document, options).scene();
+  scene.info.name = std::filesystem::path(input.name()).stem().string();
+  if (ours)
+    scene.info.remarks.push_back(
+        {.kind = Remark::Kind::mean_colors_shown, .names = {tureen_extension}});
+  return scene;
+}
+
+}  // namespace tureen

@@ -1,0 +1,255 @@
+#include "formats/gltf/gltf_document.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "base/json_limits.hpp"
+#include "formats/gltf/uri.hpp"
+#include "image/png.hpp"
+
+namespace tureen {
+
+namespace {
+
+/// What a file may require of us. The mesh and texture extensions change what is drawn and are
+/// honoured; unlit is how we draw anyway.
+constexpr std::array known_extensions = {"KHR_materials_unlit", "KHR_mesh_quantization",
+                                         "KHR_texture_transform"};
+
+/// tinygltf's messages as one line without the full stop.
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
+  return text.empty() ? "is not valid glTF" : text;
+}
+
+/// Whether tinygltf, which keeps indices and enumerations as int and drops the bits that do not
+/// fit, would take this for another: vertex 2^32 for vertex 0.
+bool is_beyond_int(const nlohmann::json& index) {
+  return index.is_number_integer() &&
+         std::abs(index.get<double>()) > std::numeric_limits<int>::max();
+}
+
+/// Whether there is a number that is_beyond_int where one would be an index or an enumeration: in
+/// members with the names of those, and in all "attributes" and "sparse". Then `place` is where,
+/// below `value`; it is put together on the way back: names may be long, and values many.
+bool find_beyond_int(const nlohmann::json& value, bool are_indices, std::string& place) {
+  static constexpr std::array<std::string_view, 18> keys = {
+      "attributes", "buffer",  "bufferView", "camera", "children", "componentType",
+      "index",      "indices", "material",   "mesh",   "mode",     "nodes",
+      "sampler",    "scene",   "skin",       "source", "sparse",   "texCoord"};
+  if (!value.is_structured()) return are_indices && is_beyond_int(value);
+  for (const auto& [key, member] : value.items()) {
+    // Through lists of indices and into objects of indices, but not into the objects of a list.
+    const bool next = value.is_array()
+                          ? are_indices && !member.is_object()
+                          : are_indices || std::find(keys.begin(), keys.end(), key) != keys.end();
+    if (key == "extras" || !find_beyond_int(member, next, place)) continue;
+    place.insert(0, value.is_array() ? "[" + key + "]" : "." + key);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+GltfDocument::GltfDocument(Input& input, GlbContainer glb, std::filesystem::path folder)
+    : input_(input), glb_(std::move(glb)), folder_(std::move(folder)) {
+  const JsonView root(glb_.json, input_.name());
+  const JsonView asset = root["asset"];
+  const auto minimum = asset.find("minVersion");
+  const std::string& version = minimum ? minimum->text() : asset["version"].text();
+  if (version.substr(0, 2) != "2." || (minimum && version != "2.0"))
+    (minimum ? *minimum : asset["version"]).fail("glTF " + version + "; 2.0 is read");
+  if (const auto required = root.find("extensionsRequired"))
+    for (std::size_t i = 0; i < required->size(); ++i) {
+      const std::string& name = required->at(i).text();
+      if (std::find(known_extensions.begin(), known_extensions.end(), name) ==
+          known_extensions.end())
+        required->at(i).fail("the file requires the extension " + name + ", which is not read");
+    }
+  if (const auto list = root.find("buffers")) buffers_.resize(list->size());
+  take_model_memory();
+  parse();
+}
+
+/// What the copy of the JSON and tinygltf's model of it will take. Its structures are large: {} is
+/// a material of two kilobytes.
+void GltfDocument::take_model_memory() const {
+  // No longer than the file's text and some two dozen letters a number, both counted when it was
+  // parsed.
+  const std::string text = glb_.json.dump();
+  const std::uint64_t values = count_json_values(text, input_.name());
+  // The copy, its text, tinygltf's own copy, and what it makes of extensions and extras.
+  take_memory(values, 2 * json_value_bytes + sizeof(tinygltf::Value), "");
+  take_memory(2 * text.size(), 1, "");
+  constexpr std::pair<const char*, std::size_t> lists[] = {
+      {"accessors", sizeof(tinygltf::Accessor)}, {"bufferViews", sizeof(tinygltf::BufferView)},
+      {"cameras", sizeof(tinygltf::Camera)},     {"materials", sizeof(tinygltf::Material)},
+      {"meshes", sizeof(tinygltf::Mesh)},        {"nodes", sizeof(tinygltf::Node)},
+      {"samplers", sizeof(tinygltf::Sampler)},   {"scenes", sizeof(tinygltf::Scene)},
+      {"textures", sizeof(tinygltf::Texture)}};
+  const JsonView root(glb_.json, input_.name());
+  const auto take = [&](const JsonView& list, std::size_t each) {
+    // Vectors double: what they grew out of stands beside them for a moment.
+    take_memory(list.size(), 3 * each, list.path());
+  };
+  for (const auto& [name, each] : lists)
+    if (const auto list = root.find(name)) take(*list, each);
+  if (const auto meshes = root.find("meshes"))
+    for (std::size_t i = 0; i < meshes->size(); ++i)
+      if (const auto primitives = meshes->at(i).find("primitives"))
+        take(*primitives, sizeof(tinygltf::Primitive));
+}
+
+void GltfDocument::parse() {
+  nlohmann::json lean = glb_.json;
+  for (const char* key : {"buffers", "images", "animations", "skins", "extensions", "extras"})
+    lean.erase(key);
+  if (std::string place; find_beyond_int(lean, false, place))
+    fail(place.substr(1), "is beyond 2147483647");
+  // tinygltf takes an offset or a size that is no integer for none at all; such a file would be
+  // read wrongly without a word.
+  for (const char* list : {"accessors", "bufferViews"}) {
+    const auto view = JsonView(glb_.json, input_.name()).find(list);
+    for (std::size_t i = 0; view && i < view->size(); ++i)
+      for (const char* key : {"byteOffset", "byteLength", "byteStride", "count", "bufferView"})
+        if (const auto member = view->at(i).find(key)) lean[list][i][key] = member->natural();
+  }
+  const std::string text = lean.dump();
+  if (text.size() > std::numeric_limits<unsigned int>::max()) fail("", "more than 4 GiB of JSON");
+  tinygltf::TinyGLTF loader;
+  std::string error, warning;
+  bool parsed = false;
+  try {
+    parsed = loader.LoadASCIIFromString(&model_, &error, &warning, text.data(),
+                                        static_cast<unsigned int>(text.size()), "");
+  } catch (const std::exception& exception) {
+    error += exception.what();
+  }
+  // Of some parts it says what is wrong, leaves them out and goes on: a material whose colour has
+  // three numbers would lose its texture, too.
+  if (!parsed || !error.empty()) fail("", "not valid glTF: " + one_line(error));
+}
+
+void GltfDocument::fail(const std::string& where, const std::string& reason,
+                        const std::string& hint) const {
+  throw InputError({input_.name(), {}, {}}, where.empty() ? reason : where + ": " + reason, hint);
+}
+
+void GltfDocument::take_memory(std::uint64_t elements, std::size_t each,
+                               const std::string& where) const {
+  MemoryBudget budget = input_.budget();
+  if (!budget.take(elements, each))
+    fail(where, budget.refusal(where.empty() ? "the scene" : "it"), max_memory_hint);
+}
+
+std::uint64_t GltfDocument::vertex_budget() const {
+  return std::max(std::uint64_t(1) << 24, loaded_bytes_);
+}
+
+std::vector<std::byte> GltfDocument::load_uri(const JsonView& uri,
+                                              std::optional<std::uint64_t> size) {
+  try {
+    take_memory(uri.text().size() / 4, 3, uri.path());
+    if (auto bytes = decode_data_uri(uri.text())) {
+      if (size && bytes->size() < *size)
+        uri.fail("holds " + std::to_string(bytes->size()) + " bytes, expected " +
+                 std::to_string(*size));
+      if (size) bytes->resize(static_cast<std::size_t>(*size));
+      return *std::move(bytes);
+    }
+    Input file = Input::open(resolve_in_folder(folder_, uri.text()), input_.budget());
+    if (!size) return file.read_rest();
+    return file.read_values<std::byte>(*size, "the buffer");
+  } catch (const UriError& error) {
+    uri.fail(error.reason);
+  } catch (const InputError& error) {
+    // The scene's file is what the person named; the other is where it led.
+    if (error.place().file == input_.name()) throw;
+    uri.fail(error.without_hint(), error.hint());
+  }
+}
+
+std::vector<std::byte> GltfDocument::load_buffer(std::size_t index, std::uint64_t size) {
+  const JsonView json = JsonView(glb_.json, input_.name())["buffers"].at(index);
+  if (const auto uri = json.find("uri")) return load_uri(*uri, size);
+  if (index != 0 || glb_.binary_offset == 0) json.fail("has no uri and no binary chunk");
+  if (size > glb_.binary_size)
+    json.fail("wants " + std::to_string(size) + " bytes; the binary chunk has " +
+              std::to_string(glb_.binary_size));
+  input_.seek(glb_.binary_offset);
+  return input_.read_values<std::byte>(size, "the binary chunk");
+}
+
+std::span<const std::byte> GltfDocument::buffer(int index, const std::string& where) {
+  if (index < 0 || std::size_t(index) >= buffers_.size())
+    fail(where, "names buffer " + std::to_string(index) + " of " + std::to_string(buffers_.size()));
+  auto& bytes = buffers_[std::size_t(index)];
+  if (!bytes) {
+    const JsonView json = JsonView(glb_.json, input_.name())["buffers"].at(std::size_t(index));
+    bytes = load_buffer(std::size_t(index), json["byteLength"].natural());
+    loaded_bytes_ += bytes->size();
+  }
+  return *bytes;
+}
+
+std::span<const std::byte> GltfDocument::view_bytes(int view, const std::string& where) {
+  if (view < 0 || std::size_t(view) >= model_.bufferViews.size())
+    fail(where, "names buffer view " + std::to_string(view) + " of " +
+                    std::to_string(model_.bufferViews.size()));
+  const std::string name = "bufferViews[" + std::to_string(view) + "]";
+  const tinygltf::BufferView& json = model_.bufferViews[std::size_t(view)];
+  const auto bytes = buffer(json.buffer, name);
+  if (json.byteOffset > bytes.size() || json.byteLength > bytes.size() - json.byteOffset)
+    fail(name, "bytes " + std::to_string(json.byteOffset) + " + " +
+                   std::to_string(json.byteLength) + " reach past the end of its buffer at " +
+                   std::to_string(bytes.size()));
+  return bytes.subspan(json.byteOffset, json.byteLength);
+}
+
+GltfDocument::Elements GltfDocument::elements(int view, std::uint64_t offset, std::uint64_t count,
+                                              std::size_t each, const std::string& where) {
+  const auto bytes = view_bytes(view, where);
+  std::size_t stride = model_.bufferViews[std::size_t(view)].byteStride;
+  if (stride == 0) stride = each;
+  if (stride < each)
+    fail(where, "its stride of " + std::to_string(stride) + " bytes is less than an element's " +
+                    std::to_string(each));
+  // 252 is glTF's own limit, so the product below cannot overflow.
+  if (stride > 252 && stride != each)
+    fail(where, "its stride of " + std::to_string(stride) + " bytes is beyond 252");
+  if (offset > bytes.size() || each > bytes.size() - offset ||
+      count - 1 > (bytes.size() - offset - each) / stride)
+    fail(where, std::to_string(count) + " elements of " + std::to_string(each) +
+                    " bytes from byte " + std::to_string(offset) +
+                    " reach past the end of its buffer view of " + std::to_string(bytes.size()));
+  return {bytes.data() + offset, stride};
+}
+
+Image8 GltfDocument::image(int index) {
+  const JsonView images = JsonView(glb_.json, input_.name())["images"];
+  const JsonView json = images.at(index < 0 ? images.size() : std::size_t(index));
+  const auto decode = [&](std::span<const std::byte> bytes) {
+    try {
+      return decode_image(bytes, input_.name(), input_.budget());
+    } catch (const InputError& error) {
+      json.fail(error.reason(), error.hint());
+    }
+  };
+  if (const auto uri = json.find("uri")) {
+    PassingMemory passing(input_.budget());
+    Image8 result = decode(load_uri(*uri, std::nullopt));
+    passing.keep(result.pixels.size() * sizeof result.pixels[0]);
+    return result;
+  }
+  const auto view = int(json["bufferView"].natural(std::numeric_limits<int>::max()));
+  return decode(view_bytes(view, json.path()));
+}
+
+}  // namespace tureen

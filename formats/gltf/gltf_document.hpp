@@ -1,0 +1,78 @@
+// A foreign glTF file: its JSON as tinygltf's model, and checked access to its bytes.
+//
+// tinygltf is given the JSON without buffers and images and has no file system: it can neither open
+// a file nor touch a byte of binary data. Both are ours: buffers and images are loaded here, on
+// demand, from the binary chunk, from data URIs, or from files in the scene's folder.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/input.hpp"
+#include "base/json_view.hpp"
+#include "formats/gltf/glb_container.hpp"
+#include "formats/gltf/tinygltf.hpp"
+#include "image/image.hpp"
+
+namespace tureen {
+
+class GltfDocument {
+ public:
+  /// `glb` is the container of `input`, or the whole of a .gltf as its JSON. Throws InputError for
+  /// what is no glTF 2.0 and for required extensions that we lack. The input must outlive it.
+  GltfDocument(Input& input, GlbContainer glb, std::filesystem::path folder);
+
+  const tinygltf::Model& model() const { return model_; }
+
+  /// `count` elements of a buffer view, `stride` bytes apart (0: the view's own, or tight), each
+  /// `each` bytes long, from `offset` within the view. `where` begins the reason of failure.
+  struct Elements {
+    const std::byte* first = nullptr;
+    std::size_t stride = 0;
+  };
+  Elements elements(int view, std::uint64_t offset, std::uint64_t count, std::size_t each,
+                    const std::string& where);
+
+  /// Decodes images[index].
+  Image8 image(int index);
+
+  /// Counts what is about to be allocated; fails at `where` where that is too much.
+  void take_memory(std::uint64_t elements, std::size_t each, const std::string& where) const;
+  /// make_room (base/memory_budget.hpp), or failure at `where`.
+  template <class T>
+  void make_room_in(std::vector<T>& values, std::size_t more, const std::string& where) {
+    MemoryBudget budget = input_.budget();
+    if (!make_room(values, more, budget))
+      fail(where, budget.refusal(where.empty() ? "the scene" : "it"), max_memory_hint);
+  }
+  MemoryBudget budget() const { return input_.budget(); }
+
+  /// How many vertices (and elements without bytes of their own) this file may make: 2^24, or as
+  /// many as bytes were loaded. A vertex takes three bytes at the least, so only instances and
+  /// accessors without a buffer view can reach it.
+  std::uint64_t vertex_budget() const;
+
+  [[noreturn]] void fail(const std::string& where, const std::string& reason,
+                         const std::string& hint = {}) const;
+
+ private:
+  std::span<const std::byte> buffer(int index, const std::string& where);
+  std::vector<std::byte> load_buffer(std::size_t index, std::uint64_t size);
+  std::vector<std::byte> load_uri(const JsonView& uri, std::optional<std::uint64_t> size);
+  std::span<const std::byte> view_bytes(int view, const std::string& where);
+  void take_model_memory() const;
+  void parse();
+
+  Input& input_;
+  GlbContainer glb_;
+  std::filesystem::path folder_;
+  tinygltf::Model model_;
+  std::vector<std::optional<std::vector<std::byte>>> buffers_;
+  std::uint64_t loaded_bytes_ = 0;
+};
+
+}  // namespace tureen

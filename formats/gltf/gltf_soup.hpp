@@ -1,0 +1,67 @@
+// Gathers the primitives of a foreign glTF file into one soup.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "formats/gltf/gltf_document.hpp"
+#include "formats/gltf/gltf_material.hpp"
+#include "formats/scene_file.hpp"
+#include "scene/remark.hpp"
+#include "scene/triangle_soup.hpp"
+
+namespace tureen {
+
+class GltfSoupBuilder {
+ public:
+  /// `colors` is srgb or linear, decided already.
+  GltfSoupBuilder(GltfDocument& document, VertexColorSpace colors)
+      : document_(document), color_space_(colors) {}
+
+  /// meshes[index], placed by `world_from_mesh`.
+  void add_mesh(int index, const glm::dmat4& world_from_mesh);
+
+  /// VertexColors where no material has a texture, UvTextures otherwise.
+  TriangleSoup finish();
+
+  bool has_vertex_colors() const { return !vertex_colors_.empty(); }
+  /// Differences between the file and what is drawn; a remark may occur repeatedly.
+  std::vector<Remark> remarks;
+
+ private:
+  /// The vertices and faces that one primitive gave.
+  struct Part {
+    std::size_t first_vertex, vertices, first_face, faces;
+    std::size_t material;  // in materials_
+  };
+
+  void add_primitive(const tinygltf::Primitive& primitive, const std::string& where,
+                     const glm::dmat4& world_from_mesh);
+  std::vector<glm::uvec3> triangles_of(const tinygltf::Primitive& primitive,
+                                       const std::string& where, std::size_t vertices);
+  void add_positions(int accessor, const std::string& where, const glm::dmat4& world_from_mesh,
+                     const std::vector<std::uint32_t>& used);
+  void add_colors(int accessor, const std::string& where, const std::vector<std::uint32_t>& used);
+  void add_uv(const tinygltf::Primitive& primitive, const GltfMaterial& material,
+              const std::string& where, const std::vector<std::uint32_t>& used);
+  std::size_t material(int index);
+  glm::vec4 display_color(const glm::vec4& stored, const glm::dvec4& factor) const;
+  VertexColors as_vertex_colors() const;
+  UvTextures as_uv_textures();
+
+  GltfDocument& document_;
+  VertexColorSpace color_space_;
+  TriangleSoup soup_;
+  std::vector<Part> parts_;
+  std::vector<GltfMaterial> materials_;
+  std::map<int, std::size_t> material_index_;  // of the file's, -1 among them
+  std::vector<glm::vec4> vertex_colors_;       // as stored; empty until the first
+  std::vector<glm::vec2> uv_;                  // empty until the first
+  /// From an accessor's vertices to the soup's while one primitive is added, `unused` in between:
+  /// kept, because a fresh one would cost every primitive the length of the accessor.
+  std::vector<std::uint32_t> renamed_;
+};
+
+}  // namespace tureen

@@ -1,0 +1,30 @@
+// MobileNeRF scenes (arXiv 2208.00277 and its viewers): a folder of
+//   mlp.json                    an 11-16-16-3 network, weights [input][output], and obj_num shapes
+//   shape{i}.obj                or, for large scenes, in pieces shape{i}_{j}.obj
+//   shape{i}.pngfeat0.png       four features a texel; a red byte of 0 is a hole
+//   shape{i}.pngfeat1.png       four more
+//
+// Does not draw the sphere-mapped background of the unbounded scenes or undo the normalised device
+// coordinates of the forward-facing ones: nothing in the folder tells them apart.
+#pragma once
+
+#include <filesystem>
+
+#include "formats/scene_file.hpp"
+#include "scene/color_mlp.hpp"
+
+namespace tureen {
+
+/// Whether `path` is such a folder, its mlp.json or one of its .obj files.
+bool is_mobilenerf(const std::filesystem::path& path);
+
+/// All shapes of the folder as one soup of UvTextures, a material a shape, nearest texels; white
+/// background, y up, and the camera of the published pages. Shapes that are missing are named in
+/// info.remarks, and it is an error when all are. Throws InputError.
+///
+/// The network is rewritten to take bytes / 255 and the plain direction from the eye: the published
+/// one takes 2 a - 1 for the two alpha features and (x, -z, y) for the direction. Both changes are
+/// linear and go into its first layer.
+Scene read_mobilenerf(const std::filesystem::path& path, const ReadOptions& options = {});
+
+}  // namespace tureen

@@ -1,0 +1,168 @@
+#include "formats/mesh/plain_mesh.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "image/quantise.hpp"
+#include "scene/edit/mean_color.hpp"
+
+namespace tureen {
+
+namespace {
+
+/// Brings every component into [0, 1]; how many lay outside.
+std::uint64_t clamp_colors(std::vector<glm::vec4>& rgba) {
+  std::uint64_t clamped = 0;
+  for (glm::vec4& color : rgba)
+    for (int c = 0; c < 4; ++c) {
+      if (color[c] >= 0.0f && color[c] <= 1.0f) continue;
+      color[c] = color[c] > 1.0f ? 1.0f : 0.0f;  // NaN compares false and becomes 0
+      ++clamped;
+    }
+  return clamped;
+}
+
+}  // namespace
+
+void MeshBuilder::reserve_vertices(std::uint64_t count) {
+  input_.make_room_in(positions, count, "the vertices");
+}
+
+void MeshBuilder::reserve_colors_of_vertices(std::uint64_t count) {
+  input_.make_room_in(vertex_rgba, count, "the colours of the vertices");
+}
+
+void MeshBuilder::reserve_faces(std::uint64_t count) {
+  input_.make_room_in(triangles_, count, "the faces");
+}
+
+void MeshBuilder::color_faces(std::size_t count, const glm::vec4& rgba) {
+  if (count > face_rgba_.capacity())
+    input_.make_room_in(face_rgba_, count - face_rgba_.size(), "the colours of the faces");
+  face_rgba_.resize(count, rgba);
+}
+
+void MeshBuilder::add_corner(std::uint32_t vertex) {
+  if (corners_ == 0) {
+    first_triangle_ = triangles_.size();
+    fan_[0] = vertex;
+  } else if (corners_ >= 2) {
+    add({fan_[0], fan_[1], vertex});
+  }
+  fan_[1] = vertex;
+  ++corners_;
+}
+
+void MeshBuilder::end_face() {
+  if (corners_ < 3) ++too_small_;
+  if (corners_ > 3) ++polygons_;
+  if (face_rgba_.empty()) return;
+  uncolored_ += triangles_.size() - face_rgba_.size();
+  color_faces(triangles_.size(), no_color);
+}
+
+void MeshBuilder::end_face(const glm::vec4& rgba) {
+  if (corners_ < 3) {
+    ++too_small_;
+    return;
+  }
+  if (corners_ > 3) ++polygons_;
+  if (face_rgba_.empty()) {
+    // The first colour: the triangles before it had none.
+    input_.make_room_in(face_rgba_, triangles_.capacity(), "the colours of the faces");
+    face_rgba_.resize(first_triangle_, no_color);
+    uncolored_ = first_triangle_;
+  }
+  color_faces(triangles_.size(), rgba);
+}
+
+void MeshBuilder::add_triangle(glm::uvec3 triangle) {
+  add(triangle);
+  corners_ = 3;
+  end_face();
+}
+
+Scene MeshBuilder::finish(std::string name, std::string source) {
+  Scene scene;
+  scene.info.name = std::move(name);
+  scene.info.up = assumed_up;
+  scene.info.up_is_assumed = true;
+  std::vector<Remark>& remarks = scene.info.remarks;
+  remarks.push_back({.kind = Remark::Kind::up_unknown_to_format, .names = {source}});
+  if (polygons_ > 0) remarks.push_back({Remark::Kind::polygons_split, {polygons_}});
+  if (too_small_ > 0) remarks.push_back({Remark::Kind::small_faces_dropped, {too_small_}});
+
+  const std::uint64_t clamped = clamp_colors(vertex_rgba) + clamp_colors(face_rgba_);
+  if (clamped > 0) remarks.push_back({Remark::Kind::color_components_clamped, {clamped}});
+
+  TriangleSoup soup;
+  soup.positions = std::move(positions);
+  soup.triangles = std::move(triangles_);
+  if (!vertex_rgba.empty()) {
+    if (!face_rgba_.empty()) remarks.push_back({Remark::Kind::face_colors_dropped});
+    soup.appearance = VertexColors{std::move(vertex_rgba)};
+  } else {
+    if (face_rgba_.empty())
+      remarks.push_back({Remark::Kind::colors_missing});
+    else if (uncolored_ > 0)
+      remarks.push_back({Remark::Kind::face_colors_missing, {uncolored_}});
+    color_faces(soup.triangles.size(), no_color);
+    soup.appearance = FaceColors{std::move(face_rgba_)};
+  }
+  scene.primitives = std::move(soup);
+  scene.info.source = std::move(source);
+  return scene;
+}
+
+PlainMesh::PlainMesh(const Scene& scene, const std::string& format) {
+  if (const auto* soft = std::get_if<SoftTriangles>(&scene.primitives)) {
+    OpaqueResult opaque = to_opaque(*soft);
+    lost = described(opaque.remarks);
+    own_ = std::move(opaque.soup);
+    soup_ = &*own_;
+  } else {
+    soup_ = &std::get<TriangleSoup>(scene.primitives);
+  }
+  if (!face_rgba() && !vertex_rgba()) use_mean_colors(format);
+  if (scene.info.up != assumed_up)
+    lost.push_back(format + " knows no up axis; readers will assume (0, 0, 1).");
+  if (scene.info.background != glm::vec3(0.0f))
+    lost.push_back(format + " holds no background colour.");
+  if (!scene.cameras.empty()) lost.push_back(format + " holds no cameras.");
+  if (scene.origin != glm::dvec3(0.0))
+    lost.push_back(format + " holds no origin: positions are written relative to it.");
+}
+
+void PlainMesh::use_mean_colors(const std::string& format) {
+  FaceColors colors;
+  colors.rgba.reserve(soup_->triangles.size());
+  for (const glm::vec3& color : mean_colors(*soup_)) colors.rgba.emplace_back(color, 1.0f);
+  lost.push_back(format + " cannot hold " + appearance_name(soup_->appearance) +
+                 ": each face gets its mean colour, opaque.");
+  if (own_) {
+    own_->appearance = std::move(colors);
+  } else {
+    own_ = TriangleSoup{soup_->positions, soup_->triangles, std::move(colors)};
+    soup_ = &*own_;
+  }
+}
+
+const std::vector<glm::vec4>* PlainMesh::face_rgba() const {
+  const auto* colors = std::get_if<FaceColors>(&soup_->appearance);
+  return colors ? &colors->rgba : nullptr;
+}
+
+const std::vector<glm::vec4>* PlainMesh::vertex_rgba() const {
+  const auto* colors = std::get_if<VertexColors>(&soup_->appearance);
+  return colors ? &colors->rgba : nullptr;
+}
+
+bool are_bytes(const std::vector<glm::vec4>& rgba) {
+  return std::all_of(rgba.begin(), rgba.end(), [](const glm::vec4& color) {
+    for (int c = 0; c < 4; ++c)
+      if (color[c] != float(quantised_unit(color[c])) / 255.0f) return false;
+    return true;
+  });
+}
+
+}  // namespace tureen

@@ -1,0 +1,92 @@
+// The values of a PLY body in file order, whatever their encoding.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/input.hpp"
+#include "base/text_scanner.hpp"
+#include "formats/mesh/ply_header.hpp"
+
+namespace tureen {
+
+/// A double holds every value of every PLY type exactly; floats in a text are rounded to float.
+class PlyValues {
+ public:
+  /// Reads the body that `header` announces. `input` must outlive this.
+  PlyValues(Input& input, const PlyHeader& header);
+
+  /// Goes to the next row of an element of the name `what`: in a text, to its line.
+  void begin_row(const char* what);
+  /// Ends a row: in a text, nothing may be left on its line.
+  void end_row();
+
+  /// The next value. Whole numbers in a text are checked against the range of their type.
+  double read(PlyType type) { return scanner_ ? read_text(type) : read_binary(type); }
+  /// The length of a list, checked against the bytes that remain.
+  std::uint64_t read_count(const PlyProperty& list);
+  /// Passes over one property, a list with all its values.
+  void skip(const PlyProperty& property);
+
+  std::uint64_t position() const {
+    return scanner_ ? scanner_->position() : input_.position() - (end_ - next_);
+  }
+  std::uint64_t remaining() const { return input_.size() - position(); }
+  /// Whether something follows the last value (in a text, something that is no blank).
+  bool anything_left();
+
+  /// Throws an InputError at the current line or byte.
+  [[noreturn]] void fail(const std::string& reason) const;
+
+ private:
+  double read_text(PlyType type);
+  double read_binary(PlyType type) {
+    const std::size_t size = size_of(type);
+    if (end_ - next_ < size) refill(size);
+    unsigned char bytes[8];
+    if (swap_)
+      for (std::size_t i = 0; i < size; ++i) bytes[i] = buffer_[next_ + size - 1 - i];
+    else
+      std::memcpy(bytes, &buffer_[next_], size);
+    next_ += size;
+    switch (type) {
+      case PlyType::int8:
+        return as<std::int8_t>(bytes);
+      case PlyType::uint8:
+        return as<std::uint8_t>(bytes);
+      case PlyType::int16:
+        return as<std::int16_t>(bytes);
+      case PlyType::uint16:
+        return as<std::uint16_t>(bytes);
+      case PlyType::int32:
+        return as<std::int32_t>(bytes);
+      case PlyType::uint32:
+        return as<std::uint32_t>(bytes);
+      case PlyType::float32:
+        return as<float>(bytes);
+      case PlyType::float64:
+        return as<double>(bytes);
+    }
+    return 0.0;  // not reached
+  }
+  template <class T>
+  static double as(const unsigned char* bytes) {
+    T value;
+    std::memcpy(&value, bytes, sizeof value);
+    return static_cast<double>(value);
+  }
+  /// Moves what is left to the front and fills up; fails where fewer than `wanted` bytes remain.
+  void refill(std::size_t wanted);
+
+  Input& input_;
+  std::optional<TextScanner> scanner_;  // of a text
+  bool swap_ = false;                   // the file's byte order is not the machine's
+  std::vector<unsigned char> buffer_;
+  std::size_t next_ = 0, end_ = 0;
+  const char* element_ = "";  // of the current row, for messages
+};
+
+}  // namespace tureen

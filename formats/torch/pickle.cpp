@@ -1,0 +1,443 @@
+#include "formats/torch/pickle.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <iterator>
+#include <utility>
+
+#include "base/shown_text.hpp"
+
+namespace tureen {
+
+namespace {
+
+// The opcodes that are read.
+enum Opcode : unsigned char {
+  op_mark = '(',
+  op_stop = '.',
+  op_binint = 'J',
+  op_binint1 = 'K',
+  op_binint2 = 'M',
+  op_none = 'N',
+  op_binpersid = 'Q',
+  op_reduce = 'R',
+  op_binunicode = 'X',
+  op_append = 'a',
+  op_build = 'b',
+  op_global = 'c',
+  op_appends = 'e',
+  op_binget = 'h',
+  op_long_binget = 'j',
+  op_binput = 'q',
+  op_long_binput = 'r',
+  op_setitem = 's',
+  op_tuple = 't',
+  op_setitems = 'u',
+  op_binfloat = 'G',
+  op_empty_tuple = ')',
+  op_empty_list = ']',
+  op_empty_dict = '}',
+  op_proto = 0x80,
+  op_tuple1 = 0x85,
+  op_tuple2 = 0x86,
+  op_tuple3 = 0x87,
+  op_newtrue = 0x88,
+  op_newfalse = 0x89,
+  op_long1 = 0x8a,
+};
+
+/// The opcodes that are refused, for the message. Some build objects or call what they name.
+const char* refused_opcode_name(unsigned char opcode) {
+  switch (opcode) {
+    case '0':
+      return "POP";
+    case '1':
+      return "POP_MARK";
+    case '2':
+      return "DUP";
+    case 'F':
+      return "FLOAT";
+    case 'I':
+      return "INT";
+    case 'L':
+      return "LONG";
+    case 'P':
+      return "PERSID";
+    case 'S':
+      return "STRING";
+    case 'T':
+      return "BINSTRING";
+    case 'U':
+      return "SHORT_BINSTRING";
+    case 'V':
+      return "UNICODE";
+    case 'B':
+      return "BINBYTES";
+    case 'C':
+      return "SHORT_BINBYTES";
+    case 'd':
+      return "DICT";
+    case 'g':
+      return "GET";
+    case 'i':
+      return "INST";
+    case 'l':
+      return "LIST";
+    case 'o':
+      return "OBJ";
+    case 'p':
+      return "PUT";
+    case 0x80:
+      return "PROTO";
+    case 0x81:
+      return "NEWOBJ";
+    case 0x82:
+      return "EXT1";
+    case 0x83:
+      return "EXT2";
+    case 0x84:
+      return "EXT4";
+    case 0x8b:
+      return "LONG4";
+    case 0x8c:
+      return "SHORT_BINUNICODE";
+    case 0x8d:
+      return "BINUNICODE8";
+    case 0x8e:
+      return "BINBYTES8";
+    case 0x8f:
+      return "EMPTY_SET";
+    case 0x90:
+      return "ADDITEMS";
+    case 0x91:
+      return "FROZENSET";
+    case 0x92:
+      return "NEWOBJ_EX";
+    case 0x93:
+      return "STACK_GLOBAL";
+    case 0x94:
+      return "MEMOIZE";
+    case 0x95:
+      return "FRAME";
+    case 0x96:
+      return "BYTEARRAY8";
+    case 0x97:
+      return "NEXT_BUFFER";
+    case 0x98:
+      return "READONLY_BUFFER";
+    default:
+      return nullptr;
+  }
+}
+
+/// One run over the opcodes. Values live in one vector and know each other by number, so that no
+/// depth of nesting and no cycle can exhaust the stack or leak.
+class Machine {
+ public:
+  using Kind = Pickle::Kind;
+  using Value = Pickle::Value;
+  using Ref = Pickle::Ref;
+
+  Machine(const std::string& name, std::span<const std::byte> bytes,
+          std::span<const std::string_view> globals, std::vector<Value>& values)
+      : name_(name), bytes_(bytes), globals_(globals), values_(values) {}
+
+  Ref run() {
+    if (byte("the protocol") != op_proto) fail("not a pickle of protocol 2");
+    if (const unsigned version = byte("the protocol"); version < 2 || version > 5)
+      fail("a pickle of protocol " + std::to_string(version));
+    for (;;) {
+      opcode_at_ = at_;
+      const unsigned char opcode = byte("an opcode");
+      if (opcode == op_stop) break;
+      step(opcode);
+    }
+    if (stack_.size() != 1 || !marks_.empty())
+      fail("the pickle ends with " + std::to_string(stack_.size()) + " values, not one");
+    return stack_.back();
+  }
+
+ private:
+  void step(unsigned char opcode) {
+    switch (opcode) {
+      case op_mark:
+        marks_.push_back(stack_.size());
+        return;
+      case op_none:
+        push({});
+        return;
+      case op_newtrue:
+        push({.kind = Kind::boolean, .integer = 1});
+        return;
+      case op_newfalse:
+        push({.kind = Kind::boolean});
+        return;
+      case op_binint:
+        push_integer(static_cast<std::int32_t>(little(4, "BININT")));
+        return;
+      case op_binint1:
+        push_integer(static_cast<std::int64_t>(little(1, "BININT1")));
+        return;
+      case op_binint2:
+        push_integer(static_cast<std::int64_t>(little(2, "BININT2")));
+        return;
+      case op_long1:
+        push_integer(long1());
+        return;
+      case op_binfloat:
+        push({.kind = Kind::real, .real = big_endian_double()});
+        return;
+      case op_binunicode: {
+        const auto size = little(4, "BINUNICODE");
+        push({.kind = Kind::text, .text = std::string(take(size, "a text"))});
+        return;
+      }
+      case op_empty_list:
+        push({.kind = Kind::list});
+        return;
+      case op_empty_dict:
+        push({.kind = Kind::dict});
+        return;
+      case op_empty_tuple:
+        push({.kind = Kind::tuple});
+        return;
+      case op_tuple:
+        push({.kind = Kind::tuple, .items = pop_to_mark()});
+        return;
+      case op_tuple1:
+        push({.kind = Kind::tuple, .items = pop(1)});
+        return;
+      case op_tuple2:
+        push({.kind = Kind::tuple, .items = pop(2)});
+        return;
+      case op_tuple3:
+        push({.kind = Kind::tuple, .items = pop(3)});
+        return;
+      case op_append:
+        extend(Kind::list, pop(1));
+        return;
+      case op_appends:
+        extend(Kind::list, pop_to_mark());
+        return;
+      case op_setitem:
+        extend(Kind::dict, pop(2));
+        return;
+      case op_setitems:
+        extend(Kind::dict, pop_to_mark());
+        return;
+      case op_binput:
+        put(little(1, "BINPUT"));
+        return;
+      case op_long_binput:
+        put(little(4, "LONG_BINPUT"));
+        return;
+      case op_binget:
+        get(little(1, "BINGET"));
+        return;
+      case op_long_binget:
+        get(little(4, "LONG_BINGET"));
+        return;
+      case op_global:
+        global();
+        return;
+      case op_reduce:
+        reduce();
+        return;
+      case op_build:
+        pop(1);
+        return;  // attributes of what lies below: not wanted
+      case op_binpersid:
+        push({.kind = Kind::persistent, .items = pop(1)});
+        return;
+      default:
+        refuse(opcode);
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw InputError({name_, opcode_at_, {}}, reason);
+  }
+
+  [[noreturn]] void refuse(unsigned char opcode) const {
+    char code[8];
+    std::snprintf(code, sizeof code, "0x%02x", opcode);
+    const char* known = refused_opcode_name(opcode);
+    fail(std::string("the pickle opcode ") + (known ? known : "unknown") + " (" + code +
+         ") is not on the list of those that are read: refused, nothing was executed");
+  }
+
+  std::string_view take(std::uint64_t count, const char* what) {
+    if (count > bytes_.size() - at_) fail(std::string("the pickle ends within ") + what);
+    const std::string_view taken(reinterpret_cast<const char*>(bytes_.data()) + at_,
+                                 static_cast<std::size_t>(count));
+    at_ += taken.size();
+    return taken;
+  }
+
+  unsigned char byte(const char* what) { return static_cast<unsigned char>(take(1, what)[0]); }
+
+  std::uint64_t little(std::size_t count, const char* what) {
+    const std::string_view taken = take(count, what);
+    std::uint64_t value = 0;
+    for (std::size_t i = count; i-- > 0;) value = value << 8 | static_cast<unsigned char>(taken[i]);
+    return value;
+  }
+
+  std::int64_t long1() {
+    const std::size_t count = byte("LONG1");
+    if (count > 8) fail("a LONG1 of " + std::to_string(count) + " bytes, at most 8 are read");
+    if (count == 0) return 0;
+    const std::uint64_t value = little(count, "LONG1");
+    const unsigned unused = static_cast<unsigned>(64 - 8 * count);
+    return static_cast<std::int64_t>(value << unused) >> unused;  // extends the sign
+  }
+
+  double big_endian_double() {
+    const std::string_view taken = take(8, "BINFLOAT");
+    std::uint64_t bits = 0;
+    for (const char c : taken) bits = bits << 8 | static_cast<unsigned char>(c);
+    double value;
+    std::memcpy(&value, &bits, sizeof value);
+    return value;
+  }
+
+  void push(Value value) {
+    if (values_.size() >= Pickle::max_values)
+      fail("over " + std::to_string(Pickle::max_values) + " values");
+    value.byte = opcode_at_;
+    stack_.push_back(static_cast<Ref>(values_.size()));
+    values_.push_back(std::move(value));
+  }
+
+  void push_integer(std::int64_t value) { push({.kind = Kind::integer, .integer = value}); }
+
+  /// Values above the last mark (or all): what an opcode may take.
+  std::size_t available() const { return stack_.size() - (marks_.empty() ? 0 : marks_.back()); }
+
+  std::vector<Ref> pop(std::size_t count) {
+    if (count > available()) fail("the pickle takes a value that is not there");
+    std::vector<Ref> taken(stack_.end() - static_cast<std::ptrdiff_t>(count), stack_.end());
+    stack_.resize(stack_.size() - count);
+    return taken;
+  }
+
+  std::vector<Ref> pop_to_mark() {
+    if (marks_.empty()) fail("the pickle takes values down to a mark that is not there");
+    std::vector<Ref> taken = pop(available());
+    marks_.pop_back();
+    return taken;
+  }
+
+  Value& top() {
+    if (available() == 0) fail("the pickle uses a value that is not there");
+    return values_[stack_.back()];
+  }
+
+  void extend(Kind kind, const std::vector<Ref>& items) {
+    Value& target = top();
+    if (target.kind != kind)
+      fail(std::string("the pickle adds items to ") + kind_name(target.kind));
+    if (kind == Kind::dict && items.size() % 2 != 0) fail("a key without a value");
+    target.items.insert(target.items.end(), items.begin(), items.end());
+  }
+
+  void put(std::uint64_t index) {
+    top();
+    // Picklers number the memo from 0 upwards, so a false index cannot ask for memory.
+    if (index >= Pickle::max_values) fail("memo " + std::to_string(index) + " is out of bounds");
+    if (index >= memo_.size()) memo_.resize(static_cast<std::size_t>(index) + 1, unset);
+    memo_[static_cast<std::size_t>(index)] = stack_.back();
+  }
+
+  void get(std::uint64_t index) {
+    if (index >= memo_.size() || memo_[static_cast<std::size_t>(index)] == unset)
+      fail("the pickle recalls memo " + std::to_string(index) + ", which was never set");
+    stack_.push_back(memo_[static_cast<std::size_t>(index)]);
+  }
+
+  std::string_view line(const char* what) {
+    const auto* begin = reinterpret_cast<const char*>(bytes_.data()) + at_;
+    const auto* end = static_cast<const char*>(std::memchr(begin, '\n', bytes_.size() - at_));
+    if (!end) fail(std::string("the pickle ends within ") + what);
+    const std::string_view text = take(static_cast<std::uint64_t>(end - begin), what);
+    ++at_;
+    return text;
+  }
+
+  void global() {
+    std::string full(line("a module's name"));
+    full += '.';
+    full += line("a global's name");
+    if (full != ordered_dict && std::find(globals_.begin(), globals_.end(), full) == globals_.end())
+      fail("the pickle wants the global " + shown_line(full) +
+           ", which is not on the list of harmless ones: refused, nothing was executed");
+    push({.kind = Kind::global, .text = std::move(full)});
+  }
+
+  void reduce() {
+    std::vector<Ref> items = pop(2);
+    const Value& callable = values_[items[0]];
+    if (callable.kind != Kind::global || values_[items[1]].kind != Kind::tuple)
+      fail(std::string("REDUCE of ") + kind_name(callable.kind) + " with " +
+           kind_name(values_[items[1]].kind));
+    if (callable.text != ordered_dict) {
+      push({.kind = Kind::constructed, .items = std::move(items)});
+      return;
+    }
+    // Its items follow by SETITEMS, as torch and Python 3 write them.
+    if (!values_[items[1]].items.empty()) fail("collections.OrderedDict with arguments");
+    push({.kind = Kind::dict});
+  }
+
+  static constexpr Ref unset = ~Ref(0);
+  static constexpr std::string_view ordered_dict = "collections.OrderedDict";
+
+  const std::string& name_;
+  std::span<const std::byte> bytes_;
+  std::span<const std::string_view> globals_;
+  std::vector<Value>& values_;
+  std::vector<Ref> stack_, memo_;
+  std::vector<std::size_t> marks_;  // heights of the stack
+  std::size_t at_ = 0;
+  std::uint64_t opcode_at_ = 0;
+};
+
+}  // namespace
+
+const char* kind_name(Pickle::Kind kind) {
+  static constexpr const char* names[] = {
+      "None",    "a boolean", "an integer", "a number",  "a text",    "a list",
+      "a tuple", "a dict",    "a global",   "a storage", "an object",
+  };
+  return names[static_cast<std::size_t>(kind)];
+}
+
+Pickle::Pickle(std::string name, std::span<const std::byte> bytes,
+               std::span<const std::string_view> globals, MemoryBudget budget)
+    : name_(std::move(name)) {
+  if (bytes.size() > max_bytes)
+    throw InputError({name_, {}, {}}, "a pickle of " + std::to_string(bytes.size()) +
+                                          " bytes, the limit is " + std::to_string(max_bytes));
+  // An opcode makes one value at most and moves a number on the stack, into the memo or among the
+  // items of another value; all of them lie in vectors that double. Texts are parts of the bytes.
+  const std::uint64_t values = std::min<std::uint64_t>(bytes.size(), max_values);
+  if (!budget.take(values, 3 * sizeof(Value)) || !budget.take(bytes.size(), 9 * sizeof(Ref) + 1))
+    throw InputError({name_, {}, {}}, budget.refusal("the pickle"), max_memory_hint);
+  root_ = Machine(name_, bytes, globals, values_).run();
+}
+
+const Pickle::Value* Pickle::find(const Value& dict, std::string_view key) const {
+  if (dict.kind != Kind::dict) return nullptr;
+  for (std::size_t i = dict.items.size(); i >= 2; i -= 2) {
+    const Value& candidate = values_[dict.items[i - 2]];
+    if (candidate.kind == Kind::text && candidate.text == key) return &values_[dict.items[i - 1]];
+  }
+  return nullptr;
+}
+
+void Pickle::fail(const Value& value, const std::string& reason, const std::string& hint) const {
+  throw InputError({name_, value.byte, {}}, reason, hint);
+}
+
+}  // namespace tureen

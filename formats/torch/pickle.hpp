@@ -1,0 +1,80 @@
+// Reads the pickles that torch.save writes, as data: nothing is imported, called or executed, ever.
+// A list of allowed opcodes and of allowed globals decides; whatever is not on it is refused by
+// name and byte, whether it would have done harm or not.
+//
+// Opcodes (protocol 2, pickletools): PROTO STOP MARK; NONE NEWTRUE NEWFALSE; BININT BININT1
+// BININT2 LONG1 BINFLOAT; BINUNICODE; EMPTY_LIST APPEND APPENDS; EMPTY_TUPLE TUPLE TUPLE1..3;
+// EMPTY_DICT SETITEM SETITEMS; BINPUT LONG_BINPUT BINGET LONG_BINGET; GLOBAL REDUCE BUILD
+// BINPERSID.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/input.hpp"
+
+namespace tureen {
+
+class Pickle {
+ public:
+  /// A value by its number; values may be shared and may even contain themselves.
+  using Ref = std::uint32_t;
+
+  enum class Kind {
+    none,
+    boolean,      // integer is 0 or 1
+    integer,      // integer
+    real,         // real
+    text,         // text
+    list,         // items
+    tuple,        // items
+    dict,         // items: key, value, key, value, ..; collections.OrderedDict too
+    global,       // text: "module.name", on the list of allowed globals
+    persistent,   // items[0]: the id that BINPERSID was given
+    constructed,  // items: the global and the tuple of arguments that REDUCE was given
+  };
+
+  struct Value {
+    Kind kind = Kind::none;
+    std::int64_t integer = 0;
+    double real = 0;
+    std::string text{};
+    std::vector<Ref> items{};
+    std::uint64_t byte = 0;  // of the opcode that made it
+  };
+
+  /// Pickles of more bytes are refused: names and shapes take a few kilobytes, a training log of
+  /// a million losses nine megabytes.
+  static constexpr std::uint64_t max_bytes = 16u << 20;
+  static constexpr std::size_t max_values = 1u << 21;
+
+  /// Reads one pickle from the start of `bytes`. `name` stands for the file in error messages.
+  /// `globals` are the allowed ones, "module.name"; collections.OrderedDict is always allowed.
+  /// BUILD, which sets attributes, is read and its state ignored. Throws InputError.
+  Pickle(std::string name, std::span<const std::byte> bytes,
+         std::span<const std::string_view> globals, MemoryBudget budget = MemoryBudget());
+
+  const std::string& name() const { return name_; }
+  Ref root() const { return root_; }
+  const Value& operator[](Ref ref) const { return values_[ref]; }
+
+  /// The value under a text key of a dict, or null; the last one where a key was set twice.
+  const Value* find(const Value& dict, std::string_view key) const;
+
+  /// Throws an InputError at the byte where `value` was made.
+  [[noreturn]] void fail(const Value& value, const std::string& reason,
+                         const std::string& hint = {}) const;
+
+ private:
+  std::string name_;
+  std::vector<Value> values_;
+  Ref root_ = 0;
+};
+
+/// What a kind is called in messages: "a list", "a number", ..
+const char* kind_name(Pickle::Kind kind);
+
+}  // namespace tureen

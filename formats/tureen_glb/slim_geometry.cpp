@@ -1,0 +1,211 @@
+#include "formats/tureen_glb/slim_geometry.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+
+#include "base/error.hpp"
+#include "formats/tureen_glb/range_coder.hpp"
+
+namespace tureen {
+
+namespace {
+
+/// The grid at the head of the stream: the corner of the box and the side of a cell.
+struct Grid {
+  glm::vec3 low{0.0f};
+  float step = 1.0f;
+};
+static_assert(sizeof(Grid) == 16);
+
+/// What a face needs meanwhile: itself, and the cells and positions of three vertices that are its
+/// own, all in vectors that double as they grow.
+constexpr std::size_t bytes_a_face = 3 * (12 + 3 * 12 + 3 * 12);
+/// Faces a byte, so that those bytes stay within 4,096 for each stored one. The encoder pads what
+/// is smaller.
+constexpr std::uint64_t max_faces_per_byte = 16;
+static_assert(bytes_a_face <= 4096 / max_faces_per_byte);
+
+struct GeometryModels {
+  BitModel known[3];
+  NumberModel<26> distance[3];
+  // By corner and axis, and by how long the number was in the face before.
+  SignedModel<25> difference[3][3][26];
+};
+
+int bit_length(int value) {
+  int length = 0;
+  for (unsigned rest = unsigned(value < 0 ? -value : value); rest != 0; rest >>= 1) ++length;
+  return std::min(length, 25);
+}
+
+/// What encoder and decoder share. The encoder's cells and triangles are given; the decoder's are
+/// empty and come out.
+template <class Coder>
+class GeometryWalk {
+ public:
+  GeometryWalk(Coder& coder, std::span<const glm::ivec3> given) : coder_(coder), given_(given) {}
+
+  /// False where a corner names a vertex that is not there, or one more than `limit` is made.
+  bool face(const glm::uvec3& wanted, std::size_t limit, glm::uvec3& face) {
+    for (int k = 0; k < 3; ++k) {
+      const std::size_t made = cells.size();
+      if (coder_.bit(models_->known[k], wanted[k] < made)) {
+        const std::uint32_t back = wanted[k] < made ? std::uint32_t(made - 1 - wanted[k]) : 0;
+        const std::uint32_t distance = models_->distance[k].code(coder_, back);
+        if (distance >= made) return false;
+        face[k] = std::uint32_t(made - 1 - distance);
+      } else {
+        if (made == limit) return false;
+        face[k] = std::uint32_t(made);
+        cells.push_back(cell(k, given_.empty() ? glm::ivec3(0) : given_[made]));
+      }
+      if (k == 0) first_ = cells[face[0]];
+    }
+    return true;
+  }
+
+  std::vector<glm::ivec3> cells;
+
+ private:
+  glm::ivec3 cell(int corner, const glm::ivec3& wanted) {
+    glm::ivec3 result;
+    for (int axis = 0; axis < 3; ++axis) {
+      int& length = lengths_[std::size_t(corner)][std::size_t(axis)];
+      const int difference =
+          models_->difference[corner][axis][length].code(coder_, wanted[axis] - first_[axis]);
+      length = bit_length(difference);
+      // Damaged bytes must not add up beyond what an int holds.
+      result[axis] = std::clamp(first_[axis] + difference, 0, 1 << max_slim_bits);
+    }
+    return result;
+  }
+
+  Coder& coder_;
+  std::span<const glm::ivec3> given_;
+  std::unique_ptr<GeometryModels> models_ = std::make_unique<GeometryModels>();
+  glm::ivec3 first_{0};  // of this face, or of the one before it
+  std::array<std::array<int, 3>, 3> lengths_{};
+};
+
+/// The geometry with vertices in the order of their first use.
+SlimGeometry in_order_of_use(const SlimGeometry& geometry) {
+  constexpr std::uint32_t unused = 0xffffffffu;
+  std::vector<std::uint32_t> place(geometry.positions.size(), unused);
+  SlimGeometry result;
+  for (glm::uvec3 triangle : geometry.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      std::uint32_t& at = place[triangle[k]];
+      if (at == unused) {
+        at = std::uint32_t(result.positions.size());
+        result.positions.push_back(geometry.positions[triangle[k]]);
+      }
+      triangle[k] = at;
+    }
+    result.triangles.push_back(triangle);
+  }
+  return result;
+}
+
+Grid grid_of(const std::vector<glm::vec3>& positions, int bits) {
+  if (positions.empty()) return {};
+  glm::vec3 low = positions.front(), high = low;
+  for (const glm::vec3& p : positions)
+    for (int k = 0; k < 3; ++k) {
+      if (!std::isfinite(p[k]))
+        throw UsageError("a slim file cannot hold a vertex that is not finite");
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
+    }
+  double side = 0;
+  for (int k = 0; k < 3; ++k) side = std::max(side, double(high[k]) - double(low[k]));
+  const auto step = float(side / double((1 << bits) - 1));
+  // A soup that is one point has no side.
+  return {low, step > 0.0f ? step : 1.0f};
+}
+
+}  // namespace
+
+std::size_t used_vertices(std::span<const glm::uvec3> triangles) {
+  std::vector<bool> used;
+  std::size_t count = 0;
+  for (const glm::uvec3& triangle : triangles)
+    for (int k = 0; k < 3; ++k) {
+      const std::size_t vertex = triangle[k];
+      if (vertex >= used.size()) used.resize(vertex + 1);
+      if (!used[vertex]) ++count;
+      used[vertex] = true;
+    }
+  return count;
+}
+
+std::vector<std::byte> encode_slim_geometry(const SlimGeometry& geometry, int bits) {
+  assert(bits >= 1 && bits <= max_slim_bits);
+  const SlimGeometry ordered = in_order_of_use(geometry);
+  const Grid grid = grid_of(ordered.positions, bits);
+  std::vector<glm::ivec3> cells;
+  for (const glm::vec3& p : ordered.positions) {
+    glm::ivec3 cell;
+    for (int k = 0; k < 3; ++k)
+      cell[k] = int(std::lround((double(p[k]) - double(grid.low[k])) / double(grid.step)));
+    cells.push_back(cell);
+  }
+  RangeEncoder coder;
+  GeometryWalk walk(coder, cells);
+  for (const glm::uvec3& triangle : ordered.triangles) {
+    glm::uvec3 same;
+    walk.face(triangle, cells.size(), same);
+    assert(same == triangle);
+  }
+  std::vector<std::byte> result(sizeof(Grid));
+  std::memcpy(result.data(), &grid, sizeof(Grid));
+  const std::vector<std::byte> stream = coder.finish();
+  result.insert(result.end(), stream.begin(), stream.end());
+  const std::size_t least = ordered.triangles.size() / max_faces_per_byte + 1;
+  if (result.size() < least) result.resize(least);
+  return result;
+}
+
+SlimGeometry decode_slim_geometry(std::span<const std::byte> bytes, std::size_t vertices,
+                                  std::size_t faces, const std::string& file, MemoryBudget budget) {
+  const auto damaged = [&]() -> InputError {
+    return InputError({file, {}, {}}, "the slim geometry is cut short or damaged");
+  };
+  if (bytes.size() < sizeof(Grid) || faces / max_faces_per_byte > bytes.size() ||
+      vertices > 3 * faces)
+    throw damaged();
+  if (!budget.take(faces, bytes_a_face))
+    throw InputError({file, {}, {}}, budget.refusal("the slim geometry"), max_memory_hint);
+  Grid grid;
+  std::memcpy(&grid, bytes.data(), sizeof(Grid));
+  for (int k = 0; k < 3; ++k)
+    if (!std::isfinite(grid.low[k])) throw damaged();
+  if (!std::isfinite(grid.step)) throw damaged();
+
+  RangeDecoder coder(bytes.subspan(sizeof(Grid)));
+  GeometryWalk walk(coder, std::span<const glm::ivec3>());
+  SlimGeometry result;
+  for (std::size_t t = 0; t < faces; ++t) {
+    glm::uvec3 triangle;
+    // No vertex of a decoder's is known before it is made.
+    if (!walk.face(glm::uvec3(0xffffffffu), vertices, triangle)) throw damaged();
+    result.triangles.push_back(triangle);
+  }
+  if (walk.cells.size() != vertices || coder.exhausted()) throw damaged();
+  for (const glm::ivec3& cell : walk.cells) {
+    glm::vec3 position;
+    for (int k = 0; k < 3; ++k) {
+      constexpr double most = double(std::numeric_limits<float>::max());
+      const double exact = double(grid.low[k]) + double(cell[k]) * double(grid.step);
+      position[k] = float(std::clamp(exact, -most, most));
+    }
+    result.positions.push_back(position);
+  }
+  return result;
+}
+
+}  // namespace tureen

@@ -1,0 +1,19 @@
+// What lies before the coded texels of a slim file, byte for byte. Internal to slim_texels_*.cpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "formats/tureen_glb/slim_basis.hpp"
+
+namespace tureen::slim {
+
+struct TexelHeader {
+  std::uint8_t feature_step = 1;
+  std::uint8_t alpha_step = 1;
+  std::array<std::uint8_t, 2> zeros{};
+  SlimBasis basis;
+};
+static_assert(sizeof(TexelHeader) == 4 + 4 * 49);
+
+}  // namespace tureen::slim

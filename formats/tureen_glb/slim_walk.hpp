@@ -1,0 +1,281 @@
+// The walk over a slim file's texels that encoder and decoder share; what the range coder is told
+// in which order, with which probability. Internal to slim_texels_*.cpp.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include "formats/tureen_glb/range_coder.hpp"
+#include "formats/tureen_glb/slim_texels.hpp"
+#include "scene/lattice.hpp"
+
+namespace tureen::slim {
+
+inline constexpr int channels = LatticeTexture::channels;
+inline constexpr int alpha = LatticeTexture::features;
+/// Texels and faces a stored byte: the 60 bytes that one needs meanwhile at most stay within 4,096.
+/// The encoder pads what is smaller, so that a small file cannot ask for much memory.
+inline constexpr std::uint64_t max_per_byte = 64;
+
+/// A texel that a level adds to the one below it, in that level's coordinates, and the two texels
+/// that it lies between.
+struct Middle {
+  lattice::Coordinates at, a, b;
+};
+
+/// Those of a level, 1..lattice::max_level, diagonal by diagonal.
+const std::vector<Middle>& middles(int level);
+
+/// Where a texel of a coarser level, `shift` levels below the patch's own, lies in it.
+inline std::uint32_t index_of(lattice::Coordinates c, int shift) {
+  return lattice::texel_index(c.x << shift, c.y << shift);
+}
+
+/// What is known of a patch before its texels.
+struct Patch {
+  std::uint32_t first_texel = 0;
+  std::uint8_t level = 0;
+  std::uint8_t coarseness = one_step;
+};
+
+/// The patches of a stream, and which one each face has.
+struct Faces {
+  std::vector<Patch> patches;
+  std::vector<std::uint32_t> patch_of_face;
+  std::uint64_t texels = 0;
+};
+
+struct Steps {
+  int features = 1;
+  int alpha = 1;
+};
+
+/// The probabilities of everything in the stream.
+struct Models {
+  static constexpr int nearby = 12, others = 4;
+  /// How much is missed, by what was missed nearby and in other channels of the texel, and, of what
+  /// is, the sign by that of another channel.
+  struct Miss {
+    BitModel zero[nearby][others];
+    BitModel negative[nearby][3];
+    NumberModel<17> size[nearby];  // values have 16 bits
+  };
+  Miss miss[channels][lattice::max_level + 1];
+  BitModel shared;
+  BitModel level[8][8];
+  BitModel coarseness[8][8];
+  NumberModel<25> distance;
+};
+
+/// Three bits, each with a probability that depends on those before it and on the last value.
+template <class Coder>
+std::uint8_t three_bits(Coder& coder, BitModel (&models)[8][8], unsigned last, unsigned value) {
+  unsigned node = 1;
+  for (int i = 2; i >= 0; --i)
+    node = node << 1 | unsigned(coder.bit(models[last][node], int(value >> i & 1u)));
+  return static_cast<std::uint8_t>(node & 7u);
+}
+
+/// The level and coarseness of each patch, and the patch of each of `count` faces. A decoder's
+/// `given` is empty. False where the bytes name a patch that is not there, or hold more texels than
+/// `texel_limit`.
+template <class Coder>
+bool code_faces(Coder& coder, Models& models, std::size_t count, const Faces& given,
+                std::uint64_t texel_limit, Faces& result) {
+  unsigned last_level = 0, last_coarseness = one_step;
+  for (std::size_t t = 0; t < count; ++t) {
+    const std::size_t known = result.patches.size();
+    const std::size_t wanted = given.patch_of_face.empty() ? 0 : given.patch_of_face[t];
+    if (coder.bit(models.shared, wanted < known)) {
+      const std::size_t back = wanted < known ? known - 1 - wanted : 0;
+      const std::uint32_t distance = models.distance.code(coder, std::uint32_t(back));
+      if (distance >= known) return false;
+      result.patch_of_face.push_back(std::uint32_t(known - 1 - distance));
+      continue;
+    }
+    Patch patch = given.patches.empty() ? Patch{} : given.patches[wanted];
+    patch.level = three_bits(coder, models.level, last_level, patch.level);
+    patch.coarseness = three_bits(coder, models.coarseness, last_coarseness, patch.coarseness);
+    last_level = patch.level;
+    last_coarseness = patch.coarseness;
+    patch.first_texel = std::uint32_t(result.texels);
+    result.texels += lattice::texel_count(patch.level);
+    if (result.texels > texel_limit) return false;
+    result.patch_of_face.push_back(std::uint32_t(known));
+    result.patches.push_back(patch);
+  }
+  return true;
+}
+
+/// A value that an encoder has to code.
+struct Question {
+  std::size_t texel;
+  int channel;
+  int finer_levels;  // of the patch, that are predicted from this one
+  int prediction;
+  int step;
+};
+
+/// All values of all patches. `choose(question, price)` gives the steps to take from the
+/// prediction, of which price(steps) tells the bits; a decoder's is not asked.
+template <class Coder, class Choose>
+class Walk {
+ public:
+  Walk(Coder& coder, Models& models, Steps steps, const Choose& choose)
+      : coder_(coder), models_(models), steps_(steps), choose_(choose) {}
+
+  /// `channels` a texel.
+  std::vector<std::int16_t> operator()(const Faces& faces) {
+    values_.resize(std::size_t(faces.texels) * channels);
+    missed_.resize(values_.size());
+    activity_.resize(faces.patches.size());
+    Values last{};
+    last[alpha] = 128;
+    for (std::size_t p = 0; p < faces.patches.size(); ++p)
+      last = corners(faces.patches[p], activity_[p], last);
+    for (int level = 1; level <= lattice::max_level; ++level)
+      for (std::size_t p = 0; p < faces.patches.size(); ++p)
+        if (faces.patches[p].level >= level) finer(faces.patches[p], activity_[p], level);
+    return std::move(values_);
+  }
+
+ private:
+  using Values = std::array<int, channels>;
+
+  /// How much a patch has missed so far, channel by channel.
+  struct Activity {
+    std::array<std::int32_t, channels> missed{};
+    std::int32_t texels = 0;
+  };
+
+  static int half(int sum) { return (sum + 1) >> 1; }
+
+  Values corners(const Patch& patch, Activity& activity, const Values& last) {
+    const int n = lattice::resolution(patch.level);
+    const std::array<std::size_t, 3> at{patch.first_texel,
+                                        patch.first_texel + lattice::texel_index(n, 0),
+                                        patch.first_texel + lattice::texel_index(0, n)};
+    Values before{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      Values predictions;
+      for (int c = 0; c < channels; ++c)
+        predictions[std::size_t(c)] = k == 0   ? last[std::size_t(c)]
+                                      : k == 1 ? value(at[0], c)
+                                               : half(value(at[0], c) + value(at[1], c));
+      texel({patch, activity, 0, at[k]}, predictions, {}, before);
+    }
+    Values mean;
+    for (int c = 0; c < channels; ++c)
+      mean[std::size_t(c)] = (value(at[0], c) + value(at[1], c) + value(at[2], c)) / 3;
+    return mean;
+  }
+
+  void finer(const Patch& patch, Activity& activity, int level) {
+    const int shift = patch.level - level;
+    Values before{};
+    for (const Middle& middle : middles(level)) {
+      const std::size_t a = patch.first_texel + index_of(middle.a, shift);
+      const std::size_t b = patch.first_texel + index_of(middle.b, shift);
+      Values predictions, parents;
+      for (int c = 0; c < channels; ++c) {
+        predictions[std::size_t(c)] = half(value(a, c) + value(b, c));
+        parents[std::size_t(c)] = missed(a, c) + missed(b, c);
+      }
+      texel({patch, activity, level, patch.first_texel + index_of(middle.at, shift)}, predictions,
+            parents, before);
+    }
+  }
+
+  struct Place {
+    const Patch& patch;
+    Activity& activity;
+    int level;
+    std::size_t texel;
+  };
+
+  /// `parents`: what the two texels that it lies between missed; `before`: the texels before it on
+  /// this level, newer ones counting more.
+  void texel(const Place& place, const Values& predictions, const Values& parents, Values& before) {
+    Activity& activity = place.activity;
+    int others = 0, sign = 0;
+    // Alpha first: where nothing shows, the features have nothing to say.
+    for (int k = 0; k < channels; ++k) {
+      const int c = k == 0 ? alpha : k - 1;
+      const auto i = std::size_t(c);
+      const int nearby =
+          2 * before[i] + 2 * parents[i] + 8 * activity.missed[i] / std::max(activity.texels, 1);
+      const Context context{models_.miss[c][place.level], twelve_kinds(nearby), four_kinds(others),
+                            c == alpha ? 0 : sign};
+      const int step = step_of(place.patch, c);
+      const auto price = [&](int steps) {
+        BitPrice bits;
+        code(bits, context, steps);
+        return bits.bits();
+      };
+      const int finer = place.patch.level - place.level;
+      const int miss =
+          code(coder_, context, choose_({place.texel, c, finer, predictions[i], step}, price));
+      values_[place.texel * channels + i] = moved(c, predictions[i], miss * step);
+      const int size = std::min(std::abs(miss), 255);
+      missed_[place.texel * channels + i] = std::uint8_t(size);
+      activity.missed[i] += std::min(size, 16);
+      before[i] = (before[i] + 1) / 2 + std::min(size, 8);
+      if (c == alpha) continue;
+      others = others / 2 + std::min(size, 8);
+      sign = miss == 0 ? sign : miss < 0 ? 1 : 2;
+    }
+    ++activity.texels;
+  }
+
+  static int twelve_kinds(int missed) {
+    static constexpr int tops[] = {0, 2, 4, 6, 9, 12, 16, 22, 30, 42, 60};
+    int kind = 0;
+    while (kind < Models::nearby - 1 && missed > tops[kind]) ++kind;
+    return kind;
+  }
+  static int four_kinds(int missed) {
+    return missed == 0 ? 0 : missed <= 2 ? 1 : missed <= 6 ? 2 : 3;
+  }
+
+  int step_of(const Patch& patch, int c) const {
+    if (c == alpha) return steps_.alpha;
+    return std::max(steps_.features * slim_multipliers[patch.coarseness] / 4, 1);
+  }
+
+  static std::int16_t moved(int c, int prediction, int by) {
+    const int low = c == alpha ? 0 : -32768, high = c == alpha ? 255 : 32767;
+    return static_cast<std::int16_t>(std::clamp(prediction + by, low, high));
+  }
+
+  struct Context {
+    Models::Miss& models;
+    int nearby, others, sign;
+  };
+
+  template <class AnyCoder>
+  static int code(AnyCoder& coder, const Context& context, int miss) {
+    Models::Miss& models = context.models;
+    if (!coder.bit(models.zero[context.nearby][context.others], miss != 0)) return 0;
+    const bool negative = coder.bit(models.negative[context.nearby][context.sign], miss < 0);
+    const auto more = std::uint32_t(std::max(std::abs(miss) - 1, 0));
+    const int size = 1 + int(models.size[context.nearby].code(coder, more));
+    return negative ? -size : size;
+  }
+
+  int value(std::size_t texel, int c) const { return values_[texel * channels + std::size_t(c)]; }
+  int missed(std::size_t texel, int c) const { return missed_[texel * channels + std::size_t(c)]; }
+
+  Coder& coder_;
+  Models& models_;
+  const Steps steps_;
+  const Choose& choose_;
+  std::vector<std::int16_t> values_;
+  std::vector<std::uint8_t> missed_;
+  std::vector<Activity> activity_;
+};
+
+}  // namespace tureen::slim

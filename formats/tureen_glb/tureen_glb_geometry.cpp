@@ -1,0 +1,87 @@
+#include "formats/tureen_glb/tureen_glb_geometry.hpp"
+
+#include "base/json_vector.hpp"
+#include "formats/tureen_glb/tureen_glb.hpp"
+#include "image/png.hpp"
+
+namespace tureen {
+
+namespace {
+
+/// Pictures of any other size cannot be drawn, and a driver may do worse than say so.
+int side(const JsonView& view) {
+  const std::uint64_t pixels = view.natural(max_image_side);
+  if (pixels == 0) view.fail("a picture without pixels");
+  return int(pixels);
+}
+
+Camera camera(const JsonView& view) {
+  Camera result;
+  result.name = view["name"].text();
+  result.width = side(view["width"]);
+  result.height = side(view["height"]);
+  result.fx = view["fx"].number();
+  result.fy = view["fy"].number();
+  result.cx = view["cx"].number();
+  result.cy = view["cy"].number();
+  const JsonView matrix = view["view_from_world"];
+  if (matrix.size() != 16) matrix.fail("expected 16 numbers");
+  for (int i = 0; i < 16; ++i) result.view_from_world[i / 4][i % 4] = matrix.at(i).number();
+  return result;
+}
+
+}  // namespace
+
+JsonView tureen_extension_of(const GlbArrays& arrays) {
+  JsonView extension = arrays.root()["extensions"][tureen_extension];
+  const std::uint64_t version = extension["version"].natural();
+  if (version != std::uint64_t(tureen_extension_version) &&
+      version != std::uint64_t(tureen_slim_version))
+    extension["version"].fail("this file has version " + std::to_string(version) + " of " +
+                              tureen_extension + "; only versions " +
+                              std::to_string(tureen_extension_version) + " and " +
+                              std::to_string(tureen_slim_version) + " are read");
+  return extension;
+}
+
+void read_info(const JsonView& extension, Scene& scene) {
+  SceneInfo& info = scene.info;
+  info.name = extension["name"].text();
+  info.source = extension["source"].text();
+  const JsonView notes = extension["notes"];
+  for (std::size_t i = 0; i < notes.size(); ++i) info.notes.push_back(notes.at(i).text());
+  info.up = json_vector<3, float>(extension["up"]);
+  if (info.up == glm::vec3(0.0f)) extension["up"].fail("has no direction");
+  info.background = json_vector<3, float>(extension["background"]);
+  scene.origin = json_vector<3, double>(extension["origin"]);
+  const JsonView cameras = extension["cameras"];
+  for (std::size_t i = 0; i < cameras.size(); ++i) scene.cameras.push_back(camera(cameras.at(i)));
+}
+
+GeometryLayout geometry_layout(const GlbArrays& arrays, const JsonView& extension) {
+  GeometryLayout layout;
+  layout.vertices = extension["vertex_count"].natural(GlbArrays::max_count);
+  layout.faces = extension["face_count"].natural(GlbArrays::max_count);
+  layout.positions =
+      arrays.location(extension, "positions", layout.vertices, glb_formats::vec3_float);
+  if (extension.find("triangles") || layout.faces == 0)
+    layout.triangles =
+        arrays.location(extension, "triangles", 3 * layout.faces, glb_formats::scalar_u32);
+  else if (layout.vertices != 3 * layout.faces)
+    extension.fail(std::to_string(layout.faces) + " faces without \"triangles\" want " +
+                   std::to_string(3 * layout.faces) + " vertices, not " +
+                   std::to_string(layout.vertices));
+  return layout;
+}
+
+void read_geometry(GlbArrays& arrays, const GeometryLayout& layout, TriangleSoup& soup) {
+  soup.positions = arrays.read_at<glm::vec3>(layout.positions, "positions");
+  soup.triangles = arrays.read_at<glm::uvec3>(layout.triangles, "triangles");
+  if (!soup.triangles.empty()) return;
+  arrays.take_memory(layout.faces, sizeof(glm::uvec3), "triangles");
+  soup.triangles.resize(static_cast<std::size_t>(layout.faces));
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    soup.triangles[t] = glm::uvec3(3 * t, 3 * t + 1, 3 * t + 2);
+}
+
+}  // namespace tureen

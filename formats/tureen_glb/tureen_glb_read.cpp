@@ -1,0 +1,379 @@
+// Reads TUREEN_triangle_soup: the JSON says where each array lies, and each is read from there
+// straight into the scene. In a file of our writer that goes forward only.
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "base/crc32.hpp"
+#include "base/json_vector.hpp"
+#include "formats/gltf/glb_arrays.hpp"
+#include "formats/tureen_glb/slim_geometry.hpp"
+#include "formats/tureen_glb/slim_texels.hpp"
+#include "formats/tureen_glb/tureen_glb.hpp"
+#include "formats/tureen_glb/tureen_glb_geometry.hpp"
+#include "formats/tureen_glb/tureen_glb_quality.hpp"
+#include "image/png.hpp"
+#include "scene/lattice.hpp"
+#include "scene/spherical_harmonics.hpp"
+
+namespace tureen {
+
+namespace {
+
+namespace layout = glb_layout;
+
+class Reader {
+ public:
+  Reader(Input& input, const GlbContainer& glb, const ReadOptions& options)
+      : input_(input),
+        arrays_(input, glb, options.progress),
+        extension_(tureen_extension_of(arrays_)) {}
+
+  Scene scene() {
+    Scene scene;
+    read_info(extension_, scene);
+    scene.info.compressed = extension_.find("slim_geometry").has_value();
+    const JsonView appearance = extension_["appearance"];
+    TriangleSoup soup;
+    read_geometry(soup);
+    const Edits edits = read_preset(scene, soup);
+    if (appearance["type"].text() == "soft_triangles") {
+      scene.primitives = soft_triangles(appearance, std::move(soup));
+      if (edits != Edits{}) scene.info.remarks.push_back({Remark::Kind::preset_dropped});
+    } else {
+      soup.appearance = read_appearance(appearance, soup);
+      if (const auto reason = defect(soup)) extension_.fail(*reason);
+      scene.primitives = with_edits(std::move(soup), edits, scene.info.remarks);
+    }
+    return scene;
+  }
+
+ private:
+  std::vector<glm::vec4> colors(const JsonView& holder, std::uint64_t count) {
+    const auto reference = holder.find("rgba");
+    if (!reference ||
+        arrays_.accessor(*reference)["componentType"].natural() == std::uint64_t(layout::float32))
+      return arrays_.read<glm::vec4>(holder, "rgba", count, glb_formats::vec4_float);
+    input_.seek(arrays_.location(holder, "rgba", count, glb_formats::vec4_unorm8).offset);
+    input_.take_memory(count, sizeof(glm::vec4), "rgba");
+    std::vector<glm::vec4> result(static_cast<std::size_t>(count));
+    // Block by block, so that the bytes do not stand beside all of the floats.
+    std::array<glm::u8vec4, 4096> block;
+    for (std::size_t done = 0; done < result.size();) {
+      const std::size_t n = std::min(block.size(), result.size() - done);
+      input_.read(std::as_writable_bytes(std::span(block).first(n)), "rgba");
+      for (std::size_t i = 0; i < n; ++i) result[done + i] = glm::vec4(block[i]) / 255.0f;
+      done += n;
+    }
+    arrays_.tell_progress();
+    return result;
+  }
+
+  void read_geometry(TriangleSoup& soup) {
+    if (!extension_.find("slim_geometry")) {
+      tureen::read_geometry(arrays_, geometry_layout(arrays_, extension_), soup);
+      return;
+    }
+    PassingMemory passing(input_.budget());
+    SlimGeometry geometry = decode_slim_geometry(
+        coded(extension_, "slim_geometry"), arrays_.index(extension_["vertex_count"]),
+        arrays_.index(extension_["face_count"]), arrays_.file(), input_.budget());
+    passing.keep(geometry.positions.capacity() * sizeof geometry.positions[0] +
+                 geometry.triangles.capacity() * sizeof geometry.triangles[0]);
+    soup.positions = std::move(geometry.positions);
+    soup.triangles = std::move(geometry.triangles);
+  }
+
+  /// What an entropy coder made of an array. Damage to that decodes to something else more often
+  /// than to nothing: the checksum beside it tells.
+  std::vector<std::byte> coded(const JsonView& holder, const std::string& key) {
+    const JsonView view = holder[key.c_str()];
+    auto bytes = arrays_.read_at<std::byte>(arrays_.view_location(view), "slim bytes");
+    const auto sum = holder.find((key + "_crc32").c_str());
+    if (sum && sum->natural(0xffffffffu) != crc32_of(bytes))
+      view.fail("it is damaged: its checksum is not that of its bytes");
+    return bytes;
+  }
+
+  /// Sets the scene's quality. The edits are those that a file of an earlier version asks for.
+  Edits read_preset(Scene& scene, const TriangleSoup& soup) {
+    const auto view = extension_.find("preset");
+    if (!view) return {};
+    StoredPreset preset = tureen::read_preset(*view);
+    scene.quality = preset.quality;
+    if (view->find("keeps_face"))
+      preset.edits.keeps_face = arrays_.read<std::uint8_t>(
+          *view, "keeps_face", soup.triangles.size(), glb_formats::scalar_u8);
+    if (const auto reason = defect(preset.edits, soup)) view->fail(*reason);
+    if (!preset.ignored.empty())
+      scene.info.remarks.push_back(
+          {.kind = Remark::Kind::preset_keys_ignored, .names = preset.ignored});
+    return std::move(preset.edits);
+  }
+
+  /// The number of texels that a limit of the lattice level leaves. Faces that share all of their
+  /// texels share them afterwards, too.
+  static std::uint64_t texels_at_most(const LatticeTexture& texture, int level) {
+    std::vector<std::uint64_t> patches;
+    for (const LatticePatch& patch : texture.patches)
+      patches.push_back(std::uint64_t(patch.first_texel) << 3 | patch.level);
+    std::sort(patches.begin(), patches.end());
+    patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
+    std::uint64_t texels = 0;
+    for (const std::uint64_t patch : patches)
+      texels += lattice::texel_count(std::min(int(patch & 7), level));
+    return texels;
+  }
+
+  TriangleSoup with_edits(TriangleSoup soup, const Edits& edits, std::vector<Remark>& remarks) {
+    if (edits == Edits{}) return soup;
+    PassingMemory passing(input_.budget());
+    input_.take_memory(byte_size(soup), 1, "what the file's preset makes of the scene");
+    if (const auto* texture = std::get_if<LatticeTexture>(&soup.appearance))
+      input_.take_memory(texels_at_most(*texture, edits.lattice_level),
+                         LatticeTexture::channels * (texture->is_float() ? 4 : 1),
+                         "what the file's preset makes of the texels");
+    remarks.push_back({.kind = Remark::Kind::preset_applied, .names = names_of(edits)});
+    return edited(std::move(soup), edits);
+  }
+
+  Appearance read_appearance(const JsonView& view, const TriangleSoup& soup) {
+    static constexpr const char* types[] = {"face_colors", "vertex_colors", "harmonics",
+                                            "lattice_texture", "uv_textures"};
+    switch (view["type"].one_of(types)) {
+      case 0:
+        return FaceColors{colors(view, soup.triangles.size())};
+      case 1:
+        return VertexColors{colors(view, soup.positions.size())};
+      case 2:
+        return harmonics(view, soup);
+      case 3:
+        return lattice_texture(view, soup);
+      default:
+        return uv_textures(view, soup);
+    }
+  }
+
+  static int degree(const JsonView& view) {
+    return int(view["degree"].natural(harmonics::max_degree));
+  }
+
+  std::vector<glm::vec3> coefficients(const JsonView& view, int degree, std::uint64_t elements) {
+    return arrays_.read<glm::vec3>(view, "coefficients",
+                                   elements * std::uint64_t(harmonics::count(degree)),
+                                   glb_formats::vec3_float);
+  }
+
+  Harmonics harmonics(const JsonView& view, const TriangleSoup& soup) {
+    Harmonics sh;
+    sh.domain = Harmonics::Domain(view["domain"].one_of(layout::domains));
+    sh.degree = degree(view);
+    sh.view = ViewConvention(view["view"].one_of(layout::view_conventions));
+    const std::size_t elements =
+        sh.domain == Harmonics::Domain::face ? soup.triangles.size() : soup.positions.size();
+    sh.coefficients = coefficients(view, sh.degree, elements);
+    return sh;
+  }
+
+  SoftTriangles soft_triangles(const JsonView& view, TriangleSoup soup) {
+    const std::size_t faces = soup.triangles.size();
+    if (extension_.find("triangles")) extension_.fail("soft triangles share no vertices");
+    SoftTriangles soft;
+    soft.positions = std::move(soup.positions);
+    soft.degree = degree(view);
+    soft.coefficients = coefficients(view, soft.degree, faces);
+    soft.sigma = arrays_.read<float>(view, "sigma", faces, glb_formats::scalar_float);
+    soft.opacity = arrays_.read<float>(view, "opacity", faces, glb_formats::scalar_float);
+    return soft;
+  }
+
+  std::optional<ColorMlp> color_mlp(const JsonView& holder) {
+    const auto view = holder.find("color_mlp");
+    if (!view) return std::nullopt;
+    ColorMlp mlp;
+    mlp.encoding = DirectionEncoding((*view)["encoding"].one_of(layout::direction_encodings));
+    mlp.view = ViewConvention((*view)["view"].one_of(layout::view_conventions));
+    if (const auto blend = view->find("blend_channel"))
+      mlp.blend_channel = int(blend->natural(ColorMlp::max_width));
+    const JsonView layers = (*view)["layers"];
+    if (layers.size() > std::size_t(ColorMlp::max_layers))
+      layers.fail("more than " + std::to_string(ColorMlp::max_layers) + " layers");
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+      const JsonView entry = layers.at(i);
+      DenseLayer layer;
+      layer.inputs = int(entry["inputs"].natural(ColorMlp::max_width));
+      layer.outputs = int(entry["outputs"].natural(ColorMlp::max_width));
+      layer.weights = arrays_.read<float>(
+          entry, "weights", std::uint64_t(layer.inputs) * std::uint64_t(layer.outputs),
+          glb_formats::scalar_float);
+      layer.biases = arrays_.read<float>(entry, "biases", std::uint64_t(layer.outputs),
+                                         glb_formats::scalar_float);
+      mlp.layers.push_back(std::move(layer));
+    }
+    return mlp;
+  }
+
+  LatticeTexture lattice_texture(const JsonView& view, const TriangleSoup& soup) {
+    if (view.find("slim_texels")) {
+      // The network lies before the texels.
+      std::optional<ColorMlp> mlp = color_mlp(view);
+      PassingMemory passing(input_.budget());
+      LatticeTexture texture = decode_slim_texels(coded(view, "slim_texels"), soup.triangles.size(),
+                                                  arrays_.file(), input_.budget());
+      passing.keep(soup.triangles.size() * sizeof texture.patches[0] +
+                   texture.texel_count() * LatticeTexture::channels);
+      texture.mlp = std::move(mlp);
+      return texture;
+    }
+    LatticeTexture texture;
+    texture.patches = patches(view, soup.triangles.size());
+    texture.mlp = color_mlp(view);
+    const std::uint64_t texels = view["texel_count"].natural(GlbArrays::max_count);
+    if (view.find("strips"))
+      texture.texels = strips(view["strips"], texels);
+    else
+      texture.texels = arrays_.read<float>(view, "texels", texels * LatticeTexture::channels,
+                                           glb_formats::scalar_float);
+    return texture;
+  }
+
+  std::vector<LatticePatch> patches(const JsonView& view, std::size_t faces) {
+    input_.take_memory(faces, sizeof(LatticePatch), "patches");
+    std::vector<LatticePatch> result(faces);
+    if (const auto level_member = view.find("level")) {
+      const auto level = std::uint32_t(level_member->natural(lattice::max_level));
+      const std::uint64_t each = lattice::texel_count(int(level));
+      if (faces * each > GlbArrays::max_count)
+        level_member->fail("has more texels than 32 bits can name");
+      for (std::size_t t = 0; t < faces; ++t) result[t] = {std::uint32_t(t * each), level};
+      return result;
+    }
+    PassingMemory passing(input_.budget());
+    const auto first =
+        arrays_.read<std::uint32_t>(view, "first_texels", faces, glb_formats::scalar_u32);
+    const auto levels = arrays_.read<std::uint8_t>(view, "levels", faces, glb_formats::scalar_u8);
+    for (std::size_t t = 0; t < faces; ++t) result[t] = {first[t], levels[t]};
+    return result;
+  }
+
+  std::vector<std::uint8_t> strips(const JsonView& list, std::uint64_t texels) {
+    // Every strip is bounded and follows the one before; deflate packs at most 1032 to 1, so a
+    // count that the images cannot hold is refused before anything is allocated for it.
+    std::uint64_t counted = 0, encoded = 0;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const JsonView strip = list.at(i);
+      if (strip["first"].natural() != counted)
+        strip["first"].fail("expected " + std::to_string(counted));
+      counted += strip["count"].natural(layout::strip_texels);
+      if (strip["images"].size() != 2) strip["images"].fail("expected two images");
+      for (int k = 0; k < 2; ++k) encoded += next_image(strip["images"].at(k)).size;
+    }
+    if (counted != texels)
+      list.fail("its strips hold " + std::to_string(counted) + " texels, expected " +
+                std::to_string(texels));
+    if (texels * LatticeTexture::channels / 1032 > encoded)
+      list.fail(std::to_string(texels) + " texels are more than its images can hold");
+
+    input_.take_memory(texels, LatticeTexture::channels, "texels");
+    std::vector<std::uint8_t> result(static_cast<std::size_t>(texels) * LatticeTexture::channels);
+    std::uint8_t* texel = result.data();
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      PassingMemory passing(input_.budget());
+      const JsonView strip = list.at(i);
+      const auto count = static_cast<std::size_t>(strip["count"].natural());
+      const Image8 low = image(strip["images"].at(0)), high = image(strip["images"].at(1));
+      if (low.pixels.size() < count || high.pixels.size() < count)
+        strip.fail("an image has fewer than " + std::to_string(count) + " pixels");
+      for (std::size_t k = 0; k < count; ++k, texel += LatticeTexture::channels)
+        for (int c = 0; c < 4; ++c) {
+          texel[c] = low.pixels[k][c];
+          texel[4 + c] = high.pixels[k][c];
+        }
+    }
+    return result;
+  }
+
+  UvTextures uv_textures(const JsonView& view, const TriangleSoup& soup) {
+    UvTextures textures;
+    textures.uv =
+        arrays_.read<glm::vec2>(view, "uv", soup.positions.size(), glb_formats::vec2_float);
+    textures.material_of_face = arrays_.read<std::uint32_t>(
+        view, "material_of_face", soup.triangles.size(), glb_formats::scalar_u32);
+    if (view.find("rgba")) textures.vertex_rgba = colors(view, soup.positions.size());
+    textures.mlp = color_mlp(view);
+    const JsonView materials = view["materials"];
+    for (std::size_t i = 0; i < materials.size(); ++i)
+      textures.materials.push_back(material(materials.at(i)));
+    const JsonView images = view["images"];
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      next_image(images.at(i));
+      PassingMemory passing(input_.budget());
+      const Image8& read = textures.images.emplace_back(image(images.at(i)));
+      passing.keep(read.pixels.size() * sizeof read.pixels[0]);
+    }
+    return textures;
+  }
+
+  static UvMaterial material(const JsonView& view) {
+    UvMaterial result;
+    const JsonView images = view["images"];
+    for (std::size_t k = 0; k < images.size(); ++k)
+      result.images.push_back(std::uint32_t(images.at(k).natural(GlbArrays::max_count)));
+    result.wrap_u = UvMaterial::Wrap(view["wrap_u"].one_of(layout::wraps));
+    result.wrap_v = UvMaterial::Wrap(view["wrap_v"].one_of(layout::wraps));
+    result.filter = UvMaterial::Filter(view["filter"].one_of(layout::filters));
+    result.factor = json_vector<4, float>(view["factor"]);
+    result.mask_channel = int(view["mask_channel"].natural(3));
+    result.mask_threshold = view["mask_threshold"].number_float();
+    return result;
+  }
+
+  GlbArrays::Location image_location(const JsonView& reference) const {
+    const JsonView image = arrays_.root()["images"].at(arrays_.index(reference));
+    return arrays_.view_location(image["bufferView"]);
+  }
+
+  /// Images lie in the order in which they are named, each after the last: a small file cannot
+  /// name the same bytes over and over and so fill the memory.
+  GlbArrays::Location next_image(const JsonView& reference) {
+    const GlbArrays::Location location = image_location(reference);
+    if (location.offset < images_end_) reference.fail("lies before the end of the image before it");
+    images_end_ = location.end();
+    return location;
+  }
+
+  Image8 image(const JsonView& reference) {
+    const auto bytes = arrays_.read_at<std::byte>(image_location(reference), "an image");
+    try {
+      return decode_image(bytes, arrays_.file(), input_.budget());
+    } catch (const InputError& error) {
+      reference.fail(error.reason(), error.hint());
+    }
+  }
+
+  Input& input_;
+  GlbArrays arrays_;
+  JsonView extension_;
+  std::uint64_t images_end_ = 0;
+};
+
+}  // namespace
+
+bool is_tureen_glb(const GlbContainer& glb) {
+  if (!glb.json.is_object()) return false;
+  const auto extensions = glb.json.find("extensions");
+  return extensions != glb.json.end() && extensions->is_object() &&
+         extensions->contains(tureen_extension);
+}
+
+Scene read_tureen_glb(Input& input, const ReadOptions& options) {
+  return read_tureen_glb(input, read_glb_container(input), options);
+}
+
+Scene read_tureen_glb(Input& input, const GlbContainer& glb, const ReadOptions& options) {
+  Scene scene = Reader(input, glb, options).scene();
+  if (options.progress) options.progress(1.0);
+  return scene;
+}
+
+}  // namespace tureen

@@ -1,0 +1,60 @@
+#include "formats/tureen_glb/tureen_glb_slim.hpp"
+
+#include <cassert>
+
+#include "base/crc32.hpp"
+#include "base/error.hpp"
+#include "formats/tureen_glb/tureen_glb.hpp"
+#include "formats/tureen_glb/tureen_glb_writing.hpp"
+
+namespace tureen {
+
+using namespace glb_writing;
+
+SlimSoup encode_slim(const TriangleSoup& soup, const SlimOptions& options) {
+  return {encode_slim_geometry({soup.positions, soup.triangles}, options.position_bits),
+          encode_slim_texels(std::get<LatticeTexture>(soup.appearance), options.texels)};
+}
+
+TriangleSoup decode_slim(const SlimSoup& slim, const TriangleSoup& encoded) {
+  const std::size_t faces = encoded.triangles.size();
+  SlimGeometry geometry =
+      decode_slim_geometry(slim.geometry, used_vertices(encoded.triangles), faces, "a slim soup");
+  LatticeTexture texture = decode_slim_texels(slim.texels, faces, "a slim soup");
+  texture.mlp = std::get<LatticeTexture>(encoded.appearance).mlp;
+  return {std::move(geometry.positions), std::move(geometry.triangles), std::move(texture)};
+}
+
+std::vector<std::string> write_slim_glb(const Scene& scene, const SlimSoup& slim,
+                                        const std::filesystem::path& path) {
+  const auto* soup = std::get_if<TriangleSoup>(&scene.primitives);
+  const auto* texture = soup ? std::get_if<LatticeTexture>(&soup->appearance) : nullptr;
+  if (!texture) throw UsageError("a slim file holds lattice textures only");
+  if (const auto reason = defect(*soup))
+    throw UsageError("the scene cannot be written: " + *reason);
+  std::vector<std::string> losses;
+  BinaryPlan plan;
+  json extension = info_json(scene, losses);
+  extension["version"] = tureen_slim_version;
+  extension["vertex_count"] = used_vertices(soup->triangles);
+  extension["face_count"] = soup->triangles.size();
+  const auto put = [&](json& holder, const std::string& key, std::span<const std::byte> bytes) {
+    holder[key] = plan.view(bytes);
+    holder[key + "_crc32"] = crc32_of(bytes);
+  };
+  put(extension, "slim_geometry", slim.geometry);
+  extension["appearance"] = {{"type", "lattice_texture"}};
+  json& appearance = extension["appearance"];
+  if (texture->mlp) appearance["color_mlp"] = mlp_json(plan, *texture->mlp);
+  put(appearance, "slim_texels", slim.texels);
+  write_glb({{"asset", {{"version", "2.0"}, {"generator", "Tureen"}}},
+             {"extensionsUsed", json::array({tureen_extension})},
+             {"extensionsRequired", json::array({tureen_extension})},
+             {"scene", 0},
+             {"scenes", json::array({json::object()})},
+             {"extensions", {{tureen_extension, std::move(extension)}}}},
+            plan, path);
+  return losses;
+}
+
+}  // namespace tureen

@@ -1,0 +1,445 @@
+// Writes TUREEN_triangle_soup: plans the binary chunk as a list of pieces, most of which lie in the
+// scene already, describes it in JSON, then streams both out.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "base/output.hpp"
+#include "formats/tureen_glb/tureen_glb.hpp"
+#include "formats/tureen_glb/tureen_glb_layout.hpp"
+#include "formats/tureen_glb/tureen_glb_quality.hpp"
+#include "formats/tureen_glb/tureen_glb_writing.hpp"
+#include "image/png.hpp"
+#include "image/srgb.hpp"
+#include "scene/edit/mean_color.hpp"
+#include "scene/lattice.hpp"
+#include "scene/spherical_harmonics.hpp"
+
+namespace tureen {
+
+using namespace glb_writing;
+
+namespace {
+
+constexpr BinaryPlan::Format scalar_u32{"SCALAR", layout::unsigned_int, 1};
+constexpr BinaryPlan::Format scalar_u8{"SCALAR", layout::unsigned_byte, 1};
+constexpr BinaryPlan::Format scalar_float{"SCALAR", layout::float32, 1};
+constexpr BinaryPlan::Format vec2_float{"VEC2", layout::float32, 2};
+constexpr BinaryPlan::Format vec3_float{"VEC3", layout::float32, 3};
+constexpr BinaryPlan::Format vec4_float{"VEC4", layout::float32, 4};
+constexpr BinaryPlan::Format vec4_unorm8{"VEC4", layout::unsigned_byte, 4, true};
+constexpr BinaryPlan::Format vec4_unorm16{"VEC4", layout::unsigned_short, 4, true};
+
+/// Colours as bytes, if every one of them is exactly byte / 255; otherwise nothing.
+std::vector<glm::u8vec4> exact_bytes(const std::vector<glm::vec4>& colors) {
+  std::vector<glm::u8vec4> bytes(colors.size());
+  for (std::size_t i = 0; i < colors.size(); ++i)
+    for (int c = 0; c < 4; ++c) {
+      const float value = colors[i][c];
+      if (!(value >= 0.0f && value <= 1.0f) || std::signbit(value)) return {};
+      bytes[i][c] = static_cast<std::uint8_t>(std::lround(value * 255.0f));
+      if (float(bytes[i][c]) / 255.0f != value) return {};
+    }
+  return bytes;
+}
+
+void add_colors(BinaryPlan& plan, json& holder, const std::vector<glm::vec4>& colors) {
+  if (const auto bytes = exact_bytes(colors); !bytes.empty())
+    plan.owned_accessor(holder, "rgba", bytes, vec4_unorm8);
+  else
+    plan.accessor(holder, "rgba", bytes_of(colors), vec4_float);
+}
+
+template <class Numbers>
+void require_finite(const Numbers& numbers, const std::string& what) {
+  for (const auto number : numbers)
+    if (!std::isfinite(number))
+      throw UsageError("a GLB cannot hold " + what + ": it is not finite");
+}
+
+template <int N, class Real>
+json array_of(const glm::vec<N, Real>& v, const std::string& what) {
+  std::vector<Real> numbers;
+  for (int i = 0; i < N; ++i) numbers.push_back(v[i]);
+  require_finite(numbers, what);
+  return numbers;
+}
+
+/// Each appearance in two steps, so that the small arrays of all of it (colours, MLP) come before
+/// the texels.
+struct AddAppearance {
+  BinaryPlan& plan;
+
+  json operator()(const FaceColors& colors) const {
+    json result = {{"type", "face_colors"}};
+    add_colors(plan, result, colors.rgba);
+    return result;
+  }
+
+  json operator()(const VertexColors& colors) const {
+    json result = {{"type", "vertex_colors"}};
+    add_colors(plan, result, colors.rgba);
+    return result;
+  }
+
+  json operator()(const Harmonics& sh) const {
+    json result = {{"type", "harmonics"},
+                   {"domain", layout::domains[int(sh.domain)]},
+                   {"degree", sh.degree},
+                   {"view", layout::view_conventions[int(sh.view)]}};
+    plan.accessor(result, "coefficients", bytes_of(sh.coefficients), vec3_float);
+    return result;
+  }
+
+  json operator()(const LatticeTexture& texture) const {
+    json result = {{"type", "lattice_texture"}, {"texel_count", texture.texel_count()}};
+    add_patches(result, texture.patches);
+    if (texture.mlp) result["color_mlp"] = mlp_json(plan, *texture.mlp);
+    if (const auto* floats = std::get_if<std::vector<float>>(&texture.texels))
+      plan.accessor(result, "texels", bytes_of(*floats), scalar_float);
+    else
+      add_strips(result, std::get<std::vector<std::uint8_t>>(texture.texels));
+    return result;
+  }
+
+  json operator()(const UvTextures& textures) const {
+    json result = {{"type", "uv_textures"}};
+    plan.accessor(result, "uv", bytes_of(textures.uv), vec2_float);
+    plan.accessor(result, "material_of_face", bytes_of(textures.material_of_face), scalar_u32);
+    if (!textures.vertex_rgba.empty()) add_colors(plan, result, textures.vertex_rgba);
+    if (textures.mlp) result["color_mlp"] = mlp_json(plan, *textures.mlp);
+    json materials = json::array();
+    for (const UvMaterial& material : textures.materials) {
+      require_finite(std::array{material.mask_threshold}, "a material's mask threshold");
+      materials.push_back({{"images", material.images},
+                           {"wrap_u", layout::wraps[int(material.wrap_u)]},
+                           {"wrap_v", layout::wraps[int(material.wrap_v)]},
+                           {"filter", layout::filters[int(material.filter)]},
+                           {"factor", array_of(material.factor, "a material's factor")},
+                           {"mask_channel", material.mask_channel},
+                           {"mask_threshold", material.mask_threshold}});
+    }
+    result["materials"] = std::move(materials);
+    json images = json::array();
+    for (const Image8& image : textures.images) {
+      if (image.width > max_image_side || image.height > max_image_side ||
+          image.pixels.size() > max_image_pixels)
+        throw UsageError("a GLB of ours cannot hold an image of " + std::to_string(image.width) +
+                         " x " + std::to_string(image.height) + " pixels");
+      images.push_back(plan.image(image));
+    }
+    result["images"] = std::move(images);
+    return result;
+  }
+
+  /// One number where all patches have one level and follow each other, as trainers leave them.
+  void add_patches(json& result, const std::vector<LatticePatch>& patches) const {
+    const std::uint32_t level = patches.empty() ? 0 : patches.front().level;
+    const std::uint64_t each = lattice::texel_count(int(level));
+    bool uniform = true;
+    for (std::size_t t = 0; t < patches.size() && uniform; ++t)
+      uniform = patches[t].level == level && patches[t].first_texel == t * each;
+    if (uniform) {
+      result["level"] = level;
+      return;
+    }
+    std::vector<std::uint32_t> first_texels;
+    std::vector<std::uint8_t> levels;
+    for (const LatticePatch& patch : patches) {
+      first_texels.push_back(patch.first_texel);
+      levels.push_back(static_cast<std::uint8_t>(patch.level));
+    }
+    plan.owned_accessor(result, "first_texels", first_texels, scalar_u32);
+    plan.owned_accessor(result, "levels", levels, scalar_u8);
+  }
+
+  void add_strips(json& result, const std::vector<std::uint8_t>& texels) const {
+    json strips = json::array();
+    const std::size_t total = texels.size() / LatticeTexture::channels;
+    for (std::size_t first = 0; first < total; first += layout::strip_texels) {
+      const std::size_t count = std::min<std::size_t>(layout::strip_texels, total - first);
+      const int width = int(std::min<std::size_t>(layout::strip_width, count));
+      const int height = int((count + width - 1) / width);
+      // What follows the last texel in the last row stays zero.
+      Image8 low(width, height), high(width, height);
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::uint8_t* texel = &texels[(first + i) * LatticeTexture::channels];
+        low.pixels[i] = {texel[0], texel[1], texel[2], texel[3]};
+        high.pixels[i] = {texel[4], texel[5], texel[6], texel[7]};
+      }
+      const std::size_t low_index = plan.image(low);
+      const std::size_t high_index = plan.image(high);
+      strips.push_back({{"first", first}, {"count", count}, {"images", {low_index, high_index}}});
+    }
+    result["strips"] = std::move(strips);
+  }
+};
+
+bool is_unshared(const TriangleSoup& soup) {
+  if (soup.positions.size() != 3 * soup.triangles.size()) return false;
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    if (soup.triangles[t] != glm::uvec3(3 * t, 3 * t + 1, 3 * t + 2)) return false;
+  return true;
+}
+
+struct Range {
+  glm::vec3 low{std::numeric_limits<float>::infinity()};
+  glm::vec3 high{-std::numeric_limits<float>::infinity()};
+};
+
+/// glTF's min and max of an accessor, coordinate by coordinate.
+Range finite_range(const std::vector<glm::vec3>& positions) {
+  Range range;
+  for (const glm::vec3& p : positions)
+    for (int k = 0; k < 3; ++k)
+      if (std::isfinite(p[k])) {
+        range.low[k] = std::min(range.low[k], p[k]);
+        range.high[k] = std::max(range.high[k], p[k]);
+      }
+  return range;
+}
+
+glm::u16vec4 linear_unorm16(const glm::vec3& display) {
+  const glm::dvec3 linear = linear_from_srgb(glm::dvec3(display));
+  return glm::u16vec4(glm::dvec4(linear, 1.0) * 65535.0 + 0.5);
+}
+
+/// The mesh that every glTF viewer sees. Where faces share vertices but not a colour, the mesh is
+/// an unshared copy and the soup's own vertices and triangles follow it.
+json add_mesh(BinaryPlan& plan, json& extension, const TriangleSoup& soup) {
+  json attributes, primitive = {{"material", 0}, {"mode", 4}};
+  const auto* vertex_colors = std::get_if<VertexColors>(&soup.appearance);
+  const bool unshared = is_unshared(soup);
+  const std::size_t faces = soup.triangles.size();
+
+  std::vector<glm::vec3> corners;  // of the unshared copy, where there is one
+
+  if (unshared || vertex_colors) {
+    plan.accessor(attributes, "POSITION", bytes_of(soup.positions), vec3_float);
+    if (attributes.contains("POSITION")) extension["positions"] = attributes["POSITION"];
+    if (!unshared) {
+      plan.accessor(primitive, "indices", bytes_of(soup.triangles), scalar_u32);
+      if (primitive.contains("indices")) extension["triangles"] = primitive["indices"];
+    }
+  } else {
+    corners.reserve(3 * faces);
+    for (const glm::uvec3& triangle : soup.triangles)
+      for (int k = 0; k < 3; ++k) corners.push_back(soup.positions[triangle[k]]);
+    plan.owned_accessor(attributes, "POSITION", corners, vec3_float);
+    plan.accessor(extension, "positions", bytes_of(soup.positions), vec3_float);
+    plan.accessor(extension, "triangles", bytes_of(soup.triangles), scalar_u32);
+  }
+  if (faces == 0 || !attributes.contains("POSITION")) return nullptr;
+  const auto [low, high] = finite_range(corners.empty() ? soup.positions : corners);
+  if (low.x <= high.x && low.y <= high.y && low.z <= high.z) {
+    json& accessor = plan.accessors[attributes["POSITION"].get<std::size_t>()];
+    accessor["min"] = {low.x, low.y, low.z};
+    accessor["max"] = {high.x, high.y, high.z};
+  }
+
+  std::vector<glm::u16vec4> colors;
+  if (vertex_colors) {
+    colors.reserve(vertex_colors->rgba.size());
+    for (const glm::vec4& rgba : vertex_colors->rgba)
+      colors.push_back(linear_unorm16(glm::vec3(rgba)));
+  } else {
+    colors.reserve(3 * faces);
+    for (const glm::vec3& mean : mean_colors(soup))
+      colors.insert(colors.end(), 3, linear_unorm16(mean));
+  }
+  plan.owned_accessor(attributes, "COLOR_0", colors, vec4_unorm16);
+  primitive["attributes"] = std::move(attributes);
+  return primitive;
+}
+
+/// The rotation (x, y, z, w) that stands the scene on glTF's y axis.
+json upright(const glm::vec3& up) {
+  const glm::dvec3 from = glm::normalize(glm::dvec3(up));
+  // Half a turn has no unique axis; any horizontal one will do. 1e-12 is far above the rounding
+  // of the sum and far below any angle that shows.
+  if (!(1.0 + from.y > 1e-12)) return {1.0, 0.0, 0.0, 0.0};
+  const glm::dvec3 axis = glm::cross(from, glm::dvec3(0, 1, 0));
+  const glm::dvec4 q = glm::normalize(glm::dvec4(axis, 1.0 + from.y));
+  return {q.x, q.y, q.z, q.w};
+}
+
+/// The text, with what is not UTF-8 replaced and confessed: JSON cannot hold it.
+std::string utf8(const std::string& text, std::vector<std::string>& losses) {
+  try {
+    static_cast<void>(json(text).dump());
+    return text;
+  } catch (const json::exception&) {
+    losses.push_back("a text is not UTF-8; its foreign bytes are replaced");
+    return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace))
+        .get<std::string>();
+  }
+}
+
+/// The soft triangles' shapes with their harmonics, for the mesh alone.
+TriangleSoup hard_shapes(const SoftTriangles& soft) {
+  TriangleSoup soup;
+  soup.positions = soft.positions;
+  soup.triangles.resize(soft.sigma.size());
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    soup.triangles[t] = glm::uvec3(3 * t, 3 * t + 1, 3 * t + 2);
+  soup.appearance = Harmonics{.domain = Harmonics::Domain::face,
+                              .degree = soft.degree,
+                              .view = ViewConvention::eye_to_surface,
+                              .coefficients = soft.coefficients};
+  return soup;
+}
+
+json soft_json(BinaryPlan& plan, const SoftTriangles& soft) {
+  json result = {{"type", "soft_triangles"}, {"degree", soft.degree}};
+  plan.accessor(result, "coefficients", bytes_of(soft.coefficients), vec3_float);
+  plan.accessor(result, "sigma", bytes_of(soft.sigma), scalar_float);
+  plan.accessor(result, "opacity", bytes_of(soft.opacity), scalar_float);
+  return result;
+}
+
+}  // namespace
+
+namespace glb_writing {
+
+json mlp_json(BinaryPlan& plan, const ColorMlp& mlp) {
+  json layers = json::array();
+  for (const DenseLayer& layer : mlp.layers) {
+    json entry = {{"inputs", layer.inputs}, {"outputs", layer.outputs}};
+    plan.accessor(entry, "weights", bytes_of(layer.weights), scalar_float);
+    plan.accessor(entry, "biases", bytes_of(layer.biases), scalar_float);
+    layers.push_back(std::move(entry));
+  }
+  json result = {{"layers", std::move(layers)},
+                 {"encoding", layout::direction_encodings[int(mlp.encoding)]},
+                 {"view", layout::view_conventions[int(mlp.view)]}};
+  if (mlp.blend_channel) result["blend_channel"] = *mlp.blend_channel;
+  return result;
+}
+
+json info_json(const Scene& scene, std::vector<std::string>& losses) {
+  const SceneInfo& info = scene.info;
+  if (info.up == glm::vec3(0.0f)) throw UsageError("a GLB cannot hold an up axis of no direction");
+  json extension = {{"version", tureen_extension_version},
+                    {"name", utf8(info.name, losses)},
+                    {"source", utf8(info.source, losses)},
+                    {"notes", json::array()},
+                    {"up", array_of(info.up, "the up axis")},
+                    {"background", array_of(info.background, "the background")},
+                    {"origin", array_of(scene.origin, "the origin")},
+                    {"cameras", json::array()}};
+  for (const std::string& note : all_notes(info)) extension["notes"].push_back(utf8(note, losses));
+  for (const Camera& camera : scene.cameras) {
+    std::vector<double> matrix;
+    for (int column = 0; column < 4; ++column)
+      for (int row = 0; row < 4; ++row) matrix.push_back(camera.view_from_world[column][row]);
+    const std::string what = "camera \"" + camera.name + "\"";
+    for (const int side : {camera.width, camera.height})
+      if (side < 1 || side > max_image_side)
+        throw UsageError("a GLB cannot hold " + what + " of " + std::to_string(camera.width) +
+                         " x " + std::to_string(camera.height) + " pixels");
+    require_finite(matrix, what);
+    require_finite(std::array{camera.fx, camera.fy, camera.cx, camera.cy}, what);
+    extension["cameras"].push_back({{"name", utf8(camera.name, losses)},
+                                    {"width", camera.width},
+                                    {"height", camera.height},
+                                    {"fx", camera.fx},
+                                    {"fy", camera.fy},
+                                    {"cx", camera.cx},
+                                    {"cy", camera.cy},
+                                    {"view_from_world", matrix}});
+  }
+  if (scene.quality != Quality{}) {
+    if (const auto reason = defect(scene.quality))
+      throw UsageError("the scene cannot be written: " + *reason);
+    extension["preset"] = quality_json(scene.quality);
+  }
+  return extension;
+}
+
+void write_glb(json document, const BinaryPlan& plan, const std::filesystem::path& path) {
+  if (!plan.accessors.empty()) document["accessors"] = plan.accessors;
+  if (!plan.images.empty()) document["images"] = plan.images;
+  if (!plan.buffer_views.empty()) {
+    document["bufferViews"] = plan.buffer_views;
+    document["buffers"] = json::array({{{"byteLength", plan.size()}}});
+  }
+
+  std::string text = document.dump();
+  text.append((4 - text.size() % 4) % 4, ' ');
+  const bool has_binary = plan.size() > 0;
+  const std::uint64_t length = 12 + 8 + text.size() + (has_binary ? 8 + plan.size() : 0);
+  if (length > std::numeric_limits<std::uint32_t>::max())
+    throw UsageError("the scene takes " + std::to_string(length) +
+                     " bytes, and a GLB holds at most 4 GiB");
+
+  Output output(path);
+  output.write(std::string_view("glTF"));
+  output.write_value(std::uint32_t(2));
+  output.write_value(static_cast<std::uint32_t>(length));
+  output.write_value(static_cast<std::uint32_t>(text.size()));
+  output.write(std::string_view("JSON"));
+  output.write(std::string_view(text));
+  if (has_binary) {
+    output.write_value(static_cast<std::uint32_t>(plan.size()));
+    output.write(std::string_view("BIN\0", 4));
+    plan.write(output);
+  }
+  output.commit();
+}
+
+}  // namespace glb_writing
+
+std::vector<std::string> write_tureen_glb(const Scene& scene, const std::filesystem::path& path) {
+  std::vector<std::string> losses;
+  BinaryPlan plan;
+  json extension = info_json(scene, losses);
+
+  const auto* soft = std::get_if<SoftTriangles>(&scene.primitives);
+  TriangleSoup shapes;
+  if (soft) {
+    if (soft->opacity.size() != soft->sigma.size())
+      throw UsageError("the scene cannot be written: it has " +
+                       std::to_string(soft->opacity.size()) + " opacities for " +
+                       std::to_string(soft->sigma.size()) + " soft triangles");
+    shapes = hard_shapes(*soft);
+    if (shapes.positions.size() != 3 * shapes.triangles.size())
+      throw UsageError("the scene cannot be written: soft triangles share vertices");
+  }
+  const TriangleSoup& soup = soft ? shapes : std::get<TriangleSoup>(scene.primitives);
+  if (const auto reason = defect(soup)) throw UsageError("the scene cannot be written: " + *reason);
+  extension["vertex_count"] = soup.positions.size();
+  extension["face_count"] = soup.triangles.size();
+  json primitive = add_mesh(plan, extension, soup);
+  extension["appearance"] =
+      soft ? soft_json(plan, *soft) : std::visit(AddAppearance{plan}, soup.appearance);
+
+  json document = {{"asset", {{"version", "2.0"}, {"generator", "Tureen"}}},
+                   {"extensionsUsed", {"KHR_materials_unlit", tureen_extension}},
+                   {"scene", 0},
+                   {"materials",
+                    {{{"doubleSided", true},
+                      {"alphaMode", "OPAQUE"},
+                      // For viewers without the extension: no mirror, no gloss.
+                      {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}},
+                      {"extensions", {{"KHR_materials_unlit", json::object()}}}}}},
+                   {"extensions", {{tureen_extension, std::move(extension)}}}};
+  if (primitive.is_null()) {
+    // glTF knows no empty mesh.
+    document["scenes"] = json::array({json::object()});
+    document.erase("materials");
+    document["extensionsUsed"] = json::array({tureen_extension});
+  } else {
+    json node = {{"mesh", 0}, {"rotation", upright(scene.info.up)}};
+    document["scenes"] = json::array({{{"nodes", json::array({0})}}});
+    document["nodes"] = json::array({std::move(node)});
+    document["meshes"] = json::array({{{"primitives", json::array({std::move(primitive)})}}});
+  }
+  write_glb(std::move(document), plan, path);
+  return losses;
+}
+
+}  // namespace tureen

@@ -1,0 +1,113 @@
+// What the writers of TUREEN_triangle_soup share: the binary chunk as a list of pieces, the JSON of
+// what every scene has, and the file around both. Internal to tureen_glb_*.cpp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/output.hpp"
+#include "formats/tureen_glb/tureen_glb_layout.hpp"
+#include "image/png.hpp"
+#include "scene/scene.hpp"
+
+namespace tureen::glb_writing {
+
+using nlohmann::json;
+namespace layout = glb_layout;
+
+template <class T>
+std::span<const std::byte> bytes_of(const std::vector<T>& values) {
+  return std::as_bytes(std::span(values));
+}
+
+/// The binary chunk as pieces, and the glTF arrays that describe it.
+class BinaryPlan {
+ public:
+  /// The bytes must outlive the plan. Returns the buffer view's index.
+  std::size_t view(std::span<const std::byte> bytes) {
+    buffer_views.push_back({{"buffer", 0}, {"byteOffset", size_}, {"byteLength", bytes.size()}});
+    pieces_.push_back(bytes);
+    // Every piece begins at a multiple of 4, as glTF asks of accessors.
+    size_ += (bytes.size() + 3) / 4 * 4;
+    return buffer_views.size() - 1;
+  }
+
+  std::size_t owned_view(std::vector<std::byte> bytes) {
+    owned_.push_back(std::move(bytes));
+    return view(owned_.back());
+  }
+
+  struct Format {
+    const char* type;
+    int component;
+    std::size_t components;
+    bool normalized = false;
+  };
+
+  /// glTF allows no accessor without elements: an empty array gets none, and its key is left out.
+  void accessor(json& holder, const char* key, std::span<const std::byte> bytes,
+                const Format& format) {
+    if (bytes.empty()) return;
+    const std::size_t component_bytes = format.component == layout::unsigned_byte    ? 1
+                                        : format.component == layout::unsigned_short ? 2
+                                                                                     : 4;
+    json accessor = {{"bufferView", view(bytes)},
+                     {"componentType", format.component},
+                     {"count", bytes.size() / (component_bytes * format.components)},
+                     {"type", format.type}};
+    if (format.normalized) accessor["normalized"] = true;
+    holder[key] = accessors.size();
+    accessors.push_back(std::move(accessor));
+  }
+
+  template <class T>
+  void owned_accessor(json& holder, const char* key, const std::vector<T>& values,
+                      const Format& format) {
+    const auto bytes = bytes_of(values);
+    owned_.emplace_back(bytes.begin(), bytes.end());
+    accessor(holder, key, owned_.back(), format);
+  }
+
+  std::size_t image(const Image8& image) {
+    images.push_back({{"bufferView", owned_view(encode_png(image))}, {"mimeType", "image/png"}});
+    return images.size() - 1;
+  }
+
+  std::uint64_t size() const { return size_; }
+
+  void write(Output& output) const {
+    static constexpr std::byte zeros[4]{};
+    for (const auto& piece : pieces_) {
+      output.write(piece);
+      output.write(std::span(zeros).first((4 - piece.size() % 4) % 4));
+    }
+  }
+
+  json buffer_views = json::array();
+  json accessors = json::array();
+  json images = json::array();
+
+ private:
+  std::uint64_t size_ = 0;
+  std::vector<std::span<const std::byte>> pieces_;
+  std::deque<std::vector<std::byte>> owned_;  // a deque: its elements never move
+};
+
+/// Everything but geometry and appearance. Adds to `losses` what JSON cannot hold. Throws
+/// UsageError as write_tureen_glb does.
+json info_json(const Scene& scene, std::vector<std::string>& losses);
+
+/// Its weights go into the plan.
+json mlp_json(BinaryPlan& plan, const ColorMlp& mlp);
+
+/// The arrays of the plan join the document, and both the file. Throws UsageError for more than
+/// 4 GiB, OutputError where it cannot be written.
+void write_glb(json document, const BinaryPlan& plan, const std::filesystem::path& path);
+
+}  // namespace tureen::glb_writing

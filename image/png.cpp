@@ -1,0 +1,161 @@
+#include "image/png.hpp"
+
+#include <climits>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <new>
+
+#include "image/decoder_memory.hpp"
+#include "image/jpeg_tables.hpp"
+#include "image/png_chunks.hpp"
+
+#ifndef __EMSCRIPTEN__
+#include <zlib.h>
+
+namespace {
+
+/// zlib instead of stb's own compressor: docs/decisions/png-by-stb.md has the figures. Only a
+/// browser build, which has no zlib, does without. The memory is stb's to free().
+unsigned char* compress_for_stb(unsigned char* data, int size, int* packed_size, int) {
+  uLongf bound = compressBound(static_cast<uLong>(size));
+  auto* packed = static_cast<unsigned char*>(std::malloc(bound));
+  // Level 4 takes half of the time of the default 6 and some 3 % more bytes.
+  if (!packed || compress2(packed, &bound, data, static_cast<uLong>(size), 4) != Z_OK ||
+      bound > uLongf(INT_MAX)) {
+    std::free(packed);
+    return nullptr;
+  }
+  *packed_size = static_cast<int>(bound);
+  return packed;
+}
+
+}  // namespace
+
+#define STBIW_ZLIB_COMPRESS compress_for_stb
+#endif
+
+#define STBI_MALLOC(size) tureen::decoder_memory::allocate(size)
+#define STBI_REALLOC(old, size) tureen::decoder_memory::reallocate(old, size)
+#define STBI_FREE(old) tureen::decoder_memory::release(old)
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_NO_STDIO
+#define STBI_NO_HDR
+#define STBI_NO_LINEAR
+#include <stb/stb_image.h>
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#define STBI_WRITE_NO_STDIO
+#include <stb/stb_image_write.h>
+
+namespace tureen {
+
+namespace {
+
+/// For tables, and for the state of a decoder, which stb takes for granted.
+constexpr std::uint64_t decoder_tables = std::uint64_t(1) << 20;
+
+/// What stb holds at most for an honest picture, in bytes: the file in a buffer that doubles as it
+/// grows; 8 a pixel, at 16 bits, of inflated rows in another, or 12 of a JPEG's coefficients; 8 and
+/// 4 of the picture before and after it is converted. Sides are rounded up to the blocks of at most
+/// 32 pixels that JPEG has. Deflated data that go on beyond this are a bomb.
+std::uint64_t decoder_limit(std::size_t file, int width, int height) {
+  const auto padded = [](int side) { return std::uint64_t(side) + 32; };
+  return 4 * std::uint64_t(file) + 28 * padded(width) * padded(height) + decoder_tables;
+}
+
+std::string beyond(std::int64_t width, std::int64_t height) {
+  return "an image of " + std::to_string(width) + " x " + std::to_string(height) +
+         " pixels is beyond what we read: " + std::to_string(max_image_side) +
+         " pixels a side and " + std::to_string(max_image_pixels) + " in all";
+}
+
+/// Of a chunk that it does not know stb says the name, which may be any four bytes.
+std::string reason_of_stb() {
+  const std::string reason = stbi_failure_reason();
+  return reason.size() > 4 ? reason : "a chunk that nobody knows";
+}
+
+void refuse_damaged(std::span<const std::byte> bytes, const std::string& name) {
+  if (const auto damage = png_damage(bytes))
+    throw InputError({name, damage->byte, {}},
+                     std::string("the image is damaged: ") + damage->reason);
+}
+
+}  // namespace
+
+Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
+                    MemoryBudget budget) {
+  const auto fail = [&](const std::string& reason, const std::string& hint = {}) -> void {
+    throw InputError({name, {}, {}}, reason, hint);
+  };
+  if (bytes.size() > std::size_t(INT_MAX)) fail("an image of over 2 GiB");
+  if (const auto table = oversized_huffman_table(bytes)) {
+    if (table->in_header)
+      throw InputError({name, table->byte, {}},
+                       "the image is damaged: a Huffman table of more than 256 codes");
+    // Damage, or not the picture's any more: its decoder need not see that far.
+    bytes = bytes.first(static_cast<std::size_t>(table->byte));
+  }
+  const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
+  const int size = static_cast<int>(bytes.size());
+  int width = 0, height = 0, channels = 0;
+  {
+    const decoder_memory::Scope tables(MemoryBudget(decoder_tables), decoder_tables);
+    if (!stbi_info_from_memory(data, size, &width, &height, &channels)) {
+      // Of a PNG that it could not hold stb does not tell the size, which stands in the header.
+      const auto side = [&](std::size_t at) {
+        return std::uint32_t(data[at]) << 24 | data[at + 1] << 16 | data[at + 2] << 8 |
+               data[at + 3];
+      };
+      if (size >= 24 && std::memcmp(data, "\x89PNG", 4) == 0 &&
+          (std::uint64_t(side(16)) * side(20) > max_image_pixels ||
+           std::max(side(16), side(20)) > std::uint32_t(max_image_side)))
+        fail(beyond(side(16), side(20)));
+      refuse_damaged(bytes, name);
+      fail("not a PNG or JPEG image: " + reason_of_stb());
+    }
+  }
+  if (width < 1 || height < 1 || width > max_image_side || height > max_image_side ||
+      std::size_t(width) * height > max_image_pixels)
+    fail(beyond(width, height));
+  refuse_damaged(bytes, name);
+  PassingMemory passing(budget);
+  const std::string what = "an image of " + std::to_string(width) + " x " + std::to_string(height);
+  const std::uint64_t result_bytes = std::uint64_t(width) * std::uint64_t(height) * 4;
+  if (!budget.take(result_bytes) || budget.left() < decoder_tables)
+    fail(budget.refusal(what), max_memory_hint);
+  const decoder_memory::Scope scope(budget, decoder_limit(bytes.size(), width, height));
+  const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
+      stbi_load_from_memory(data, size, &width, &height, &channels, 4), &stbi_image_free);
+  if (scope.beyond_budget()) fail(budget.refusal(what), max_memory_hint);
+  if (scope.beyond_limit()) fail("the image is damaged: it unfolds to more than its pixels");
+  if (!pixels) fail("the image is damaged: " + reason_of_stb());
+  Image8 image(width, height);
+  std::memcpy(image.pixels.data(), pixels.get(), image.pixels.size() * 4);
+  passing.keep(result_bytes);
+  return image;
+}
+
+Image8 read_image(Input& input) {
+  PassingMemory passing(input.budget());
+  Image8 image = decode_image(input.read_rest(), input.name(), input.budget());
+  passing.keep(image.pixels.size() * sizeof image.pixels[0]);
+  return image;
+}
+
+std::vector<std::byte> encode_png(const Image8& image) {
+  int size = 0;
+  const std::unique_ptr<unsigned char, decltype(&std::free)> encoded(
+      stbi_write_png_to_mem(reinterpret_cast<const unsigned char*>(image.pixels.data()),
+                            image.width * 4, image.width, image.height, 4, &size),
+      &std::free);
+  if (!encoded) throw std::bad_alloc();
+  const auto* begin = reinterpret_cast<const std::byte*>(encoded.get());
+  return {begin, begin + size};
+}
+
+}  // namespace tureen

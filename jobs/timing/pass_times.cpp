@@ -1,0 +1,78 @@
+#include "jobs/timing/pass_times.hpp"
+
+#include <cassert>
+#include <chrono>
+#include <cstdio>
+
+#include "runtime/gl/timer_query.hpp"
+
+namespace tureen {
+
+namespace {
+
+/// Mean milliseconds a frame, from an idle device to an idle device.
+double wall_ms(Renderer& renderer, std::span<const Camera> cameras, int repeats) {
+  renderer.finish();
+  const auto start = std::chrono::steady_clock::now();
+  for (const Camera& camera : cameras) {
+    for (int i = 0; i < repeats; ++i) renderer.draw(camera);
+    renderer.finish();
+  }
+  const std::chrono::duration<double, std::milli> all = std::chrono::steady_clock::now() - start;
+  return all.count() / (double(repeats) * double(cameras.size()));
+}
+
+}  // namespace
+
+PassTimes believed(std::vector<std::pair<std::string, double>> passes, double wall_ms) {
+  double sum = 0;
+  for (const auto& [pass, ms] : passes) sum += ms;
+  // Timestamps round to a microsecond on some devices, and the two were not the same frames.
+  constexpr double tolerance = 1.1, rounding_ms = 0.002;
+  // Below it, what passes do not tell of is the larger part of a frame.
+  constexpr double most_of_it = 0.5;
+  char text[240];
+  // A clock of which all passes take no time stands still.
+  if (sum > 0 && sum <= wall_ms * tolerance + rounding_ms * double(passes.size())) {
+    if (sum >= wall_ms * most_of_it) return {.ms = std::move(passes), .reason = {}, .gpu_ms = sum};
+    std::snprintf(
+        text, sizeof text,
+        "the passes are %.3f ms of frames that take %.3f ms by the wall clock: the rest is "
+        "the processor's work, or the device's timers miss some of its own",
+        sum, wall_ms);
+    return {.ms = std::move(passes), .reason = text, .gpu_ms = sum};
+  }
+  std::snprintf(text, sizeof text,
+                "the device's timers say %.3f ms for frames that take %.3f ms by the wall clock: "
+                "only the processor's clock counts",
+                sum, wall_ms);
+  return {.ms = {}, .reason = text, .gpu_ms = {}};
+}
+
+PassTimes time_passes(const gl::Context& context, Renderer& renderer,
+                      std::span<const Camera> cameras, int repeats) {
+  assert(!cameras.empty() && repeats > 0);
+  if (const auto reason = gl::timers_mislead(context.capabilities()))
+    return {.ms = {}, .reason = *reason, .gpu_ms = {}};
+  gl::PassTimer timer(context);
+  renderer.time_passes(&timer);
+  std::vector<gl::PassTimer::PassTime> passes;
+  // Three attempts: a clock that was disturbed in all of them will be in a fourth.
+  for (int attempt = 0; attempt < 3 && passes.empty(); ++attempt) {
+    for (const Camera& camera : cameras)
+      for (int i = 0; i < repeats; ++i) renderer.draw(camera);
+    renderer.finish();
+    passes = timer.collect();
+  }
+  renderer.time_passes(nullptr);
+  if (passes.empty())
+    return {.ms = {},
+            .reason = "the device's clock was disturbed: only the processor's clock counts",
+            .gpu_ms = {}};
+  std::vector<std::pair<std::string, double>> ms;
+  for (const auto& each : passes)
+    ms.emplace_back(each.pass, each.ms / (double(repeats) * double(cameras.size())));
+  return believed(std::move(ms), wall_ms(renderer, cameras, repeats));
+}
+
+}  // namespace tureen

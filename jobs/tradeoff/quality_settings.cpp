@@ -1,0 +1,124 @@
+#include "jobs/tradeoff/quality_settings.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "jobs/visibility/visibility_count.hpp"
+
+namespace tureen::tradeoff {
+
+namespace {
+
+void unchanged(Applied&) {}
+
+std::string percent_text(double fraction) {
+  std::string text = std::to_string(int(fraction * 100 + 0.5));
+  return text + " %";
+}
+
+QualitySetting lattice_level(const LatticeTexture& texture) {
+  int finest = 0;
+  for (const LatticePatch& patch : texture.patches) finest = std::max(finest, int(patch.level));
+  QualitySetting setting{"lattice_level", "lattice level", {}};
+  for (int level = finest; level >= 0; --level)
+    setting.values.push_back({std::to_string(level), "lattice level " + std::to_string(level),
+                              [level](Applied& applied) { applied.edits.lattice_level = level; }});
+  setting.values.front().apply = unchanged;
+  return setting;
+}
+
+QualitySetting texel_bits(const LatticeTexture& texture) {
+  QualitySetting setting{"texel_bits", "texel bits", {}};
+  setting.values.push_back({texture.is_float() ? "32" : "8", "bits as stored", unchanged});
+  if (texture.is_float())
+    setting.values.push_back({"8", "8 bits a texel channel",
+                              [](Applied& applied) { applied.edits.byte_texels = true; }});
+  return setting;
+}
+
+QualitySetting color() {
+  const auto become = [](Edits::Color color) {
+    return [color](Applied& applied) { applied.edits.color = color; };
+  };
+  return {"color",
+          "colour",
+          {{"network", "color MLP", unchanged},
+           {"baked", "baked colour", become(Edits::Color::baked)},
+           {"base", "base colour", become(Edits::Color::base)}}};
+}
+
+QualitySetting triangle_budget(std::span<const std::uint64_t> visible_pixels) {
+  QualitySetting setting{
+      "triangle_fraction", "triangle budget", {{"1", "all triangles", unchanged}}};
+  // Few triangles have no tenth of them.
+  if (visible_pixels.size() < 10) return setting;
+  for (const double fraction : {0.5, 0.25, 0.1}) {
+    const std::vector<std::uint8_t> keeps_face = most_visible(visible_pixels, fraction);
+    setting.values.push_back(
+        {fraction == 0.5    ? "0.5"
+         : fraction == 0.25 ? "0.25"
+                            : "0.1",
+         percent_text(fraction) + " of the triangles",
+         [keeps_face](Applied& applied) { applied.edits.keeps_face = keeps_face; }});
+  }
+  return setting;
+}
+
+}  // namespace
+
+std::vector<QualitySetting> drawing_settings(const TriangleSoup& soup,
+                                             std::span<const std::uint64_t> visible_pixels) {
+  std::vector<QualitySetting> settings;
+  if (const auto* texture = std::get_if<LatticeTexture>(&soup.appearance)) {
+    settings.push_back(lattice_level(*texture));
+    settings.push_back(texel_bits(*texture));
+    if (texture->mlp) settings.push_back(color());
+  }
+  settings.push_back(triangle_budget(visible_pixels));
+  // A lattice of level 0 has no coarser one.
+  std::erase_if(settings, [](const QualitySetting& setting) { return setting.values.size() < 2; });
+  return settings;
+}
+
+std::vector<QualitySetting> antialiasing_settings(int max_samples) {
+  QualitySetting scale{
+      "resolution_scale", "resolution scale", {{"1", "full resolution", unchanged}}};
+  for (const double factor : {0.75, 0.5})
+    scale.values.push_back(
+        {factor == 0.5 ? "0.5" : "0.75", percent_text(factor) + " of the rows and columns",
+         [factor](Applied& applied) { applied.quality.resolution_scale = factor; }});
+  QualitySetting samples{
+      "supersampling", "supersampling", {{"1", "one sample a pixel", unchanged}}};
+  for (int n = 2; n <= max_samples; n *= 2)
+    samples.values.push_back({std::to_string(n),
+                              std::to_string(n) + " x " + std::to_string(n) + " samples a pixel",
+                              [n](Applied& applied) { applied.quality.supersampling = n; }});
+  return {scale, samples};
+}
+
+std::vector<int> value_counts(const std::vector<QualitySetting>& settings) {
+  std::vector<int> counts;
+  for (const QualitySetting& setting : settings) counts.push_back(int(setting.values.size()));
+  return counts;
+}
+
+Applied applied_by(const std::vector<QualitySetting>& settings,
+                   const Configuration& configuration) {
+  assert(settings.size() == configuration.size());
+  Applied applied;
+  for (std::size_t i = 0; i < settings.size(); ++i)
+    settings[i].values[std::size_t(configuration[i])].apply(applied);
+  return applied;
+}
+
+std::string describe(const std::vector<QualitySetting>& settings,
+                     const Configuration& configuration) {
+  assert(settings.size() == configuration.size());
+  std::string text;
+  for (std::size_t i = 0; i < settings.size(); ++i)
+    if (configuration[i] != 0)
+      text += (text.empty() ? "" : ", ") + settings[i].values[std::size_t(configuration[i])].words;
+  return text.empty() ? "defaults" : text;
+}
+
+}  // namespace tureen::tradeoff

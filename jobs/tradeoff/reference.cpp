@@ -1,0 +1,70 @@
+#include "jobs/tradeoff/reference.hpp"
+
+#include <algorithm>
+
+#include "runtime/gl/api.hpp"
+
+namespace tureen::tradeoff {
+
+namespace {
+
+constexpr double rays_in_a_strip = 4e6;
+
+/// Rows [first, first + rows) of what the camera sees.
+Camera strip_of(const Camera& camera, int first, int rows) {
+  Camera strip = camera;
+  strip.height = rows;
+  strip.cy -= first;
+  return strip;
+}
+
+/// With alpha as the part of a pixel's rays that hit something.
+void set_coverage(OracleImage& image, int supersampling) {
+  const auto width = std::size_t(image.color.width), n = std::size_t(supersampling);
+  std::vector<int> hits(image.color.pixels.size());
+  for (std::size_t ray = 0; ray < image.face.size(); ++ray) {
+    const std::size_t column = ray % (width * n) / n, row = ray / (width * n) / n;
+    hits[row * width + column] += image.face[ray] != OracleImage::no_face;
+  }
+  for (std::size_t i = 0; i < hits.size(); ++i)
+    image.color.pixels[i].a = float(hits[i]) / float(n * n);
+}
+
+}  // namespace
+
+int device_subpixel_bits() {
+  GLint bits = 0;
+  glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
+  return bits >= 1 && bits <= 16 ? bits : 8;
+}
+
+ImageF reference_picture(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera,
+                         const ReferenceOptions& options) {
+  const bool antialiased = options.samples == Samples::antialiased;
+  const int n = antialiased ? antialiased_samples : 1;
+  // A snapped picture is not cut: where a triangle is clipped depends on the picture's border.
+  const int rows = antialiased
+                       ? std::clamp(int(rays_in_a_strip / (n * n) / camera.width), 1, camera.height)
+                       : camera.height;
+  OracleOptions oracle;
+  oracle.supersampling = n;
+  oracle.background = options.background;
+  if (options.samples == Samples::device) {
+    oracle.rays.coverage = oracle::Coverage::snapped;
+    oracle.rays.subpixel_bits = options.subpixel_bits;
+  }
+  ImageF picture(camera.width, camera.height);
+  for (int first = 0; first < camera.height; first += rows) {
+    const Camera strip = strip_of(camera, first, std::min(rows, camera.height - first));
+    if (options.progress)
+      oracle.progress = [&](double fraction) {
+        options.progress((first + fraction * strip.height) / camera.height);
+      };
+    OracleImage image = render_oracle(soup, origin, strip, oracle);
+    set_coverage(image, n);
+    std::copy(image.color.pixels.begin(), image.color.pixels.end(), &picture.at(0, first));
+  }
+  return picture;
+}
+
+}  // namespace tureen::tradeoff

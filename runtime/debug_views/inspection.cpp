@@ -1,0 +1,207 @@
+#include "runtime/debug_views/inspection.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/ext/vector_uint4_sized.hpp>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "base/decimal_text.hpp"
+
+namespace tureen {
+
+namespace {
+
+constexpr std::array inspections{
+    InspectionName{Inspection::color, "color", "final colour", "as it is drawn"},
+    InspectionName{Inspection::depth, "depth", "depth", "distance along the viewing axis"},
+    InspectionName{Inspection::normals, "normals", "normals", "(n + 1) / 2, towards the eye"},
+    InspectionName{Inspection::triangle_id, "triangle-id", "triangle id", "a colour a triangle"},
+    InspectionName{Inspection::texels, "texels", "texels", "the nearest texel, not interpolated"},
+    InspectionName{Inspection::alpha, "alpha", "alpha", "also where it is cut out"},
+    InspectionName{Inspection::mlp_weight, "mlp-weight", "MLP weight",
+                   "how much of the network is blended in"},
+    InspectionName{Inspection::features, "features", "features", "what the texels store"},
+    InspectionName{Inspection::overdraw, "overdraw", "overdraw", "fragments a pixel"},
+    InspectionName{Inspection::wireframe, "wireframe", "wireframe", "edges over the dimmed colour"},
+};
+
+const ColorMlp* network_of(const TriangleSoup& soup) {
+  const std::optional<ColorMlp>* mlp = nullptr;
+  if (const auto* texture = std::get_if<LatticeTexture>(&soup.appearance)) mlp = &texture->mlp;
+  if (const auto* textures = std::get_if<UvTextures>(&soup.appearance)) mlp = &textures->mlp;
+  return mlp && *mlp ? &**mlp : nullptr;
+}
+
+std::string stored_instead(const TriangleSoup& soup) {
+  return std::string(" (the soup stores ") + appearance_name(soup.appearance) + ")";
+}
+
+bool has_texels(const TriangleSoup& soup) {
+  const auto* textures = std::get_if<UvTextures>(&soup.appearance);
+  return std::holds_alternative<LatticeTexture>(soup.appearance) ||
+         (textures && !textures->images.empty());
+}
+
+std::uint32_t mixed_bits(std::uint32_t x) {
+  // A bijection of 32 bits found by search for the least bias: lowbias32 of Chris Wellons' "hash
+  // prospector".
+  x = (x ^ (x >> 16)) * 0x7feb352du;
+  x = (x ^ (x >> 15)) * 0x846ca68bu;
+  return x ^ (x >> 16);
+}
+
+glm::u8vec4 bytes(glm::vec3 color) {
+  return glm::u8vec4(glm::vec4(glm::clamp(color, 0.0f, 1.0f), 1.0f) * 255.0f + 0.5f);
+}
+
+Legend depth_legend(const DepthScale& scale) {
+  Legend entries;
+  constexpr int last = 4;
+  for (int i = 0; i <= last; ++i) {
+    const double t = double(i) / last;
+    entries.push_back({bytes(heat_ramp(float(1 - t))),
+                       short_decimal(scale.near * std::pow(scale.far / scale.near, t), 3)});
+  }
+  return entries;
+}
+
+Legend overdraw_legend() {
+  Legend entries;
+  for (int count = 1; count <= 128; count *= 2)
+    entries.push_back({bytes(overdraw_color(count)), std::to_string(count)});
+  entries.push_back({bytes(overdraw_color(most_counted_fragments)),
+                     std::to_string(most_counted_fragments) + " or more"});
+  return entries;
+}
+
+Legend feature_legend(const FeatureChoice& choice) {
+  if (choice.count == 1) return {{{0, 0, 0, 255}, "0"}, {{255, 255, 255, 255}, "1"}};
+  constexpr std::array<glm::u8vec4, 3> channels{
+      {{255, 0, 0, 255}, {0, 255, 0, 255}, {0, 0, 255, 255}}};
+  Legend entries;
+  for (int i = 0; i < choice.count; ++i)
+    entries.push_back({channels[std::size_t(i)], "feature " + std::to_string(choice.first + i)});
+  return entries;
+}
+
+}  // namespace
+
+std::span<const InspectionName> inspection_names() { return inspections; }
+
+const char* name_of(Inspection what) { return inspections[std::size_t(what)].name; }
+
+std::optional<Inspection> inspection_named(std::string_view name) {
+  for (const InspectionName& known : inspections)
+    if (name == known.name) return known.what;
+  return std::nullopt;
+}
+
+int feature_count(const TriangleSoup& soup) {
+  if (std::holds_alternative<LatticeTexture>(soup.appearance)) return LatticeTexture::features;
+  return network_of(soup) ? 8 : 0;
+}
+
+std::optional<std::string> why_not(Inspection what, const TriangleSoup& soup) {
+  const ColorMlp* network = network_of(soup);
+  switch (what) {
+    case Inspection::texels:
+      if (!has_texels(soup)) return "There are no texels" + stored_instead(soup) + ".";
+      break;
+    case Inspection::alpha:
+      if (std::holds_alternative<Harmonics>(soup.appearance))
+        return "There is no alpha, every triangle is opaque" + stored_instead(soup) + ".";
+      break;
+    case Inspection::mlp_weight:
+      if (!network) return "There is no color MLP" + stored_instead(soup) + ".";
+      if (!network->blend_channel)
+        return "The color MLP is not blended with anything: it makes the whole colour.";
+      break;
+    case Inspection::features:
+      if (feature_count(soup) == 0) return "There are no features" + stored_instead(soup) + ".";
+      break;
+    default:
+      break;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> why_not(const FeatureChoice& choice, int feature_count) {
+  if (choice.count < 1 || choice.count > 3) return "One, two or three features show at once.";
+  if (choice.first < 0 || choice.first + choice.count > feature_count)
+    return "Features are numbered from 0 to " + std::to_string(feature_count - 1) + ".";
+  return std::nullopt;
+}
+
+glm::vec3 triangle_color(std::uint32_t face) {
+  const std::uint32_t h = mixed_bits(face + 1);
+  return 0.25f + 0.75f / 255.0f * glm::vec3(h & 255, h >> 8 & 255, h >> 16 & 255);
+}
+
+double DepthScale::position(double depth) const {
+  return std::clamp(std::log(depth / near) / std::log(far / near), 0.0, 1.0);
+}
+
+DepthScale depth_scale(const Bounds& bounds, glm::dvec3 eye) {
+  // A soup that is a single point still needs a range.
+  const double radius = std::max(bounds.radius(), 1e-6);
+  const double distance = glm::length(bounds.centre() - eye);
+  const double far = distance + radius;
+  return {std::max(distance - radius, far / 50), far};
+}
+
+Bounds middle_bounds(const TriangleSoup& soup) {
+  Bounds result = bounds(soup);
+  std::vector<float> along;
+  for (int axis = 0; axis < 3; ++axis) {
+    along.clear();
+    for (const glm::uvec3& t : soup.triangles)
+      for (int k = 0; k < 3; ++k)
+        if (const float value = soup.positions[t[k]][axis]; std::isfinite(value))
+          along.push_back(value);
+    const std::size_t cut = along.size() / 100;
+    if (cut == 0) continue;
+    const auto low = along.begin() + std::ptrdiff_t(cut),
+               high = along.end() - 1 - std::ptrdiff_t(cut);
+    std::nth_element(along.begin(), low, along.end());
+    result.low[axis] = *low;
+    std::nth_element(low, high, along.end());
+    result.high[axis] = *high;
+  }
+  return result;
+}
+
+glm::vec3 overdraw_color(int count) { return heat_ramp(std::log2(float(count)) / 8.0f); }
+
+glm::vec3 cut_out_color(float part_of_threshold) {
+  return glm::mix(glm::vec3(0.22f, 0.08f, 0.36f), glm::vec3(0.78f, 0.42f, 0.70f),
+                  part_of_threshold);
+}
+
+Legend legend(Inspection what, const DepthScale& scale, const FeatureChoice& choice) {
+  constexpr glm::u8vec4 black{0, 0, 0, 255}, grey{128, 128, 128, 255}, white{255, 255, 255, 255};
+  switch (what) {
+    case Inspection::depth:
+      return depth_legend(scale);
+    case Inspection::normals:
+      return {
+          {{255, 128, 128, 255}, "x"}, {{128, 255, 128, 255}, "y"}, {{128, 128, 255, 255}, "z"}};
+    case Inspection::alpha:
+      return {{bytes(cut_out_color(0)), "0, cut out"},
+              {bytes(cut_out_color(1)), "just cut out"},
+              {grey, "just kept"},
+              {white, "1"}};
+    case Inspection::mlp_weight:
+      return {{black, "base colour"}, {white, "network"}};
+    case Inspection::features:
+      return feature_legend(choice);
+    case Inspection::overdraw:
+      return overdraw_legend();
+    default:
+      return {};
+  }
+}
+
+}  // namespace tureen

@@ -1,0 +1,375 @@
+#include "runtime/debug_views/inspector.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "base/error.hpp"
+#include "runtime/gl/state.hpp"
+#include "runtime/passes/device_appearance.hpp"
+#include "runtime/passes/fragment_store.hpp"
+#include "runtime/passes/geometry.hpp"
+#include "runtime/passes/shader_source.hpp"
+#include "runtime/passes/targets.hpp"
+#include "runtime/renderer.hpp"
+#include "scene/clip_range.hpp"
+
+namespace tureen {
+
+namespace {
+
+/// A plan that keeps all there is to see. Only how the same is computed may be chosen.
+RenderPlan make_inspection_plan(const TriangleSoup& soup, const DeviceLimits& limits,
+                                const InspectorOptions& options) {
+  SpecialisationSet wanted;
+  wanted.add(Specialisation::weight_uniforms);
+  wanted.add(Specialisation::dead_neurons);
+  RenderPlan plan = make_plan(soup, limits,
+                              {.specialisations = wanted,
+                               .reversed_depth = options.reversed_depth,
+                               .site = ShadingSite::deferred});
+  plan.latent_features = feature_count(soup) > 4;
+  return plan;
+}
+
+const char* shader_of(const TriangleSoup& soup) {
+  return std::holds_alternative<LatticeTexture>(soup.appearance) ? "inspection_lattice.glsl"
+         : std::holds_alternative<UvTextures>(soup.appearance)   ? "inspection_uv.glsl"
+                                                                 : "inspection_plain.glsl";
+}
+
+/// With what of the geometry a pixel looks up: shaders/face_corners.glsl and inspection.frag.
+AppearanceSource inspected_appearance(const TriangleSoup& soup, const RenderPlan& plan,
+                                      const TexelLayout& layout) {
+  AppearanceSource appearance = prepare_appearance(soup, plan, layout);
+  std::vector<glm::vec3> corners;
+  corners.reserve(3 * plan.faces.size());
+  for (const std::uint32_t face : plan.faces)
+    for (int k = 0; k < 3; ++k) corners.push_back(soup.positions[soup.triangles[face][k]]);
+  appearance.samplers.push_back(
+      {"corners", TexelSource::of(texel_formats::rgb32f, std::move(corners), "corners")});
+  appearance.samplers.push_back(
+      {"soup_faces", TexelSource::of(texel_formats::r32ui, plan.faces, "faces")});
+  appearance.fit_layout(layout);
+  return appearance;
+}
+
+/// SHOW_DEPTH and the like, from the names on the command line.
+std::string constant_of(const InspectionName& inspection) {
+  std::string constant = std::string("SHOW_") + inspection.name;
+  for (char& c : constant) c = c == '-' ? '_' : c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c;
+  return constant;
+}
+
+/// How bright the colours below the wireframe's lines are.
+constexpr const char* dimmed = "0.4";
+
+}  // namespace
+
+struct Inspector::State {
+  State(const gl::Capabilities& capabilities, const TriangleSoup& soup, glm::dvec3 soup_origin,
+        const InspectorOptions& options);
+
+  const gl::Program& geometry_program(const char* fragment, bool alpha_test);
+  const gl::Program& shown_program();
+  void resize(int width, int height);
+  void draw(const FrameCamera& frame);
+  void draw_faces(const gl::Program& program, const FrameCamera& frame);
+  void draw_visibility(const FrameCamera& frame);
+  void draw_shown(const FrameCamera& frame);
+  void draw_edges(const FrameCamera& frame);
+  void draw_overdraw(const FrameCamera& frame);
+  void draw_full_screen(const gl::Program& program);
+  void set_corners(const gl::Program& program, const FrameCamera& frame) const;
+
+  gl::Capabilities device;
+  glm::dvec3 origin;
+  glm::vec4 background;
+  Bounds all, middle;
+  const char* shader;
+  std::optional<int> blend_channel;
+  std::array<std::optional<std::string>, 10> refusals;  // by Inspection
+  int features = 0;
+  RenderPlan plan;
+  DeviceAppearance appearance;
+  Geometry geometry;
+  gl::LocalVertexArray nothing;
+  FrontToBack order;
+  std::map<std::string, gl::Program> programs;
+
+  Inspection what = Inspection::color;
+  FeatureChoice choice;
+  DepthScale scale;
+  int width = 0, height = 0;
+  gl::Texture depth, color, counts;
+  gl::Framebuffer color_framebuffer, counts_framebuffer;
+  FragmentStore store;
+};
+
+Inspector::State::State(const gl::Capabilities& capabilities, const TriangleSoup& soup,
+                        glm::dvec3 soup_origin, const InspectorOptions& options)
+    : device(capabilities),
+      origin(soup_origin),
+      background(options.background),
+      all(bounds(soup)),
+      middle(middle_bounds(soup)),
+      shader(shader_of(soup)),
+      features(feature_count(soup)),
+      plan(make_inspection_plan(soup, device_limits(capabilities), options)),
+      appearance(inspected_appearance(soup, plan, TexelLayout::of(device_limits(capabilities)))),
+      geometry(prepare_geometry(soup, plan.faces)) {
+  for (const InspectionName& name : inspection_names())
+    refusals[std::size_t(name.what)] = why_not(name.what, soup);
+  if (const auto* texture = std::get_if<LatticeTexture>(&soup.appearance); texture && texture->mlp)
+    blend_channel = texture->mlp->blend_channel;
+  if (const auto* textures = std::get_if<UvTextures>(&soup.appearance); textures && textures->mlp)
+    blend_channel = textures->mlp->blend_channel;
+  gl::check("Inspector");
+}
+
+// -- programs, each made when it is first needed ------------------------------------------------
+
+const gl::Program& Inspector::State::geometry_program(const char* fragment, bool alpha_test) {
+  const std::string key = std::string(fragment) + (alpha_test ? " tested" : "");
+  const auto known = programs.find(key);
+  if (known != programs.end()) return known->second;
+  ShaderSource source{.file = fragment,
+                      .constants = appearance.constants,
+                      .generated = {{"appearance.glsl", appearance.glsl}}};
+  source.constants["ALPHA_TEST"] = alpha_test ? "1" : "0";
+  source.constants["LINE_PIXELS"] = "1.0";
+  source.constants["LINE_COLOR"] = "vec3(0.94)";
+  const ShaderSource vertex{.file = "geometry.vert"};
+  gl::Program program(assemble(vertex, device.api), assemble(source, device.api));
+  return programs.emplace(key, std::move(program)).first->second;
+}
+
+const gl::Program& Inspector::State::shown_program() {
+  const std::string key = what == Inspection::mlp_weight ? "features" : name_of(what);
+  const auto known = programs.find(key);
+  if (known != programs.end()) return known->second;
+  ShaderSource source{
+      .file = what == Inspection::overdraw ? "overdraw.frag" : "inspection.frag",
+      .constants = appearance.constants,
+      .generated = {{"appearance.glsl", appearance.glsl},
+                    {"inspected_appearance.glsl", std::string("#include \"") + shader + "\"\n"}}};
+  for (const InspectionName& name : inspection_names())
+    source.constants[constant_of(name)] = std::to_string(int(name.what));
+  source.constants["SHOWN"] = std::to_string(int(what));
+  source.constants["NO_FACE"] = "0xffffffffu";
+  source.constants["COLOR_SCALE"] = what == Inspection::wireframe ? dimmed : "1.0";
+  const ShaderSource vertex{.file = "full_screen.vert"};
+  gl::Program program(assemble(vertex, device.api), assemble(source, device.api));
+  return programs.emplace(key, std::move(program)).first->second;
+}
+
+// -- the passes ---------------------------------------------------------------------------------
+
+void Inspector::State::resize(int new_width, int new_height) {
+  width = height = 0;  // should it throw, the next frame starts anew
+  color = make_target(target_formats::rgba8, new_width, new_height);
+  counts = make_target(target_formats::rgba8, new_width, new_height);
+  depth = make_target(plan.reversed_depth ? target_formats::depth32f : target_formats::depth24,
+                      new_width, new_height);
+  color_framebuffer = make_framebuffer({color.id()}, depth.id());
+  counts_framebuffer = make_framebuffer({counts.id()}, 0);
+  store = FragmentStore(new_width, new_height, depth.id());
+  width = new_width;
+  height = new_height;
+}
+
+void Inspector::State::draw(const FrameCamera& frame) {
+  gl::use_plain_rasterisation(width, height);
+  if (plan.reversed_depth) gl::use_zero_to_one_depth(device.api, true);
+  if (what == Inspection::overdraw) {
+    draw_overdraw(frame);
+  } else {
+    draw_visibility(frame);
+    draw_shown(frame);
+    if (what == Inspection::wireframe) draw_edges(frame);
+  }
+  if (plan.reversed_depth) gl::use_zero_to_one_depth(device.api, false);
+  gl::check("Inspector::draw");
+}
+
+/// In the order in which the ordinary frame draws them.
+void Inspector::State::draw_faces(const gl::Program& program, const FrameCamera& frame) {
+  if (plan.clusters.empty()) return;
+  program.use();
+  appearance.bind(program);
+  geometry.bind();
+  const glm::dmat4 projection =
+      plan.reversed_depth ? clip_from_view_reversed(frame.camera, frame.range.near)
+                          : clip_from_view(frame.camera, frame.range.near, frame.range.far);
+  Geometry::set_camera(program, frame, projection);
+  set_corners(program, frame);
+  const glm::dvec3 forward = -frame.camera.world_from_view_rotation()[2];
+  order.sort(plan.clusters, glm::vec3(frame.eye), glm::vec3(forward));
+  const auto first = order.first_vertices(), count = order.vertex_counts();
+#ifndef __EMSCRIPTEN__
+  if (device.multi_draw) {
+    glMultiDrawArrays(GL_TRIANGLES, first.data(), count.data(), static_cast<GLsizei>(first.size()));
+    return;
+  }
+#endif
+  for (std::size_t i = 0; i < first.size(); ++i) glDrawArrays(GL_TRIANGLES, first[i], count[i]);
+}
+
+void Inspector::State::draw_visibility(const FrameCamera& frame) {
+  store.begin();
+  const float far = plan.reversed_depth ? 0.0f : 1.0f;
+  glClearBufferfv(GL_DEPTH, 0, &far);
+  glDepthFunc(plan.reversed_depth ? GL_GREATER : GL_LESS);
+  draw_faces(geometry_program("visibility.frag", what != Inspection::alpha), frame);
+}
+
+void Inspector::State::draw_shown(const FrameCamera& frame) {
+  const gl::Program& program = shown_program();
+  glBindFramebuffer(GL_FRAMEBUFFER, color_framebuffer.id());
+  program.use();
+  appearance.bind(program);
+  set_eye(program, frame.eye);
+  set_rays(program, frame.camera);
+  set_corners(program, frame);
+  program.set("background", background);
+  program.set("depth_scale",
+              glm::vec2(std::log(scale.near), 1.0 / std::log(scale.far / scale.near)));
+  const bool weight = what == Inspection::mlp_weight;
+  program.set("first_feature", weight ? blend_channel.value_or(0) : choice.first);
+  program.set("features_shown", weight ? 1 : choice.count);
+  store.bind(program, appearance.unit_count());
+  draw_full_screen(program);
+}
+
+/// Edges lie as deep as their faces: those that the picture shows pass, and those of fragments that
+/// the alpha test has thrown away in front of it.
+void Inspector::State::draw_edges(const FrameCamera& frame) {
+  glBindFramebuffer(GL_FRAMEBUFFER, color_framebuffer.id());
+  glDepthMask(GL_FALSE);
+  glDepthFunc(plan.reversed_depth ? GL_GEQUAL : GL_LEQUAL);
+  draw_faces(geometry_program("wireframe.frag", false), frame);
+  glDepthMask(GL_TRUE);
+}
+
+void Inspector::State::draw_overdraw(const FrameCamera& frame) {
+  glBindFramebuffer(GL_FRAMEBUFFER, counts_framebuffer.id());
+  const float none[4] = {0, 0, 0, 0};
+  glClearBufferfv(GL_COLOR, 0, none);
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendEquation(GL_FUNC_ADD);
+  glBlendFunc(GL_ONE, GL_ONE);
+  draw_faces(geometry_program("fragment_count.frag", false), frame);
+  glDisable(GL_BLEND);
+
+  const gl::Program& program = shown_program();
+  glBindFramebuffer(GL_FRAMEBUFFER, color_framebuffer.id());
+  program.use();
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, counts.id());
+  gl::use_texture_sampling(0);
+  program.set("counts", 0);
+  program.set("background", background);
+  draw_full_screen(program);
+}
+
+void Inspector::State::draw_full_screen(const gl::Program& program) {
+  glDisable(GL_DEPTH_TEST);
+  program.set("background_depth", 0.0f);
+  nothing.bind();
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glEnable(GL_DEPTH_TEST);
+}
+
+/// The uniforms of face_corners.glsl: window y runs up, image y down.
+void Inspector::State::set_corners(const gl::Program& program, const FrameCamera& frame) const {
+  const Camera& camera = frame.camera;
+  const glm::dmat3 axes = camera.world_from_view_rotation();
+  program.set("view_axis", glm::vec3(-axes[2]));
+  program.set("window_x", glm::vec3(camera.fx * axes[0] - camera.cx * axes[2]));
+  program.set("window_y", glm::vec3(camera.fy * axes[1] - (camera.height - camera.cy) * axes[2]));
+}
+
+// -- the class ----------------------------------------------------------------------------------
+
+Inspector::Inspector(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
+                     const InspectorOptions& options) {
+  gl::use_plain_pixel_transfer();
+  state_ = std::make_unique<State>(context.capabilities(), soup, origin, options);
+}
+
+Inspector::~Inspector() = default;
+Inspector::Inspector(Inspector&&) noexcept = default;
+Inspector& Inspector::operator=(Inspector&&) noexcept = default;
+
+void Inspector::show(Inspection what, const FeatureChoice& features) {
+  if (const auto& refusal = state_->refusals[std::size_t(what)]) throw UsageError(*refusal);
+  if (what == Inspection::features)
+    if (const auto refusal = why_not(features, state_->features)) throw UsageError(*refusal);
+  state_->what = what;
+  state_->choice = features;
+}
+
+void Inspector::set_background(glm::vec4 background) { state_->background = background; }
+
+void Inspector::draw(const Camera& camera) {
+  State& state = *state_;
+  assert(camera.width > 0 && camera.height > 0);
+  require_drawable(camera.width, camera.height, state.device.max_picture_side);
+  if (camera.width != state.width || camera.height != state.height)
+    state.resize(camera.width, camera.height);
+  const glm::dvec3 eye = camera.eye() - state.origin;
+  const DepthStorage storage =
+      state.plan.reversed_depth ? DepthStorage::reversed_float : DepthStorage::fixed_24;
+  state.scale = depth_scale(state.middle, eye);
+  state.draw({camera, eye, clip_range(state.all, eye, forward_of(camera), storage)});
+}
+
+void Inspector::finish() const { glFinish(); }
+
+Image8 Inspector::read_color() const {
+  assert(state_->width > 0 && "no frame has been drawn");
+  return read_pixels(state_->color_framebuffer.id(), state_->width, state_->height);
+}
+
+std::vector<std::uint32_t> Inspector::read_faces() const {
+  if (state_->what == Inspection::overdraw) return {};
+  return read_visible_faces(state_->store.framebuffer(), {state_->width, state_->height},
+                            state_->plan.faces);
+}
+
+std::vector<std::uint8_t> Inspector::read_fragment_counts() const {
+  if (state_->what != Inspection::overdraw) return {};
+  const Image8 image = read_pixels(state_->counts_framebuffer.id(), state_->width, state_->height);
+  std::vector<std::uint8_t> result(image.pixels.size());
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = image.pixels[i].r;
+  return result;
+}
+
+void Inspector::blit_to(unsigned framebuffer) const {
+  blit_color(state_->color_framebuffer.id(), framebuffer, {state_->width, state_->height});
+}
+
+Legend Inspector::legend() const {
+  return tureen::legend(state_->what, state_->scale, state_->choice);
+}
+
+void Inspector::leave_context() {
+  finish();
+  state_->geometry.leave_context();
+  state_->nothing.forget();
+  state_->color_framebuffer = {};
+  state_->counts_framebuffer = {};
+  state_->store = {};
+  state_->width = state_->height = 0;
+}
+
+std::size_t Inspector::device_bytes() const {
+  return state_->appearance.device_bytes() + state_->geometry.device_bytes();
+}
+
+}  // namespace tureen

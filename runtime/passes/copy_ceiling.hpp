@@ -1,0 +1,35 @@
+// A picture copied by a full-screen triangle: the ceiling of every pass that touches all pixels.
+// The ceiling of the triangles is the runtime's own pipeline with ShadingSite::nowhere.
+#pragma once
+
+#include <memory>
+
+#include "image/image.hpp"
+#include "runtime/gl/context.hpp"
+
+namespace tureen {
+
+class CopyCeiling {
+ public:
+  /// The context must be current for every call, and on destruction.
+  explicit CopyCeiling(const gl::Context& context);
+  ~CopyCeiling();
+  CopyCeiling(CopyCeiling&&) noexcept;
+  CopyCeiling& operator=(CopyCeiling&&) noexcept;
+
+  /// Copies width x height RGBA8 pixels from one texture into another of that size. Returns before
+  /// the device has finished. Throws DeviceLimitError for a size that the device lacks memory for.
+  void draw(int width, int height);
+
+  /// Waits for the device.
+  void finish() const;
+
+  /// The last copy, row 0 on top. Waits for the device. Asserts that there was one.
+  Image8 read_copy() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace tureen

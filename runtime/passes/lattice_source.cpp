@@ -1,0 +1,228 @@
+#include "runtime/passes/lattice_source.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <glm/vec4.hpp>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "base/error.hpp"
+#include "scene/lattice.hpp"
+
+namespace tureen {
+
+namespace {
+
+/// What one run of texels or cells on the device comes from.
+struct Run {
+  std::uint64_t first;  // on the device
+  std::uint32_t face;   // of the soup
+  int level;            // on the device, at most the soup's
+};
+
+/// Where the texels and cells of each slot come from and go to.
+class Placement {
+ public:
+  Placement(const LatticeTexture& texture, const RenderPlan& plan) : texture_(texture) {
+    // Without a uniform level and without levels of our own the texels stay as the soup has them,
+    // and faces that share texels share their cells.
+    repacked_ = plan.lattice.uniform_level >= 0 || !plan.lattice.levels.empty();
+    patches_.resize(plan.faces.size());
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> known_cells;
+    for (std::size_t slot = 0; slot < plan.faces.size(); ++slot) {
+      const std::uint32_t face = plan.faces[slot];
+      const LatticePatch& patch = texture.patches[face];
+      const int level =
+          plan.lattice.levels.empty() ? int(patch.level) : int(plan.lattice.levels[slot]);
+      std::uint64_t first_texel = patch.first_texel, first_cell = cell_count_;
+      bool new_cells = true;
+      if (repacked_) {
+        first_texel = texel_count_;
+        texel_runs_.push_back({texel_count_, face, level});
+        texel_count_ += lattice::texel_count(level);
+      } else {
+        const auto [known, inserted] =
+            known_cells.try_emplace({patch.first_texel, patch.level}, cell_count_);
+        first_cell = known->second;
+        new_cells = inserted;
+      }
+      if (new_cells) {
+        cell_runs_.push_back({cell_count_, face, level});
+        cell_count_ += lattice::cell_count(level);
+      }
+      patches_[slot] = glm::uvec4(std::uint32_t(first_texel), level, std::uint32_t(first_cell), 0);
+    }
+    if (!repacked_) texel_count_ = texture.texel_count();
+  }
+
+  std::uint64_t texel_count() const { return texel_count_; }
+  std::uint64_t cells() const { return cell_count_; }
+  std::span<const glm::uvec4> patches() const { return patches_; }
+
+  /// Calls visit(i, source) for texels [first, first + count) of the device, `source` being the
+  /// soup's texel that belongs there.
+  template <class Visit>
+  void for_each_texel(std::uint64_t first, std::uint64_t count, const Visit& visit) const {
+    if (!repacked_) {
+      for (std::uint64_t i = 0; i < count; ++i) visit(i, first + i);
+      return;
+    }
+    for_each_run(
+        texel_runs_, first, count, [](const Run& run) { return lattice::texel_count(run.level); },
+        [&](const Run& run) {
+          return [&, source = Source(texture_.patches[run.face], run.level)](
+                     std::uint64_t i, std::uint32_t k) { visit(i, source.texel(k)); };
+        });
+  }
+
+  /// The same for cells: `sources` are the soup's texels at the corners (x+1, y), (x, y+1), (x, y)
+  /// and (x+1, y+1), the last one moved to the border on the last diagonal.
+  template <class Visit>
+  void for_each_cell(std::uint64_t first, std::uint64_t count, const Visit& visit) const {
+    for_each_run(
+        cell_runs_, first, count, [](const Run& run) { return lattice::cell_count(run.level); },
+        [&](const Run& run) {
+          return [&, source = Source(texture_.patches[run.face], run.level),
+                  n = lattice::resolution(run.level)](std::uint64_t i, std::uint32_t k) {
+            const auto [x, y] = lattice::texel_coordinates(k);
+            const int corner_y = std::min(y + 1, n - (x + 1));
+            visit(i, std::array{source.texel(lattice::texel_index(x + 1, y)),
+                                source.texel(lattice::texel_index(x, y + 1)),
+                                source.texel(lattice::texel_index(x, y)),
+                                source.texel(lattice::texel_index(x + 1, corner_y))});
+          };
+        });
+  }
+
+ private:
+  /// Texel k of a face on the device as a texel of the soup: a face below its soup's level keeps
+  /// its three corners.
+  class Source {
+   public:
+    Source(const LatticePatch& patch, int level)
+        : first_(patch.first_texel), corners_only_(level < int(patch.level)) {
+      const int n = lattice::resolution(int(patch.level));
+      corners_ = {lattice::texel_index(0, 0), lattice::texel_index(n, 0),
+                  lattice::texel_index(0, n)};
+    }
+    std::uint64_t texel(std::uint32_t k) const {
+      return first_ + (corners_only_ ? corners_[k] : k);
+    }
+
+   private:
+    std::uint64_t first_;
+    bool corners_only_;
+    std::array<std::uint32_t, 3> corners_;
+  };
+
+  template <class Length, class MakeVisit>
+  static void for_each_run(const std::vector<Run>& runs, std::uint64_t first, std::uint64_t count,
+                           const Length& length, const MakeVisit& make_visit) {
+    auto run = std::upper_bound(runs.begin(), runs.end(), first,
+                                [](std::uint64_t f, const Run& r) { return f < r.first; });
+    if (run != runs.begin()) --run;
+    for (std::uint64_t i = 0; i < count; ++run) {
+      const auto visit = make_visit(*run);
+      auto k = std::uint32_t(first + i - run->first);
+      for (const std::uint32_t end = length(*run); k < end && i < count; ++k, ++i) visit(i, k);
+    }
+  }
+
+  const LatticeTexture& texture_;
+  bool repacked_ = false;
+  std::uint64_t texel_count_ = 0, cell_count_ = 0;
+  std::vector<Run> texel_runs_, cell_runs_;
+  std::vector<glm::uvec4> patches_;
+};
+
+using SharedPlacement = std::shared_ptr<const Placement>;
+
+/// Four channels a texel from `channel` on; those past the last feature are 0.
+template <class Value>
+TexelSource feature_source(const std::vector<Value>& values, const SharedPlacement& placement,
+                           const TexelFormat& format, int channel) {
+  const auto copied = std::size_t(std::min(4, LatticeTexture::features - channel));
+  const auto fill = [&values, placement, channel, copied, each = format.bytes](
+                        std::uint64_t first, std::span<std::byte> out) {
+    std::fill(out.begin(), out.end(), std::byte{0});
+    placement->for_each_texel(first, out.size() / each, [&](std::uint64_t i, std::uint64_t source) {
+      std::memcpy(&out[i * each],
+                  &values[source * LatticeTexture::channels + std::uint64_t(channel)],
+                  sizeof(Value) * copied);
+    });
+  };
+  return {format, placement->texel_count(), "lattice texels", fill};
+}
+
+template <class Value>
+TexelSource alpha_cell_source(const std::vector<Value>& values, const SharedPlacement& placement,
+                              const TexelFormat& format) {
+  const auto fill = [&values, placement, each = format.bytes](std::uint64_t first,
+                                                              std::span<std::byte> out) {
+    placement->for_each_cell(
+        first, out.size() / each,
+        [&](std::uint64_t i, const std::array<std::uint64_t, 4>& sources) {
+          Value corners[4];
+          for (std::size_t k = 0; k < 4; ++k)
+            corners[k] = values[sources[k] * LatticeTexture::channels + LatticeTexture::features];
+          std::memcpy(&out[i * each], corners, sizeof corners);
+        });
+  };
+  return {format, placement->cells(), "lattice alpha", fill};
+}
+
+template <class Value>
+TexelSource alpha_texel_source(const std::vector<Value>& values, const SharedPlacement& placement) {
+  const auto fill = [&values, placement](std::uint64_t first, std::span<std::byte> out) {
+    placement->for_each_texel(
+        first, out.size() / sizeof(Value), [&](std::uint64_t i, std::uint64_t source) {
+          std::memcpy(&out[i * sizeof(Value)],
+                      &values[source * LatticeTexture::channels + LatticeTexture::features],
+                      sizeof(Value));
+        });
+  };
+  return {sizeof(Value) == 1 ? texel_formats::r8 : texel_formats::r32f, placement->texel_count(),
+          "lattice alpha", fill};
+}
+
+void check_capacity(const Placement& placement, const RenderPlan& plan, const TexelLayout& layout) {
+  const std::uint64_t needed = std::max(placement.texel_count(), placement.cells());
+  if (needed <= layout.capacity()) return;
+  const std::uint64_t fitting = layout.capacity() * plan.faces.size() / needed;
+  throw DeviceLimitError(std::to_string(plan.faces.size()) + " triangles have " +
+                         std::to_string(placement.texel_count()) +
+                         " lattice texels; this device holds " + std::to_string(layout.capacity()) +
+                         " a texture: about " + std::to_string(fitting) +
+                         " such triangles would fit, or four times as many a level lower");
+}
+
+}  // namespace
+
+LatticeSources prepare_lattice(const LatticeTexture& texture, const RenderPlan& plan,
+                               const TexelLayout& layout) {
+  const auto placement = std::make_shared<const Placement>(texture, plan);
+  check_capacity(*placement, plan, layout);
+  const TexelFormat format = texture.is_float() ? texel_formats::rgba32f : texel_formats::rgba8;
+  const bool cut_outs = plan.opaque_count < plan.faces.size();
+  LatticeSources sources;
+  std::visit(
+      [&](const auto& values) {
+        sources.features0 = feature_source(values, placement, format, 0);
+        if (plan.latent_features) sources.features1 = feature_source(values, placement, format, 4);
+        if (cut_outs)
+          sources.alpha = plan.lattice.alpha_by_cell ? alpha_cell_source(values, placement, format)
+                                                     : alpha_texel_source(values, placement);
+      },
+      texture.texels);
+  if (plan.lattice.uniform_level < 0) {
+    const auto patches = placement->patches();
+    sources.patches =
+        TexelSource::of(texel_formats::rgba32ui,
+                        std::vector<glm::uvec4>(patches.begin(), patches.end()), "lattice patches");
+  }
+  return sources;
+}
+
+}  // namespace tureen

@@ -1,0 +1,116 @@
+#include "runtime/passes/targets.hpp"
+
+#include <algorithm>
+#include <glm/vec4.hpp>
+#include <string>
+
+#include "base/error.hpp"
+#include "runtime/gl/state.hpp"
+#include "scene/triangle_soup.hpp"
+
+namespace tureen {
+
+namespace {
+
+/// Of the texture that is bound.
+void use_nearest_sampling() {
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+}  // namespace
+
+gl::Texture make_target(const TargetFormat& format, int width, int height) {
+  gl::Texture texture = gl::Texture::create();
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format.internal_format), width, height, 0,
+               format.format, format.type, nullptr);
+  use_nearest_sampling();
+  return texture;
+}
+
+gl::Texture make_image_target(const TargetFormat& format, int width, int height) {
+  gl::Texture texture = gl::Texture::create();
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glTexStorage2D(GL_TEXTURE_2D, 1, format.internal_format, width, height);
+  use_nearest_sampling();
+  return texture;
+}
+
+gl::Framebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint depth) {
+  gl::Framebuffer framebuffer = gl::Framebuffer::create();
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+  std::vector<GLenum> attachments;
+  for (const GLuint color : colors) {
+    attachments.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(attachments.size()));
+    glFramebufferTexture2D(GL_FRAMEBUFFER, attachments.back(), GL_TEXTURE_2D, color, 0);
+  }
+  if (depth) glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
+  glDrawBuffers(static_cast<GLsizei>(attachments.size()), attachments.data());
+  require_complete_framebuffer();
+  return framebuffer;
+}
+
+void require_complete_framebuffer() {
+  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
+  gl::throw_if_lost();
+  throw DeviceLimitError(
+      "the device has no memory for the targets of a picture of this size: a smaller one would "
+      "fit");
+}
+
+Image8 read_pixels(GLuint framebuffer, int width, int height) {
+  Image8 image(width, height);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  glReadBuffer(framebuffer ? GL_COLOR_ATTACHMENT0 : GL_BACK);  // 0 is a window's
+  gl::use_plain_pixel_transfer();
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
+  gl::throw_if_lost();
+  for (int y = 0; y < height / 2; ++y)
+    std::swap_ranges(&image.at(0, y), &image.at(0, y) + width, &image.at(0, height - 1 - y));
+  return image;
+}
+
+std::vector<std::uint32_t> read_visible_faces(GLuint framebuffer, glm::ivec2 size,
+                                              std::span<const std::uint32_t> faces) {
+  const auto width = std::size_t(size.x), height = std::size_t(size.y);
+  // Reading must wait for the pass that wrote this target, but Mesa 22.3's llvmpipe waits only
+  // where the pass in flight writes to it: the shading pass reads it, and an older frame comes
+  // back.
+  glFinish();
+  // Four channels, though two are stored: ES 3.0 promises to read integers in no other way.
+  std::vector<glm::uvec4> fragments(width * height);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  gl::use_plain_pixel_transfer();
+  glReadPixels(0, 0, size.x, size.y, GL_RGBA_INTEGER, GL_UNSIGNED_INT, fragments.data());
+  gl::throw_if_lost();
+  std::vector<std::uint32_t> result(fragments.size());
+  for (std::size_t y = 0; y < height; ++y)
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::uint32_t slot = fragments[(height - 1 - y) * width + x].x;
+      result[y * width + x] = slot == no_face ? no_face : faces[slot];
+    }
+  return result;
+}
+
+void blit_color(GLuint from, GLuint to, glm::ivec2 size, glm::ivec2 corner) {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, from);
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
+  glDisable(GL_SCISSOR_TEST);
+  glBlitFramebuffer(0, 0, size.x, size.y, corner.x, corner.y, corner.x + size.x, corner.y + size.y,
+                    GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, to);
+}
+
+void require_drawable(int width, int height, int max_side) {
+  if (std::max(width, height) > max_side)
+    throw DeviceLimitError("a picture of " + std::to_string(width) + "x" + std::to_string(height) +
+                           " is larger than this device draws: " + std::to_string(max_side) +
+                           " pixels a side");
+}
+
+}  // namespace tureen

@@ -1,0 +1,87 @@
+#include "runtime/plan/plan.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "runtime/plan/color_mlp_source.hpp"
+#include "runtime/plan/plan_draft.hpp"
+
+namespace tureen {
+
+namespace {
+
+void choose_site(PlanDraft& draft) {
+  RenderPlan& plan = draft.plan;
+  // One or three reads make a colour: a second pass over the pixels costs more than it saves.
+  const bool cheap = plan.flat_colors ||
+                     std::holds_alternative<VertexColors>(draft.soup.appearance) ||
+                     (std::holds_alternative<UvTextures>(draft.soup.appearance) && !plan.color_mlp);
+  const bool forward =
+      cheap && (draft.may(Specialisation::shading_pass) || !draft.preferences.specialise);
+  const std::optional<ShadingSite> wanted = draft.preferences.site;
+  plan.site = wanted.value_or(forward ? ShadingSite::forward : ShadingSite::deferred);
+  plan.depth_rejects_background =
+      draft.may(Specialisation::background) && plan.site == ShadingSite::deferred;
+  if (plan.depth_rejects_background) draft.apply({Specialisation::background});
+  if (draft.preferences.specialise && !wanted && plan.site == ShadingSite::forward)
+    draft.apply({Specialisation::shading_pass});
+}
+
+void choose_stage(PlanDraft& draft, const DeviceLimits& limits) {
+  RenderPlan& plan = draft.plan;
+  const ShadingStage wanted = draft.preferences.shading_stage;
+  if (wanted == ShadingStage::compute && !limits.compute_shaders)
+    throw DeviceLimitError(
+        "shading as compute needs compute shaders, OpenGL 4.3 or ES 3.1, which this device has "
+        "not");
+  plan.requested_stage = wanted;
+  if (plan.site == ShadingSite::deferred) plan.shading_stage = wanted;
+}
+
+}  // namespace
+
+bool RenderPlan::applies(Specialisation what) const {
+  return std::any_of(applied.begin(), applied.end(),
+                     [what](const AppliedSpecialisation& each) { return each.what == what; });
+}
+
+void plan_appearance(PlanDraft& draft, const FaceColors&) { draft.plan.flat_colors = true; }
+
+void plan_appearance(PlanDraft& draft, const VertexColors& colors) {
+  RenderPlan& plan = draft.plan;
+  if (!draft.may(Specialisation::interpolation) || plan.opaque_count < plan.faces.size()) return;
+  for (const std::uint32_t t : plan.faces) {
+    const glm::uvec3& v = draft.soup.triangles[t];
+    if (colors.rgba[v.x] != colors.rgba[v.y] || colors.rgba[v.x] != colors.rgba[v.z]) return;
+  }
+  plan.flat_colors = true;
+  draft.apply({Specialisation::interpolation});
+}
+
+void plan_appearance(PlanDraft& draft, const UvTextures& textures) {
+  draft.plan.color_mlp = textures.mlp.has_value();
+  if (draft.plan.color_mlp) plan_network(draft, *textures.mlp, {});
+}
+
+RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
+                     const PlanPreferences& preferences) {
+  if (const auto reason = defect(preferences.quality)) throw UsageError(*reason);
+  PlanDraft draft{soup, preferences, {}};
+  draft.plan.pipeline = preferences.pipeline;
+  draft.plan.specialise = preferences.specialise;
+  draft.plan.appearance = appearance_name(soup.appearance);
+  draft.plan.soup_faces = soup.triangles.size();
+  draft.plan.quality = preferences.quality;
+  if (preferences.pipeline == PipelineKind::published) {
+    plan_published(draft);
+    return std::move(draft.plan);
+  }
+  draft.plan.reversed_depth = limits.clip_control && preferences.reversed_depth;
+  plan_faces(draft, limits);
+  std::visit([&](const auto& appearance) { plan_appearance(draft, appearance); }, soup.appearance);
+  choose_site(draft);
+  choose_stage(draft, limits);
+  return std::move(draft.plan);
+}
+
+}  // namespace tureen

@@ -1,0 +1,20 @@
+// The texture of one face at a finer lattice level: every finer texel takes the value that the
+// coarser lattice interpolates there. A finer lattice contains the cells of the coarser one, so
+// the piecewise-linear function on the face stays the same one.
+#pragma once
+
+#include <span>
+
+#include "scene/triangle_soup.hpp"
+
+namespace tureen {
+
+/// `coarse` holds texel_count(from) texels of `channels` values, `fine` has room for
+/// texel_count(to); from <= to. Weights are powers of two: at most the sum is rounded.
+void refine_lattice(int from, int to, int channels, std::span<const float> coarse,
+                    std::span<float> fine);
+
+/// The highest level of any face; 0 where there are no faces.
+int highest_level(const LatticeTexture& texture);
+
+}  // namespace tureen

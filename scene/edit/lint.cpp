@@ -1,0 +1,260 @@
+#include "scene/edit/lint.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <numeric>
+
+#include "scene/lattice.hpp"
+
+namespace tureen {
+
+namespace {
+
+void count(LintFinding& finding, std::size_t index) {
+  if (finding.count++ < LintFinding::shown) finding.first.push_back(std::uint32_t(index));
+}
+
+bool is_finite(const glm::vec3& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+bool is_degenerate(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  const glm::dvec3 ab = b - a, ac = c - a, bc = c - b;
+  const double longest_squared = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)});
+  // A float cannot hold a needle thinner than about 1e-7 of its length except by chance around
+  // the origin: 1e-12 is far below anything that was meant to have an area. Not `<`, so that all
+  // corners in one point count.
+  return glm::length(glm::cross(ab, ac)) <= 1e-12 * longest_squared;
+}
+
+// --- Duplicates -----------------------------------------------------------------------------
+
+using Bits = std::array<std::uint32_t, 3>;
+
+/// The corners as bits in an order that does not depend on how the face names them.
+std::array<Bits, 3> canonical_corners(const TriangleSoup& soup, std::uint32_t face) {
+  std::array<Bits, 3> corners;
+  for (int k = 0; k < 3; ++k) {
+    const glm::vec3 p = soup.positions[soup.triangles[face][k]] + 0.0f;  // -0 becomes 0
+    for (int c = 0; c < 3; ++c) std::memcpy(&corners[k][c], &p[c], sizeof(float));
+  }
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+std::uint64_t hash(const std::array<Bits, 3>& corners) {
+  // FNV-1a over words, with the multiplier's high bits folded down; equal hashes are compared.
+  std::uint64_t h = 14695981039346656037ull;
+  for (const Bits& corner : corners)
+    for (const std::uint32_t word : corner) {
+      h = (h ^ word) * 1099511628211ull;
+      h ^= h >> 29;
+    }
+  return h;
+}
+
+void find_duplicates(const TriangleSoup& soup, const std::vector<bool>& ordinary,
+                     LintFinding& finding) {
+  struct Entry {
+    std::uint64_t hash;
+    std::uint32_t face;
+  };
+  std::vector<Entry> entries;
+  entries.reserve(soup.triangles.size());
+  for (std::uint32_t face = 0; face < soup.triangles.size(); ++face)
+    if (ordinary[face]) entries.push_back({hash(canonical_corners(soup, face)), face});
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    return a.hash != b.hash ? a.hash < b.hash : a.face < b.face;
+  });
+  std::vector<std::uint32_t> duplicates;
+  for (std::size_t begin = 0, end; begin < entries.size(); begin = end) {
+    end = begin + 1;
+    while (end < entries.size() && entries[end].hash == entries[begin].hash) ++end;
+    if (end - begin == 1) continue;
+    // Within a run of equal hashes nearly always all are equal: sort by corners, then by face, so
+    // that each group's first stays.
+    std::vector<std::pair<std::array<Bits, 3>, std::uint32_t>> run;
+    for (std::size_t i = begin; i < end; ++i)
+      run.emplace_back(canonical_corners(soup, entries[i].face), entries[i].face);
+    std::sort(run.begin(), run.end());
+    for (std::size_t i = 1; i < run.size(); ++i)
+      if (run[i].first == run[i - 1].first) duplicates.push_back(run[i].second);
+  }
+  std::sort(duplicates.begin(), duplicates.end());
+  for (const std::uint32_t face : duplicates) count(finding, face);
+}
+
+// --- Visibility -----------------------------------------------------------------------------
+
+/// Whether alpha stays below the threshold all over a face. Interpolation is convex, so it is
+/// enough that the corners, or the texels, stay below it.
+struct NeverVisible {
+  const TriangleSoup& soup;
+  std::vector<bool> cut_out_materials;  // UV textures: no texel reaches the threshold
+
+  explicit NeverVisible(const TriangleSoup& s) : soup(s) {
+    if (const auto* textures = std::get_if<UvTextures>(&soup.appearance))
+      for (const UvMaterial& material : textures->materials)
+        cut_out_materials.push_back(is_cut_out(*textures, material));
+  }
+
+  static bool is_cut_out(const UvTextures& textures, const UvMaterial& material) {
+    if (!(material.mask_threshold > 0.0f)) return false;
+    const int channel = material.mask_channel;
+    float largest = 1.0f;
+    if (!material.images.empty()) {
+      int byte = 0;
+      for (const glm::u8vec4& texel : textures.images[material.images[0]].pixels)
+        byte = std::max(byte, int(texel[channel]));
+      largest = float(byte) / 255.0f;
+    }
+    if (!textures.mlp) largest *= material.factor[channel];
+    // A vertex colour above 1 could lift the mask over the threshold again.
+    if (!textures.mlp && !textures.vertex_rgba.empty()) {
+      float factor = 0.0f;
+      for (const glm::vec4& color : textures.vertex_rgba) factor = std::max(factor, color[channel]);
+      largest *= factor;
+    }
+    return largest < material.mask_threshold;
+  }
+
+  bool operator()(std::size_t face) const {
+    return std::visit([&](const auto& appearance) { return hidden(appearance, face); },
+                      soup.appearance);
+  }
+
+  bool hidden(const FaceColors& colors, std::size_t face) const {
+    return colors.rgba[face].a < alpha_threshold;
+  }
+  bool hidden(const VertexColors& colors, std::size_t face) const {
+    const glm::uvec3& t = soup.triangles[face];
+    return colors.rgba[t.x].a < alpha_threshold && colors.rgba[t.y].a < alpha_threshold &&
+           colors.rgba[t.z].a < alpha_threshold;
+  }
+  bool hidden(const Harmonics&, std::size_t) const { return false; }
+  bool hidden(const LatticeTexture& texture, std::size_t face) const {
+    const LatticePatch& patch = texture.patches[face];
+    const std::size_t texels = lattice::texel_count(int(patch.level));
+    for (std::size_t i = 0; i < texels; ++i)
+      if (!(texture.value(patch.first_texel + i, LatticeTexture::features) < alpha_threshold))
+        return false;
+    return true;
+  }
+  bool hidden(const UvTextures& textures, std::size_t face) const {
+    return cut_out_materials[textures.material_of_face[face]];
+  }
+};
+
+}  // namespace
+
+const char* name_of(LintFinding::Id id) {
+  switch (id) {
+    case LintFinding::Id::non_finite_vertices:
+      return "non_finite_vertices";
+    case LintFinding::Id::degenerate_faces:
+      return "degenerate_faces";
+    case LintFinding::Id::duplicate_faces:
+      return "duplicate_faces";
+    case LintFinding::Id::never_visible_faces:
+      return "never_visible_faces";
+    case LintFinding::Id::unused_vertices:
+      return "unused_vertices";
+    case LintFinding::Id::far_from_origin:
+      return "far_from_origin";
+  }
+  return "";
+}
+
+std::string describe(const LintFinding& finding) {
+  const bool single = finding.count == 1;
+  bool vertices = false;
+  const char* predicate = "";
+  switch (finding.id) {
+    case LintFinding::Id::non_finite_vertices:
+      vertices = true;
+      predicate = single ? "is not finite (NaN or infinity)" : "are not finite (NaN or infinity)";
+      break;
+    case LintFinding::Id::degenerate_faces:
+      predicate = single ? "is degenerate (zero area)" : "are degenerate (zero area)";
+      break;
+    case LintFinding::Id::duplicate_faces:
+      predicate = single ? "repeats the corners of an earlier face"
+                         : "repeat the corners of an earlier face";
+      break;
+    case LintFinding::Id::never_visible_faces:
+      predicate = single ? "is transparent everywhere" : "are transparent everywhere";
+      break;
+    case LintFinding::Id::unused_vertices:
+      vertices = true;
+      predicate = single ? "is used by no face" : "are used by no face";
+      break;
+    case LintFinding::Id::far_from_origin:
+      return "the vertices lie far from the origin for 32 bit floats: the extent is only " +
+             std::to_string(finding.extent_over_offset) +
+             " of the largest coordinate (below 0.0002); store them relative to an origin";
+  }
+  const char* many = vertices ? "vertices" : "faces";
+  std::string text = std::to_string(finding.count) + " of " + std::to_string(finding.of) + " " +
+                     many + " " + predicate + ": " +
+                     (single ? (vertices ? "vertex" : "face") : many);
+  for (std::size_t i = 0; i < finding.first.size(); ++i)
+    text += (i ? ", " : " ") + std::to_string(finding.first[i]);
+  return text + (finding.count > finding.first.size() ? " ..." : "");
+}
+
+const LintFinding* Lint::find(LintFinding::Id id) const {
+  const auto found = std::find_if(findings.begin(), findings.end(),
+                                  [&](const LintFinding& finding) { return finding.id == id; });
+  return found == findings.end() ? nullptr : &*found;
+}
+
+Lint lint(const TriangleSoup& soup) {
+  LintFinding non_finite{.id = LintFinding::Id::non_finite_vertices, .of = soup.positions.size()};
+  LintFinding degenerate{.id = LintFinding::Id::degenerate_faces, .of = soup.triangles.size()};
+  LintFinding duplicate{.id = LintFinding::Id::duplicate_faces, .of = soup.triangles.size()};
+  LintFinding hidden{.id = LintFinding::Id::never_visible_faces, .of = soup.triangles.size()};
+  LintFinding unused{.id = LintFinding::Id::unused_vertices, .of = soup.positions.size()};
+  std::vector<bool> finite(soup.positions.size());
+  for (std::size_t v = 0; v < soup.positions.size(); ++v) {
+    finite[v] = is_finite(soup.positions[v]);
+    if (!finite[v]) count(non_finite, v);
+  }
+
+  std::vector<bool> used(soup.positions.size());
+  std::vector<bool> ordinary(soup.triangles.size());  // finite and with an area
+  const NeverVisible never_visible(soup);
+  for (std::size_t f = 0; f < soup.triangles.size(); ++f) {
+    const glm::uvec3& t = soup.triangles[f];
+    for (int k = 0; k < 3; ++k) used[t[k]] = true;
+    if (!finite[t.x] || !finite[t.y] || !finite[t.z]) continue;
+    if (is_degenerate(soup.positions[t.x], soup.positions[t.y], soup.positions[t.z]))
+      count(degenerate, f);
+    else
+      ordinary[f] = true;
+    if (never_visible(f)) count(hidden, f);
+  }
+  for (std::size_t v = 0; v < used.size(); ++v)
+    if (!used[v]) count(unused, v);
+  find_duplicates(soup, ordinary, duplicate);
+  Lint result;
+  for (LintFinding* finding : {&non_finite, &degenerate, &duplicate, &hidden, &unused})
+    if (finding->count > 0) result.findings.push_back(std::move(*finding));
+
+  const Bounds box = bounds(soup);
+  double offset = 0;
+  for (int c = 0; c < 3; ++c)
+    offset = std::max({offset, std::abs(double(box.low[c])), std::abs(double(box.high[c]))});
+  // At 2e-4 a float's step at that offset is 1 / 3000 of the extent: about a pixel when the soup
+  // fills a screen (docs/numerics.md, G3b).
+  constexpr double smallest_ratio = 2e-4;
+  result.extent_over_offset = offset > 0 ? 2 * box.radius() / offset : 0;
+  if (offset > 0 && result.extent_over_offset < smallest_ratio)
+    result.findings.push_back(
+        {.id = LintFinding::Id::far_from_origin, .extent_over_offset = result.extent_over_offset});
+  return result;
+}
+
+}  // namespace tureen

@@ -1,0 +1,242 @@
+#include "scene/remark.hpp"
+
+#include <array>
+
+#include "base/decimal_text.hpp"
+
+namespace tureen {
+
+namespace {
+
+using Kind = Remark::Kind;
+
+/// In the order of Remark::Kind.
+constexpr std::array<const char*, Remark::kinds> kind_names{
+    "up_unknown_to_format",
+    "up_unknown_to_trimesh",
+    "up_unknown_to_checkpoint",
+    "up_of_colmap_scene",
+    "up_of_synthetic_scene",
+    "up_of_transforms",
+    "up_of_cameras",
+    "up_of_no_camera",
+    "polygons_split",
+    "small_faces_dropped",
+    "corners_dropped",
+    "coordinates_rounded",
+    "soft_triangles_opaque",
+    "soft_triangles_dropped",
+    "color_components_clamped",
+    "face_colors_dropped",
+    "colors_missing",
+    "face_colors_missing",
+    "face_colors_mapped",
+    "vertex_colors_srgb",
+    "vertex_colors_linear",
+    "vertex_colors_srgb_by_generator",
+    "vertex_colors_linear_by_gltf",
+    "colors_multiplied",
+    "materials_unlit",
+    "blending_cut_out",
+    "alpha_half_restored",
+    "mean_colors_shown",
+    "animations_dropped",
+    "skins_dropped",
+    "morph_targets_dropped",
+    "points_and_lines_dropped",
+    "primitives_without_positions_dropped",
+    "other_projections_dropped",
+    "blind_cameras_dropped",
+    "window_parameters_dropped",
+    "screen_interpolation_dropped",
+    "shapes_missing",
+    "shapes_untextured",
+    "preset_dropped",
+    "preset_applied",
+    "preset_keys_ignored",
+    "text_ignored",
+    "bytes_ignored",
+    "content_misnamed",
+    "meta_missing",
+    "level_missing",
+    "image_size_missing",
+    "lens_dropped",
+    "lens_undone",
+};
+
+std::string counted(std::uint64_t count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+/// "shape 1 of 8 ", "shapes 1, 2 and 5 of 8 ".
+std::string shapes(const std::vector<std::uint64_t>& counts) {
+  const std::size_t listed = counts.size() - 1;
+  std::string text = listed == 1 ? "shape " : "shapes ";
+  for (std::size_t i = 0; i < listed; ++i)
+    text += (i == 0 ? "" : i + 1 < listed ? ", " : " and ") + std::to_string(counts[i]);
+  return text + " of " + std::to_string(counts.back()) + " ";
+}
+
+/// "site, color".
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace
+
+const char* name_of(Kind kind) { return kind_names[std::size_t(kind)]; }
+
+std::string describe(const Remark& remark) {
+  const auto& [kind, counts, values, names] = remark;
+  switch (kind) {
+    case Kind::up_unknown_to_format:
+      return names[0] + " knows no up axis: z is assumed";
+    case Kind::up_unknown_to_trimesh:
+      return "written by trimesh, which keeps no up axis: z is assumed";
+    case Kind::up_unknown_to_checkpoint:
+      return "the checkpoint does not say which way is up: -y is assumed, as in COLMAP's axes; "
+             "scenes trained on Blender images have +z";
+    case Kind::up_of_colmap_scene:
+      return "the checkpoint has a flip_z: taken for a COLMAP scene, up is -y, background black";
+    case Kind::up_of_synthetic_scene:
+      return "the checkpoint has no flip_z: taken for a synthetic scene, up is +z, background "
+             "white";
+    case Kind::up_of_transforms:
+      return "z is taken to be up, as in the scenes of NeRF and instant-ngp.";
+    case Kind::up_of_cameras:
+      return "The mean of the cameras' up axes is taken to be up.";
+    case Kind::up_of_no_camera:
+      return "The cameras do not agree on what is up; -y is taken.";
+    case Kind::polygons_split:
+      return counted(counts[0], "polygon", "polygons") +
+             " of more than three corners became fans of triangles.";
+    case Kind::small_faces_dropped:
+      return counted(counts[0], "face", "faces") + " of fewer than three corners left out.";
+    case Kind::corners_dropped:
+      return names[0] + ": " + std::to_string(counts[0]) +
+             " corners are no whole number of triangles; the rest is dropped";
+    case Kind::coordinates_rounded:
+      return "Coordinates of type double were rounded to float.";
+    case Kind::soft_triangles_opaque:
+      return "soft triangles are drawn opaque: a soft triangle covers " +
+             fixed_decimal(100 * values[0], 0) + "% of its area in the mean (opacity " +
+             fixed_decimal(values[1], 2) + "), the opaque face covers all of it";
+    case Kind::soft_triangles_dropped:
+      return std::to_string(counts[0]) + " of " + std::to_string(counts[1]) +
+             " soft triangles have an opacity below " + short_decimal(values[0], 6) + ": dropped";
+    case Kind::color_components_clamped:
+      return counted(counts[0], "colour component", "colour components") + " outside 0..1 clamped.";
+    case Kind::face_colors_dropped:
+      return "The file colours vertices and faces; the face colours are left out.";
+    case Kind::colors_missing:
+      return "The file holds no colours; everything is drawn grey (0.8).";
+    case Kind::face_colors_missing:
+      return counted(counts[0], "triangle has no colour and is",
+                     "triangles have no colour and are") +
+             " drawn grey (0.8).";
+    case Kind::face_colors_mapped:
+      return "The colours of " + counted(counts[0], "face", "faces") +
+             " are numbers of a colour map, which OFF does not hold.";
+    case Kind::vertex_colors_srgb:
+      return "vertex colours are taken as sRGB, as asked for";
+    case Kind::vertex_colors_linear:
+      return "vertex colours are taken as linear, as asked for";
+    case Kind::vertex_colors_srgb_by_generator:
+      return "vertex colours are taken as sRGB, as its generator stores them";
+    case Kind::vertex_colors_linear_by_gltf:
+      return "vertex colours are taken as linear, as glTF says";
+    case Kind::colors_multiplied:
+      return "texture, factor and vertex colour are multiplied as display-referred values, which "
+             "comes near to the product in linear light that glTF asks for, but is not the same";
+    case Kind::materials_unlit:
+      return "lit materials are drawn unlit, by their base colour";
+    case Kind::blending_cut_out:
+      return "blended materials are drawn as cut-outs at an alpha of 0.5";
+    case Kind::alpha_half_restored:
+      return std::to_string(counts[0]) + " of " + std::to_string(counts[1]) +
+             " texels have an alpha byte of 127, and hardly any 126 or 128: taken for a truncated "
+             "1/2 and made 128, so that they are drawn as in training";
+    case Kind::mean_colors_shown:
+      return names[0] + " is read from .glb alone: mean colours are shown";
+    case Kind::animations_dropped:
+      return "animations are not played";
+    case Kind::skins_dropped:
+      return "skinned meshes are drawn in their bind pose";
+    case Kind::morph_targets_dropped:
+      return "morph targets are not applied";
+    case Kind::points_and_lines_dropped:
+      return "points and lines are not drawn";
+    case Kind::primitives_without_positions_dropped:
+      return "primitives without POSITION are not drawn";
+    case Kind::other_projections_dropped:
+      return "cameras that are not perspective are left out";
+    case Kind::blind_cameras_dropped:
+      return "cameras that see nothing are left out";
+    case Kind::window_parameters_dropped:
+      return "vertex weights and sigma are not kept: trained to the end, every triangle is opaque";
+    case Kind::screen_interpolation_dropped:
+      return "colours are interpolated in perspective, its own renderer interpolates them on the "
+             "screen: large triangles near the camera differ";
+    case Kind::shapes_missing:
+      return shapes(counts) + "missing: the rest is drawn";
+    case Kind::shapes_untextured:
+      return shapes(counts) + "without feature images: the rest is drawn";
+    case Kind::preset_dropped:
+      return "the preset chooses among soft triangles, some of which are not drawn: it is left "
+             "out";
+    case Kind::preset_applied:
+      return "the file's preset was applied to the data: " + listed(names);
+    case Kind::preset_keys_ignored:
+      return "settings of the file's preset that no longer exist are ignored: " + listed(names);
+    case Kind::text_ignored:
+      return "Text after the last face, from line " + std::to_string(counts[0]) +
+             " on, is ignored.";
+    case Kind::bytes_ignored:
+      return std::to_string(counts[0]) + " bytes after the last element ignored.";
+    case Kind::content_misnamed:
+      return "The name ends in " + names[0] + ", but the content is " + names[1] + ".";
+    case Kind::meta_missing:
+      return "meta.json is missing: level 5, up -y and a black background are assumed";
+    case Kind::level_missing:
+      return "meta.json names no level: 5 is assumed";
+    case Kind::image_size_missing:
+      return "the file names no image size; " + std::to_string(counts[0]) + " x " +
+             std::to_string(counts[1]) + " is assumed";
+    case Kind::lens_dropped:
+      return "the lens distortion of the file is left out: pictures are those of a pinhole";
+    case Kind::lens_undone:
+      return "Lens distortion was undone by resampling" +
+             (counts[0] + counts[1] == 0
+                  ? std::string()
+                  : "; up to " + std::to_string(counts[0]) + " columns and " +
+                        std::to_string(counts[1]) + " rows without a source were cut off") +
+             ".";
+  }
+  return "";
+}
+
+std::string hint_of(const Remark& remark) {
+  switch (remark.kind) {
+    case Kind::up_unknown_to_format:
+    case Kind::up_unknown_to_trimesh:
+      return "--up changes it";
+    case Kind::vertex_colors_srgb_by_generator:
+    case Kind::vertex_colors_linear_by_gltf:
+      return "--vertex-colors changes it";
+    default:
+      return "";
+  }
+}
+
+std::vector<std::string> described(const std::vector<Remark>& remarks) {
+  std::vector<std::string> sentences;
+  for (const Remark& remark : remarks) {
+    const std::string hint = hint_of(remark);
+    sentences.push_back(describe(remark) + (hint.empty() ? "" : "; " + hint));
+  }
+  return sentences;
+}
+
+}  // namespace tureen

@@ -1,0 +1,113 @@
+#include "camera/navigation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+#include <random>
+
+namespace tureen {
+namespace navigation_test {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// Where a point of the world falls, in fractions of the half picture: inside within -1..1.
+glm::dvec2 ndc_of(const Camera& camera, glm::dvec3 world) {
+  const glm::dvec4 clip =
+      clip_from_view(camera, 1e-3, 1e3) * camera.view_from_world * glm::dvec4(world, 1.0);
+  EXPECT_GT(clip.w, 0) << "behind the eye";
+  return {clip.x / clip.w, clip.y / clip.w};
+}
+
+double largest_ndc(const Camera& camera, const Subject& subject) {
+  double largest = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 p(corner & 1 ? subject.low.x : subject.high.x,
+                       corner & 2 ? subject.low.y : subject.high.y,
+                       corner & 4 ? subject.low.z : subject.high.z);
+    const glm::dvec2 ndc = ndc_of(camera, p);
+    largest = std::max({largest, std::abs(ndc.x), std::abs(ndc.y)});
+  }
+  return largest;
+}
+
+TEST(Navigation, FramesRandomBoxesTightlyFromEverySide) {
+  const unsigned seed = 3;
+  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto vector = [&] { return glm::dvec3(uniform(random), uniform(random), uniform(random)); };
+  for (int i = 0; i < 200; ++i) {
+    const glm::dvec3 centre = 10.0 * vector(), half = glm::abs(vector());
+    const Subject subject{centre - half, centre + half, vector()};
+    const Lens lens{100 + int(500 * (1 + uniform(random))), 300, 0.7 + 0.5 * uniform(random)};
+    const Bearing bearing{pi * uniform(random), 1.4 * uniform(random)};
+    // The tightest side has its margin of 5 % and no more.
+    EXPECT_NEAR(largest_ndc(frame(subject, bearing, lens), subject), 1 / 1.05, 1e-9);
+  }
+}
+
+TEST(Navigation, TheFrontIsPlusZUnderYAndMinusYUnderZ) {
+  EXPECT_LT(glm::length(direction_of({0, 1, 0}, {}) - glm::dvec3(0, 0, 1)), 1e-12);
+  EXPECT_LT(glm::length(direction_of({0, 0, 2}, {}) - glm::dvec3(0, -1, 0)), 1e-12);
+  // A quarter turn leads to the right of who looks at the front: +x in both.
+  EXPECT_LT(glm::length(direction_of({0, 1, 0}, {pi / 2, 0}) - glm::dvec3(1, 0, 0)), 1e-12);
+  EXPECT_LT(glm::length(direction_of({0, 0, 1}, {pi / 2, 0}) - glm::dvec3(1, 0, 0)), 1e-12);
+  EXPECT_LT(glm::length(direction_of({0, 0, 1}, {0, pi / 2}) - glm::dvec3(0, 0, 1)), 1e-12);
+}
+
+TEST(Navigation, UpIsUpInTheFramedPicture) {
+  for (const glm::dvec3 up : {glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0)}) {
+    const Subject subject{glm::dvec3(-1), glm::dvec3(1), up};
+    const Camera camera = frame(subject, three_quarter_view, Lens{});
+    const glm::dvec2 above = ndc_of(camera, 0.1 * up), below = ndc_of(camera, -0.1 * up);
+    EXPECT_NEAR(above.x, 0, 1e-9);
+    EXPECT_GT(above.y, below.y);
+  }
+}
+
+TEST(Navigation, AnOrbitKeepsItsDistanceAndShowsEverythingEverywhere) {
+  const Subject subject{{-3, -1, -0.5}, {3, 1, 0.5}, {0, 0, 1}};
+  const std::vector<Camera> cameras = orbit(subject, 12, {0, orbit_elevation}, Lens{});
+  ASSERT_EQ(cameras.size(), 12u);
+  const double distance = glm::length(cameras[0].eye() - subject.centre());
+  double tightest = 0;
+  for (const Camera& camera : cameras) {
+    EXPECT_NEAR(glm::length(camera.eye() - subject.centre()), distance, 1e-9);
+    EXPECT_NEAR(camera.eye().z, distance * std::sin(orbit_elevation), 1e-9);
+    tightest = std::max(tightest, largest_ndc(camera, subject));
+  }
+  EXPECT_NEAR(tightest, 1 / 1.05, 1e-9);
+  // Evenly spread: opposite views face each other.
+  const glm::dvec3 a = cameras[2].eye(), b = cameras[8].eye();
+  EXPECT_NEAR(a.x, -b.x, 1e-9);
+  EXPECT_NEAR(a.y, -b.y, 1e-9);
+}
+
+TEST(Navigation, APointAndAMissingUpAxisStillGiveACamera) {
+  const Camera camera = frame({{2, 2, 2}, {2, 2, 2}, {0, 0, 0}}, three_quarter_view, Lens{});
+  EXPECT_TRUE(std::isfinite(glm::length(camera.eye())));
+  EXPECT_NEAR(glm::determinant(glm::dmat3(camera.view_from_world)), 1, 1e-12);
+}
+
+TEST(Navigation, TheSubjectOfASceneIsItsBoundsInTheWorld) {
+  Scene scene;
+  TriangleSoup soup;
+  soup.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 3}, {9, 9, 9}};  // the last is used by no face
+  soup.triangles = {{0, 1, 2}};
+  soup.appearance = FaceColors{{glm::vec4(1)}};
+  scene.origin = {100, 200, 300};
+  scene.info.up = {0, 0, 1};
+  scene.primitives = soup;
+  const Subject subject = subject_of(scene);
+  EXPECT_EQ(subject.low, glm::dvec3(100, 200, 300));
+  EXPECT_EQ(subject.high, glm::dvec3(101, 202, 303));
+  EXPECT_EQ(subject.up, glm::dvec3(0, 0, 1));
+  SoftTriangles soft;
+  soft.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 3}};
+  scene.primitives = soft;
+  EXPECT_EQ(subject_of(scene).high, glm::dvec3(101, 202, 303));
+}
+
+}  // namespace navigation_test
+}  // namespace tureen

@@ -1,0 +1,131 @@
+// Statistics of frame times, on series whose answers are known.
+#include "jobs/timing/frame_statistics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <vector>
+
+namespace tureen {
+namespace frame_statistics_test {
+
+TEST(FrameStatistics, MedianOfOddAndEvenCounts) {
+  EXPECT_EQ(median(std::vector<double>{7}), 7);
+  EXPECT_EQ(median(std::vector<double>{9, 1, 5}), 5);
+  EXPECT_EQ(median(std::vector<double>{9, 1, 5, 7}), 6);
+}
+
+TEST(FrameStatistics, TheGeometricMeanIsThatOfTheInverseInverted) {
+  constexpr double rounding = 1e-14;  // of logarithms of about 1, and so of what they are of
+  EXPECT_NEAR(geometric_mean(std::vector<double>{2, 8}), 4, rounding);
+  EXPECT_NEAR(geometric_mean(std::vector<double>{1 / 2.0, 1 / 8.0}), 1 / 4.0, rounding);
+  EXPECT_NEAR(geometric_mean(std::vector<double>{7}), 7, rounding);
+  // Their products would not be doubles any more; logarithms of 690 have steps of 1e-13.
+  EXPECT_NEAR(geometric_mean(std::vector<double>{1e300, 1e300, 1e-300}) / 1e100, 1, 1e-12);
+}
+
+TEST(FrameStatistics, PercentilesAreNearestRanks) {
+  std::vector<double> values(20);
+  std::iota(values.rbegin(), values.rend(), 1);  // 20 .. 1
+  EXPECT_EQ(percentile(values, 95), 19);
+  EXPECT_EQ(percentile(values, 99), 20);
+  EXPECT_EQ(percentile(values, 5), 1);
+  EXPECT_EQ(percentile(values, 5.1), 2);
+  EXPECT_EQ(percentile(values, 100), 20);
+  EXPECT_EQ(percentile(std::vector<double>{3}, 50), 3);
+}
+
+TEST(FrameStatistics, OfTwoHundredFramesTheSlowestTwoMakeTheLowPercent) {
+  FrameTimes times{.views = 100, .ms = std::vector<double>(200, 10.0)};
+  times.ms[17] = 40;
+  times.ms[150] = 60;
+  const FrameStatistics statistics = statistics_of(times);
+  EXPECT_DOUBLE_EQ(statistics.mean, (198 * 10.0 + 100) / 200);
+  EXPECT_EQ(statistics.median, 10);
+  EXPECT_EQ(statistics.p95, 10);
+  EXPECT_EQ(statistics.p99, 10);
+  EXPECT_DOUBLE_EQ(statistics.low_1_percent_fps, 1000.0 / 50);
+}
+
+TEST(FrameStatistics, FewFramesHaveOneSlowest) {
+  const FrameStatistics statistics = statistics_of({.views = 2, .ms = {4, 5}});
+  EXPECT_EQ(statistics.low_1_percent_fps, 200);
+  EXPECT_EQ(statistics.p99, 5);
+}
+
+TEST(FrameStatistics, MinOfMediansIgnoresTheDisturbedRound) {
+  // Medians 5, 6, 50, 5.5: the second smallest of four is the first quartile, the third the third.
+  const FrameTimes times{.views = 3, .ms = {5, 5, 9, 6, 1, 7, 50, 50, 50, 5.5, 5.5, 5.5}};
+  const FrameStatistics statistics = statistics_of(times);
+  EXPECT_EQ(statistics.min_of_medians, 5);
+  EXPECT_DOUBLE_EQ(statistics.spread, (6.0 - 5.0) / 5.0);
+}
+
+TEST(FrameStatistics, AViewHasTheMedianOfItsRounds) {
+  const FrameTimes times{.views = 2, .ms = {1, 10, 3, 30, 2, 20}};
+  EXPECT_EQ(view_medians(times), (std::vector<double>{2, 20}));
+}
+
+TEST(FrameStatistics, ASeriesDoesNotDifferFromItself) {
+  const FrameTimes times{.views = 2, .ms = {1, 10, 3, 30, 2, 20}};
+  EXPECT_EQ(series_spread(times, times), 0);
+}
+
+TEST(FrameStatistics, ALuckyPairOfMinimaHidesNoSpread) {
+  // Both reach 10, but round by round they lie 20 % apart.
+  const FrameTimes first{.views = 1, .ms = {10, 12, 12}};
+  const FrameTimes second{.views = 1, .ms = {12, 10, 10}};
+  EXPECT_DOUBLE_EQ(series_spread(first, second), 0.2);
+  // And one pair of rounds that agree does not hide that the minima are apart.
+  const FrameTimes third{.views = 1, .ms = {15, 15, 10}};
+  const FrameTimes fourth{.views = 1, .ms = {15, 15, 15}};
+  EXPECT_DOUBLE_EQ(series_spread(third, fourth), 0.5);
+}
+
+FrameStatistics best(double ms, double spread = 0, int rounds = 5) {
+  return {.min_of_medians = ms, .spread = spread, .rounds = rounds};
+}
+
+TEST(FrameStatistics, KnowHowManyRoundsAndSamplesTheyAreOf) {
+  const FrameStatistics statistics = statistics_of({.views = 2, .ms = {1, 10, 3, 30, 2, 20}});
+  EXPECT_EQ(statistics.rounds, 3);
+  EXPECT_EQ(statistics.samples, 6u);
+}
+
+TEST(FrameStatistics, AHundredSamplesTellTheSlowestPercent) {
+  std::vector<double> ms(99, 10.0);
+  ms[50] = 60;
+  const FrameStatistics few = statistics_of({.views = 1, .ms = ms});
+  EXPECT_EQ(few.p99, 60) << "the slowest sample and nothing else";
+  EXPECT_FALSE(tells_slowest_percent(few));
+  ms.push_back(10);
+  const FrameStatistics enough = statistics_of({.views = 1, .ms = ms});
+  EXPECT_EQ(enough.p99, 10);
+  EXPECT_TRUE(tells_slowest_percent(enough));
+}
+
+TEST(Verdicts, TwiceTheSpreadIsADifference) {
+  EXPECT_EQ(verdict_on(best(103), best(100), 0.02), Verdict::equal);
+  EXPECT_EQ(verdict_on(best(105), best(100), 0.02), Verdict::slower);
+  EXPECT_EQ(verdict_on(best(100), best(105), 0.02), Verdict::faster);
+  EXPECT_EQ(verdict_on(best(100), best(100), 0), Verdict::equal) << "nothing is twice no spread";
+}
+
+TEST(Verdicts, TheLargestSpreadCounts) {
+  EXPECT_EQ(spread_between(best(1, 0.03), best(1, 0.01), 0.02), 0.03);
+  EXPECT_EQ(spread_between(best(1, 0.01), best(1, 0.03), 0.02), 0.03);
+  EXPECT_EQ(spread_between(best(1, 0.01), best(1, 0.01), 0.02), 0.02);
+  EXPECT_EQ(verdict_on(best(105, 0.03), best(100), 0.02), Verdict::equal);
+  EXPECT_EQ(verdict_on(best(105), best(100, 0.03), 0.02), Verdict::equal);
+}
+
+TEST(Verdicts, FewRoundsHaveNoSpread) {
+  for (const int rounds : {1, 2}) {
+    EXPECT_EQ(spread_between(best(100, 0, rounds), best(900), 0), std::nullopt) << rounds;
+    EXPECT_EQ(verdict_on(best(100), best(900, 0, rounds), 0), Verdict::unknown) << rounds;
+  }
+  EXPECT_EQ(verdict_on(best(100, 0, min_rounds), best(900, 0, min_rounds), 0), Verdict::faster);
+}
+
+}  // namespace frame_statistics_test
+}  // namespace tureen

@@ -1,0 +1,131 @@
+#include "scene/edit/edits.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "scene/edit/baked_color.hpp"
+#include "scene/edit/keep_faces.hpp"
+#include "scene/edit/lattice_bytes.hpp"
+#include "scene/edit/lattice_levels.hpp"
+
+namespace tureen {
+namespace edits_test {
+
+constexpr unsigned seed = 2611;
+
+/// Five faces of levels 0 to 4 in floats, with a network of all features.
+TriangleSoup random_lattice_soup() {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+  TriangleSoup soup;
+  LatticeTexture texture;
+  std::uint32_t texels = 0;
+  for (std::uint32_t face = 0; face < 5; ++face) {
+    for (int k = 0; k < 3; ++k)
+      soup.positions.emplace_back(unit(random), unit(random), unit(random));
+    soup.triangles.emplace_back(3 * face, 3 * face + 1, 3 * face + 2);
+    texture.patches.push_back({texels, face});
+    texels += lattice::texel_count(int(face));
+  }
+  std::vector<float> values(std::size_t(texels) * LatticeTexture::channels);
+  for (float& value : values) value = unit(random);
+  texture.texels = values;
+  ColorMlp mlp;
+  mlp.encoding = DirectionEncoding::none;
+  DenseLayer layer{LatticeTexture::features, 3, {}, {0.1f, 0.2f, 0.3f}};
+  for (int i = 0; i < 3 * LatticeTexture::features; ++i) layer.weights.push_back(unit(random));
+  mlp.layers = {layer};
+  texture.mlp = mlp;
+  soup.appearance = texture;
+  return soup;
+}
+
+const LatticeTexture& texture_of(const TriangleSoup& soup) {
+  return std::get<LatticeTexture>(soup.appearance);
+}
+
+/// One of each kind, for random_lattice_soup().
+Edits all_edits() {
+  return {.keeps_face = {0, 1, 1, 1, 1},
+          .lattice_level = 2,
+          .color = Edits::Color::baked,
+          .byte_texels = true};
+}
+
+TEST(Edits, NoneChangeNothing) {
+  const TriangleSoup soup = random_lattice_soup();
+  const TriangleSoup same = edited(soup, {});
+  EXPECT_EQ(same.positions, soup.positions);
+  EXPECT_EQ(same.triangles, soup.triangles);
+  EXPECT_EQ(texture_of(same).texels, texture_of(soup).texels);
+  EXPECT_TRUE(texture_of(same).mlp);
+  EXPECT_EQ(describe(Edits{}), "none");
+}
+
+TEST(Edits, EachIsWhatItsFunctionMakes) {
+  const TriangleSoup soup = random_lattice_soup();
+  const LatticeTexture& texture = texture_of(soup);
+  EXPECT_EQ(texture_of(edited(soup, {.lattice_level = 2})).texels,
+            at_most_level(texture, 2).texels);
+  EXPECT_EQ(texture_of(edited(soup, {.color = Edits::Color::baked})).texels,
+            baked_color(texture).texels);
+  EXPECT_FALSE(texture_of(edited(soup, {.color = Edits::Color::base})).mlp);
+  LatticeTexture bytes = texture;
+  round_to_bytes(bytes);
+  EXPECT_EQ(texture_of(edited(soup, {.byte_texels = true})).texels, bytes.texels);
+  const std::vector<std::uint8_t> keeps{1, 0, 1, 0, 0};
+  const TriangleSoup fewer = edited(soup, {.keeps_face = keeps});
+  EXPECT_EQ(fewer.triangles, keep_faces(soup, keeps).triangles);
+  EXPECT_EQ(texture_of(fewer).texels, texture_of(keep_faces(soup, keeps)).texels);
+}
+
+TEST(Edits, ComeOneAfterTheOther) {
+  const TriangleSoup soup = random_lattice_soup();
+  const Edits all = all_edits();
+  const TriangleSoup result = edited(soup, all);
+  ASSERT_EQ(defect(result), std::nullopt);
+  EXPECT_EQ(result.triangles.size(), 4u);
+  EXPECT_FALSE(texture_of(result).is_float());
+  EXPECT_FALSE(texture_of(result).mlp);
+  for (const LatticePatch& patch : texture_of(result).patches) EXPECT_LE(patch.level, 2u);
+  LatticeTexture expected =
+      baked_color(at_most_level(texture_of(keep_faces(soup, all.keeps_face)), 2));
+  round_to_bytes(expected);
+  EXPECT_EQ(texture_of(result).texels, expected.texels);
+}
+
+TEST(Edits, WhatChangesNothingIsNotEffective) {
+  const TriangleSoup soup = random_lattice_soup();
+  const Edits all = all_edits();
+  EXPECT_EQ(effective(all, soup), all);
+  EXPECT_EQ(effective({.keeps_face = {1, 1, 1, 1, 1}, .lattice_level = 4}, soup), Edits{});
+  Edits again = all;
+  again.keeps_face.clear();
+  EXPECT_EQ(effective(again, edited(soup, all)), Edits{});
+  TriangleSoup flat = soup;
+  flat.appearance = FaceColors{std::vector<glm::vec4>(5, glm::vec4(0.5f))};
+  EXPECT_EQ(effective(again, flat), Edits{});
+}
+
+TEST(Edits, OtherAppearancesLoseFacesAlone) {
+  TriangleSoup soup = random_lattice_soup();
+  soup.appearance = FaceColors{std::vector<glm::vec4>(5, glm::vec4(0.5f))};
+  const TriangleSoup result = edited(
+      soup, {.keeps_face = {1, 1, 0, 0, 0}, .lattice_level = 0, .color = Edits::Color::base});
+  EXPECT_EQ(std::get<FaceColors>(result.appearance).rgba.size(), 2u);
+}
+
+TEST(Edits, WhatMakesNoSenseHasADefect) {
+  const TriangleSoup soup = random_lattice_soup();
+  EXPECT_EQ(defect(Edits{}, soup), std::nullopt);
+  EXPECT_EQ(defect({.keeps_face = {1, 0, 0, 0, 0}}, soup), std::nullopt);
+  EXPECT_TRUE(defect({.keeps_face = {1, 0}}, soup));
+  EXPECT_TRUE(defect({.keeps_face = {0, 0, 0, 0, 0}}, soup));
+  EXPECT_TRUE(defect({.lattice_level = 8}, soup));
+  EXPECT_TRUE(defect({.lattice_level = -1}, soup));
+}
+
+}  // namespace edits_test
+}  // namespace tureen

@@ -1,0 +1,50 @@
+#include "scene/remark.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "scene/scene.hpp"
+
+namespace tureen {
+namespace remark_test {
+
+using Kind = Remark::Kind;
+using testing::ElementsAre;
+
+TEST(Remark, EveryKindHasANameOfItsOwnAndASentence) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < Remark::kinds; ++i) {
+    // More values than any kind has.
+    const Remark remark{Kind(i), {1, 2, 3}, {0.25, 0.5}, {"a", "b"}};
+    EXPECT_TRUE(names.insert(name_of(remark.kind)).second) << name_of(remark.kind);
+    EXPECT_FALSE(describe(remark).empty()) << name_of(remark.kind);
+  }
+  EXPECT_STREQ(name_of(Kind::lens_undone), "lens_undone");
+}
+
+TEST(Remark, InEnglish) {
+  EXPECT_EQ(describe({Kind::polygons_split, {1}}),
+            "1 polygon of more than three corners became fans of triangles.");
+  EXPECT_EQ(describe({Kind::shapes_missing, {0, 1, 4, 5}}),
+            "shapes 0, 1 and 4 of 5 missing: the rest is drawn");
+  EXPECT_EQ(describe({Kind::soft_triangles_dropped, {2, 7}, {0.01}}),
+            "2 of 7 soft triangles have an opacity below 0.01: dropped");
+  EXPECT_EQ(describe({Kind::soft_triangles_opaque, {}, {0.333, 0.5}}),
+            "soft triangles are drawn opaque: a soft triangle covers 33% of its area in the mean "
+            "(opacity 0.50), the opaque face covers all of it");
+  EXPECT_EQ(describe({Kind::lens_undone, {0, 0}}), "Lens distortion was undone by resampling.");
+}
+
+TEST(Remark, NotesOfAFileStandBeforeRemarksOnIt) {
+  SceneInfo info;
+  info.notes = {"a note; --not an option"};
+  info.remarks = {{.kind = Kind::up_unknown_to_format, .names = {"OFF"}}};
+  EXPECT_THAT(all_notes(info), ElementsAre("a note; --not an option",
+                                           "OFF knows no up axis: z is assumed; --up changes it"));
+  EXPECT_EQ(describe(info.remarks[0]), "OFF knows no up axis: z is assumed");
+}
+
+}  // namespace remark_test
+}  // namespace tureen

@@ -1,0 +1,72 @@
+#include "trainer/common/neighbours.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <nanoflann.hpp>
+
+namespace tureen::trainer {
+
+namespace {
+
+/// What nanoflann asks of a point cloud.
+struct Cloud {
+  std::span<const glm::dvec3> points;
+
+  std::size_t kdtree_get_point_count() const { return points.size(); }
+  double kdtree_get_pt(std::size_t index, std::size_t axis) const {
+    return points[index][glm::length_t(axis)];
+  }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;  // it computes the box itself
+  }
+};
+
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud,
+                                                 3, std::size_t>;
+
+}  // namespace
+
+std::vector<double> nearest_distances(std::span<const glm::dvec3> points) {
+  std::vector<double> distances(points.size(), 0.0);
+  if (points.size() < 2) return distances;
+  const Cloud cloud{points};
+  const Tree tree(3, cloud);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::size_t nearest[2];
+    double squares[2];
+    tree.knnSearch(&points[i][0], 2, nearest, squares);
+    distances[i] = std::sqrt(squares[1]);  // the first of the two is the point itself, or its twin
+  }
+  return distances;
+}
+
+std::vector<std::uint32_t> farthest_points(std::span<const glm::dvec3> points, std::size_t count,
+                                           std::uint32_t first) {
+  assert(points.empty() || first < points.size());
+  count = std::min(count, points.size());
+  std::vector<std::uint32_t> chosen;
+  // One array a coordinate, in floats relative to the first point, so that the loop vectorises.
+  std::vector<float> x, y, z;
+  for (const glm::dvec3& point : points) {
+    const glm::vec3 relative(point - points[first]);
+    x.push_back(relative.x), y.push_back(relative.y), z.push_back(relative.z);
+  }
+  std::vector<float> squares(points.size(), std::numeric_limits<float>::infinity());
+  std::size_t next = first;
+  while (chosen.size() < count) {
+    chosen.push_back(std::uint32_t(next));
+    const float at_x = x[next], at_y = y[next], at_z = z[next];
+    for (std::size_t i = 0; i < squares.size(); ++i) {
+      const float dx = x[i] - at_x, dy = y[i] - at_y, dz = z[i] - at_z;
+      squares[i] = std::min(squares[i], dx * dx + dy * dy + dz * dz);
+    }
+    squares[next] = -1.0f;  // never again, also where all that is left coincides with it
+    next = std::size_t(std::ranges::max_element(squares) - squares.begin());
+  }
+  return chosen;
+}
+
+}  // namespace tureen::trainer

@@ -1,0 +1,113 @@
+#include "trainer/common/region.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <optional>
+#include <vector>
+
+#include "base/error.hpp"
+
+namespace tureen::trainer {
+
+namespace {
+
+/// The smallest mean of sin^2 of the angles between axes and their mean for which they meet: 3
+/// degrees. Below, the errors of the poses decide how far away they do.
+constexpr double least_spread = 3e-3;
+
+/// Distances below this part of the eyes' coordinates are the roundings of poses written in floats.
+constexpr double rounding = 1e-6;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+glm::dvec3 forward(const Camera& camera) { return -camera.world_from_view_rotation()[2]; }
+
+/// min over c of the sum of |(I - d d^T)(c - eye)|^2, where the axes (eye, d) determine it.
+std::optional<glm::dvec3> nearest_to_axes(const std::vector<Photograph>& views) {
+  glm::dmat3 normal(0.0);
+  glm::dvec3 right(0.0);
+  const double weight = 1.0 / double(views.size());
+  for (const Photograph& view : views) {
+    const glm::dvec3 d = forward(view.camera);
+    const glm::dmat3 across = weight * (glm::dmat3(1.0) - glm::outerProduct(d, d));
+    normal += across;
+    right += across * view.camera.eye();
+  }
+  const glm::dmat3 inverse = glm::inverse(normal);
+  double squares = 0;
+  for (int column = 0; column < 3; ++column) squares += glm::dot(inverse[column], inverse[column]);
+  // The norm of the inverse is one over the smallest eigenvalue, within a factor of sqrt(3). NaN
+  // and infinity (a singular matrix) fail the comparison.
+  if (!(std::sqrt(squares) < 1 / least_spread)) return std::nullopt;
+  return inverse * right;
+}
+
+/// The region around a centre that most cameras look at; nothing where most have it at their back.
+std::optional<Region> looked_at(const std::vector<Photograph>& views, glm::dvec3 centre) {
+  std::vector<double> half_sides;
+  for (const Photograph& view : views) {
+    const Camera& camera = view.camera;
+    const double depth = glm::dot(centre - camera.eye(), forward(camera));
+    if (depth > rounding * glm::length(camera.eye()))
+      half_sides.push_back(
+          depth * std::min(0.5 * camera.width / camera.fx, 0.5 * camera.height / camera.fy));
+  }
+  if (2 * half_sides.size() <= views.size()) return std::nullopt;
+  return Region{centre, median(half_sides)};
+}
+
+Region of_points(const std::vector<DatasetPoint>& points) {
+  Region region;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    for (const DatasetPoint& point : points) values.push_back(point.position[axis]);
+    region.centre[axis] = median(std::move(values));
+  }
+  std::vector<double> distances;
+  for (const DatasetPoint& point : points)
+    distances.push_back(glm::distance(point.position, region.centre));
+  region.half_side = median(std::move(distances));
+  return region;
+}
+
+Region of_eyes(const std::vector<Photograph>& views, bool outwards) {
+  glm::dvec3 middle(0.0), direction(0.0);
+  for (const Photograph& view : views) {
+    middle += view.camera.eye() / double(views.size());
+    direction += forward(view.camera) / double(views.size());
+  }
+  double extent = 0;
+  for (const Photograph& view : views)
+    extent = std::max(extent, glm::distance(view.camera.eye(), middle));
+  if (extent <= rounding * glm::length(middle)) return {middle, 0};
+  if (outwards) return {middle, 2 * extent};
+  const glm::dvec3 centre = middle + 8 * extent * glm::normalize(direction);
+  return looked_at(views, centre).value_or(Region{middle, 0});
+}
+
+}  // namespace
+
+Region region_of_interest(const Dataset& dataset) {
+  if (dataset.train.empty()) throw InputError({}, "the dataset has no view to train on");
+  const std::optional<glm::dvec3> centre = nearest_to_axes(dataset.train);
+  if (centre)
+    if (const auto region = looked_at(dataset.train, *centre)) return *region;
+  Region region;
+  region.half_side = 0;
+  if (!dataset.points.empty()) region = of_points(dataset.points);
+  if (!(region.half_side > 0)) region = of_eyes(dataset.train, centre.has_value());
+  if (!(region.half_side > 0) || !std::isfinite(region.half_side))
+    throw InputError({},
+                     "nothing tells how large the scene is: the cameras stand at one place and "
+                     "there are no points");
+  return region;
+}
+
+}  // namespace tureen::trainer

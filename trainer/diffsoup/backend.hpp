@@ -1,0 +1,76 @@
+// What does the arithmetic of a training step: a processor (trainer/cpu) or a GPU (trainer/cuda).
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/camera.hpp"
+#include "trainer/diffsoup/config.hpp"
+#include "trainer/diffsoup/state.hpp"
+
+namespace tureen::trainer {
+
+/// A picture to learn from. Colours are composited on the background already.
+struct TrainingView {
+  Camera camera;
+  /// Three planes of width x height, row 0 on top: red, green, blue; value = byte / 255.
+  std::vector<std::uint8_t> target;
+  /// One a pixel, 1 where there is nothing to learn from; empty where all pixels count.
+  std::vector<std::uint8_t> ignored;
+};
+
+/// Rates of one step, after decay.
+struct Rates {
+  float texture, mlp, vertex;
+};
+
+struct StepReport {
+  double loss = 0;  // mean over the batch, as the gradient sees it
+  double l1 = 0;
+  double ssim = 0;
+  double mse = 0;                // of the stochastic pictures
+  std::uint64_t non_finite = 0;  // pixels and parameters quarantined in this step
+};
+
+/// Where the time of steps went: seconds of wall time, summed over the steps since the last
+/// take_times(), and what there was to do.
+struct StageTimes {
+  double visibility = 0, shading = 0, loss = 0, shading_backward = 0, faces = 0;
+  std::uint64_t fragments = 0;  // pixel centres that triangles cover, hidden or not
+  std::uint64_t shaded_pixels = 0, pixels = 0, steps = 0;
+};
+
+/// How fragments are accepted when no gradient is wanted.
+enum class Masking { threshold, stochastic };
+
+class Backend {
+ public:
+  virtual ~Backend() = default;
+
+  /// "CPU, 2 threads", "NVIDIA ..".
+  virtual std::string description() const = 0;
+
+  /// Takes over a state; the views are the constructor's.
+  virtual void upload(const TrainingState& state) = 0;
+  /// The state as it is now.
+  virtual void download(TrainingState& state) const = 0;
+
+  /// One step of the optimiser on the named views.
+  virtual StepReport step(std::span<const std::uint32_t> views, const Rates& rates) = 0;
+
+  virtual StageTimes take_times() = 0;
+
+  /// How many pixels each face wins, threshold masking, all `cameras` together.
+  virtual std::vector<std::uint64_t> visible_pixels(std::span<const Camera> cameras) = 0;
+
+  /// The picture, three planes of floats in [0, 1], threshold masking.
+  virtual std::vector<float> render(const Camera& camera) = 0;
+};
+
+/// `threads` 0 means all cores. The views must outlive the backend.
+std::unique_ptr<Backend> make_cpu_backend(std::span<const TrainingView> views, const Config& config,
+                                          int threads);
+
+}  // namespace tureen::trainer

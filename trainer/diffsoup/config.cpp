@@ -1,0 +1,56 @@
+#include "trainer/diffsoup/config.hpp"
+
+namespace tureen::trainer {
+
+Config preset(Preset kind) {
+  Config config;
+  config.preset = kind;
+  if (kind == Preset::scene) {
+    // Photographs show walls and trees behind what they look at.
+    config.far_points = 0.5f;
+    config.around_points = 0.3f;
+    // Nothing contradicts what hangs before one camera alone, and it spoils the views beside it.
+    config.near = 0.8f;
+    config.clear_near = true;
+    config.least_views = 3;
+    // Nothing was behind the photographs: what no triangle covers is an error, not a white wall.
+    for (float& channel : config.background) channel = 0.0f;
+  } else {
+    config.near = 0.1f;
+    config.far = 10.0f;
+  }
+  return config;
+}
+
+Config published(Preset kind) {
+  Config config = preset(kind);
+  config.max_level = 5;
+  config.far_points = 0.0f;
+  config.initial_radius = 0.25f;
+  config.lift_at = 0.5f;
+  config.lift_keeps_opacity = false;
+  config.turnover = 0.0f;
+  config.split_by_error = false;
+  config.baseline = false;
+  config.texture_slide = 1.0f;
+  config.dense_updates = true;
+  config.reset_moments = true;
+  config.resample_textures = false;
+  if (kind == Preset::object) {
+    config.vertex_rate = 1e-3f;
+    // Random points there are 100,000 in a box of half side s = 1.2 .. 2.0, with a circumradius of
+    // 0.01. The mean distance to the nearest of n uniform points is 0.554 * 2 s / cbrt(n) (Chandra-
+    // sekhar 1943), 0.0358 for s = 1.5, of which 0.01 is this much.
+    config.initial_triangles = 100'000;
+    config.initial_radius = 0.28f;
+  } else {
+    config.split_beyond_budget = true;
+    config.near = 0.01f;
+    config.clear_near = false;
+    config.least_views = 1;
+    config.around_points = 0.0f;
+  }
+  return config;
+}
+
+}  // namespace tureen::trainer

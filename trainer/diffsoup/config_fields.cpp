@@ -1,0 +1,315 @@
+#include "trainer/diffsoup/config_fields.hpp"
+
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <vector>
+
+#include "base/decimal.hpp"
+#include "scene/lattice.hpp"
+
+namespace tureen::trainer {
+
+namespace {
+
+template <class... Visitors>
+struct Overloaded : Visitors... {
+  using Visitors::operator()...;
+};
+template <class... Visitors>
+Overloaded(Visitors...) -> Overloaded<Visitors...>;
+
+constexpr const char* presets[] = {"object", "scene"};
+constexpr const char* initialisations[] = {"automatic", "points", "random", "mesh"};
+constexpr const char* precisions[] = {"float32", "float16"};
+
+// Whole numbers beyond these are typing errors rather than wishes.
+constexpr Range steps{1, 1e7, {}, "a run takes at least one step", "it would take weeks"};
+constexpr Range views{
+    1, 1024, {}, "a step looks at one view or more", "a step holds all of its pictures in memory"};
+// The texels of so many faces at level 3, a byte a channel, come to 1.4 GB.
+constexpr Range faces{
+    1, 4e6, {}, "a soup has one triangle or more", "their textures would fill gigabytes"};
+constexpr Range levels{0, lattice::max_level, {}, "a lattice has these levels"};
+constexpr Range fraction{0, 1, {}, "it is a fraction"};
+constexpr Range share{0, 1, Range::Ends::high_open, "some must stay for others to be cut from"};
+constexpr Range part{0, 1, Range::Ends::low_open, "it is a fraction, and nothing moves at 0"};
+constexpr Range weight{0, 1000, {}, "a weight below 0 would reward the error"};
+constexpr Range rate{0, 1e6, {}, "a rate below 0 would climb the loss; 0 keeps things as they are"};
+constexpr Range memory{0, 1, Range::Ends::high_open,
+                       "at 1 a mean would remember its first value alone"};
+constexpr Range length{0, 1e9, Range::Ends::low_open, "it is a distance in front of the camera"};
+// 2^64 is not exact as a double's neighbour below; every value of the type is in the range.
+constexpr Range any_seed{0, 18446744073709551616.0, {}, "it is an unsigned number of 64 bits"};
+constexpr Range none{};
+
+const ConfigField fields[] = {
+    {"preset", &Config::preset, none, presets,
+     "Kind of dataset; sets the defaults of all other fields"},
+    {"steps", &Config::steps, steps, {}, "Optimiser steps"},
+    {"batch", &Config::batch, views, {}, "Views per step"},
+    {"seed", &Config::seed, any_seed, {}, "Random seed; equal seeds give equal soups"},
+    {"triangles", &Config::triangles, faces, {}, "Triangles at the end, met exactly"},
+    {"initialisation", &Config::initialisation, none, initialisations,
+     "First triangles: at points of the dataset, at random, or a mesh; automatic is points if "
+     "there are any"},
+    {"initial_triangles", &Config::initial_triangles, faces, {}, "Triangles at the first step"},
+    {"initial_radius",
+     &Config::initial_radius,
+     {0, 100, Range::Ends::low_open, "a triangle needs an extent"},
+     {},
+     "Circumradius of the first triangles, in mean distances to the nearest neighbour"},
+    {"local_radius",
+     &Config::local_radius,
+     none,
+     {},
+     "With points: each triangle uses the distance to its own neighbour instead of the mean"},
+    {"box",
+     &Config::box,
+     {0, 1e9, {}, "it is a length"},
+     {},
+     "Half side of the box for random points, in world units; 0 derives it from the cameras"},
+    {"far_points",
+     &Config::far_points,
+     fraction,
+     {},
+     "Fraction of the random points outside the box"},
+    {"far_extent",
+     &Config::far_extent,
+     {1, 1e6, {}, "they lie outside of the box"},
+     {},
+     "Largest distance of these points, in half sides of the box"},
+    {"around_points",
+     &Config::around_points,
+     fraction,
+     {},
+     "With points: fraction of the triangles placed around the box, where structure from motion "
+     "found no points"},
+    {"coarse_level", &Config::coarse_level, levels, {}, "Lattice level before lift_at"},
+    {"min_level", &Config::min_level, levels, {}, "Coarsest lattice level after lift_at"},
+    {"max_level", &Config::max_level, levels, {}, "Finest lattice level, which is written"},
+    {"lift_at", &Config::lift_at, fraction, {}, "Fraction of the steps before the levels change"},
+    {"lift_keeps_opacity",
+     &Config::lift_keeps_opacity,
+     none,
+     {},
+     "Opacity keeps its values at the lift; otherwise it restarts at one half"},
+    {"l1_weight", &Config::l1_weight, weight, {}, "Weight of the mean difference in the loss"},
+    {"ssim_weight", &Config::ssim_weight, weight, {}, "Weight of (1 - SSIM) / 2 in the loss"},
+    {"opacity_l1_weight",
+     &Config::opacity_l1_weight,
+     weight,
+     {},
+     "Weight of the absolute difference in the opacity's score"},
+    {"baseline",
+     &Config::baseline,
+     none,
+     {},
+     "Subtract a running mean from the score's loss: less variance, the same expectation"},
+    {"baseline_rate", &Config::baseline_rate, part, {}, "How fast that mean follows"},
+    {"texture_slide",
+     &Config::texture_slide,
+     weight,
+     {},
+     "Factor of the corner motion caused by a texture inside a triangle; one half is the exact "
+     "derivative"},
+    {"texture_rate", &Config::texture_rate, rate, {}, "Learning rate of features and opacity"},
+    {"mlp_rate", &Config::mlp_rate, rate, {}, "Learning rate of the color MLP"},
+    {"vertex_rate",
+     &Config::vertex_rate,
+     rate,
+     {},
+     "Learning rate of positions, for a scene of half side 1.5"},
+    {"decay", &Config::decay, part, {}, "Final factor of all rates, exponential"},
+    {"beta1", &Config::beta1, memory, {}, "Adam's decay of the gradient's mean"},
+    {"beta2", &Config::beta2, memory, {}, "Adam's decay of its square's mean"},
+    {"epsilon",
+     &Config::epsilon,
+     {0, 1, Range::Ends::low_open, "it keeps Adam from dividing by zero"},
+     {},
+     "Constant added to Adam's denominator"},
+    {"dense_updates",
+     &Config::dense_updates,
+     none,
+     {},
+     "Adam also steps values that no image of the batch touched"},
+    {"reset_moments", &Config::reset_moments, none, {}, "Moments restart at every resampling"},
+    {"gradient_precision", &Config::gradient_precision, none, precisions,
+     "Precision of texel gradients within a step"},
+    {"resample_every", &Config::resample_every, steps, {}, "Steps between prunings and splittings"},
+    {"resample_until",
+     &Config::resample_until,
+     fraction,
+     {},
+     "Fraction of the steps after which resampling ends"},
+    {"resample_textures",
+     &Config::resample_textures,
+     none,
+     {},
+     "Children of a split resample their parent's texture instead of copying it"},
+    {"turnover",
+     &Config::turnover,
+     share,
+     {},
+     "Fraction of the triangles, those with the fewest pixels, replaced at each resampling"},
+    {"turnover_until",
+     &Config::turnover_until,
+     fraction,
+     {},
+     "Fraction of the steps after which turnover ends"},
+    {"split_by_error",
+     &Config::split_by_error,
+     none,
+     {},
+     "Split the triangles with the largest error instead of the longest edges"},
+    {"split_fraction",
+     &Config::split_fraction,
+     {0, 100, Range::Ends::low_open, "at 0 every edge would be split for ever"},
+     {},
+     "Projected edges longer than this fraction of the image height are split"},
+    {"split_views", &Config::split_views, steps, {}, "Views that choose the edges, at most"},
+    {"split_beyond_budget",
+     &Config::split_beyond_budget,
+     none,
+     {},
+     "Projected edges are split beyond the number of triangles, which the next pruning restores"},
+    {"least_views",
+     &Config::least_views,
+     steps,
+     {},
+     "Triangles that fewer training images show are removed at each resampling; limited to one and "
+     "a twentieth of all images"},
+    {"near", &Config::near, length, {}, "Near plane, for a scene of half side 1.5"},
+    {"far", &Config::far, length, {}, "Far plane, for a scene of half side 1.5"},
+    {"clear_near",
+     &Config::clear_near,
+     none,
+     {},
+     "Triangles before the near plane of a training image are removed at each resampling"},
+    {"background",
+     &Config::background,
+     {0, 1, {}, "it is a display-referred colour"},
+     {},
+     "Colour where no triangle is: red, green, blue"},
+};
+
+/// The numbers of a field that its range speaks of.
+std::vector<double> numbers(const Config& config, const ConfigField& field) {
+  const auto visitor = Overloaded{
+      [&](int Config::*m) { return std::vector{double(config.*m)}; },
+      [&](std::uint64_t Config::*m) { return std::vector{double(config.*m)}; },
+      [&](float Config::*m) { return std::vector{double(config.*m)}; },
+      [&](Color Config::*m) {
+        return std::vector<double>(std::begin(config.*m), std::end(config.*m));
+      },
+      [](auto) { return std::vector<double>{}; },
+  };
+  return std::visit(visitor, field.member);
+}
+
+std::optional<std::string> range_defect(const Config& config, const ConfigField& field) {
+  for (const double value : numbers(config, field))
+    if (!field.range.contains(value))
+      return std::string(field.name) + ": " + field.range.refusal(value, value_text(config, field));
+  return std::nullopt;
+}
+
+std::string number_text(double value) {
+  return value == std::floor(value) && value < 1e15 ? std::to_string((long long)value)
+                                                    : float_text(float(value));
+}
+
+}  // namespace
+
+bool Range::contains(double value) const {
+  const bool above = ends == Ends::low_open ? value > low : value >= low;
+  const bool below = ends == Ends::high_open ? value < high : value <= high;
+  return above && below;  // neither holds for NaN
+}
+
+std::string Range::text() const {
+  switch (ends) {
+    case Ends::low_open:
+      return "more than " + number_text(low) + ", at most " + number_text(high);
+    case Ends::high_open:
+      return "from " + number_text(low) + " to less than " + number_text(high);
+    case Ends::closed:
+      break;
+  }
+  return "from " + number_text(low) + " to " + number_text(high);
+}
+
+std::string Range::refusal(double value, const std::string& written) const {
+  return written + " is not " + text() + " (" + (value > high ? reason_above : reason) + ")";
+}
+
+std::span<const ConfigField> config_fields() { return fields; }
+
+std::span<const char* const> preset_words() { return presets; }
+
+std::optional<std::string> defect(const Config& config) {
+  for (const ConfigField& field : fields)
+    if (std::optional<std::string> found = range_defect(config, field)) return found;
+  const auto level = [](int value) { return std::to_string(value); };
+  if (config.min_level > config.max_level)
+    return "min_level: " + level(config.min_level) + " is above max_level, " +
+           level(config.max_level);
+  if (config.coarse_level > config.min_level)
+    return "coarse_level: " + level(config.coarse_level) + " is above min_level, " +
+           level(config.min_level) + " (the lift would lose what was learned)";
+  // Texels of a soup are numbered by 32 bits (LatticePatch::first_texel).
+  const std::uint64_t texels = lattice::texel_count(config.max_level);
+  if (const auto most = std::numeric_limits<std::uint32_t>::max() / texels;
+      std::uint64_t(config.triangles) > most)
+    return "triangles: " + std::to_string(config.triangles) + " of level " +
+           level(config.max_level) + " have more texels than a soup can number; at most " +
+           std::to_string(most) + " can be of that level";
+  if (!(config.near < config.far))
+    return "near: " + float_text(config.near) + " is not below far, " + float_text(config.far);
+  if (config.l1_weight == 0 && config.ssim_weight == 0)
+    return "l1_weight: 0, as ssim_weight is (there would be no loss)";
+  return std::nullopt;
+}
+
+std::string value_text(const Config& config, const ConfigField& field) {
+  const auto word = [&](auto value) {
+    return "\"" + std::string(field.words[std::size_t(value)]) + "\"";
+  };
+  const auto visitor = Overloaded{
+      [&](int Config::*m) { return std::to_string(config.*m); },
+      [&](std::uint64_t Config::*m) { return std::to_string(config.*m); },
+      [&](float Config::*m) { return float_text(config.*m); },
+      [&](bool Config::*m) { return std::string(config.*m ? "true" : "false"); },
+      [&](Color Config::*m) {
+        const Color& c = config.*m;
+        return "[" + float_text(c[0]) + ", " + float_text(c[1]) + ", " + float_text(c[2]) + "]";
+      },
+      [&](auto m) { return word(config.*m); },
+  };
+  return std::visit(visitor, field.member);
+}
+
+std::string config_reference() {
+  const Config object = preset(Preset::object), scene = preset(Preset::scene);
+  const Config published_object = published(Preset::object);
+  const Config published_scene = published(Preset::scene);
+  std::string text;
+  for (const ConfigField& field : fields) {
+    const std::string value = value_text(object, field), of_scene = value_text(scene, field);
+    const std::string a = value_text(published_object, field),
+                      b = value_text(published_scene, field);
+    text += std::string(field.name) + ": " + value;
+    if (of_scene != value) text += "; --preset scene: " + of_scene;
+    if (a != value || b != of_scene)
+      text += "; --compat: " + (a == b ? a : "object " + a + ", scene " + b);
+    text += "\n    " + std::string(field.meaning) + "\n";
+    if (!numbers(object, field).empty()) text += "    " + field.range.text() + "\n";
+    std::string words;
+    for (const char* word : field.words)
+      words += (words.empty() ? "    " : ", ") + std::string(word);
+    if (!words.empty()) text += words + "\n";
+  }
+  return text;
+}
+
+}  // namespace tureen::trainer

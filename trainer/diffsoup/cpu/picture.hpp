@@ -1,0 +1,56 @@
+// One picture of a batch while a step works on it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/camera.hpp"
+#include "scene/triangle_soup.hpp"
+#include "trainer/common/kernels/fragments.hpp"
+#include "trainer/diffsoup/model.hpp"
+
+namespace tureen::trainer {
+
+/// Square tiles of this side: a tile's depths and winners stay in the first-level cache.
+inline constexpr int tile_side = 32;
+
+/// What a pixel shows.
+struct VisiblePixel {
+  std::uint32_t face = no_face;  // the background where there is none
+  float inverse_depth = 0;
+  float b0 = 0, b1 = 0;  // barycentrics
+};
+
+/// What a pixel has for the face that it shows: all that is needed together lies together, in one
+/// line of the cache.
+struct alignas(64) PixelGradient {
+  float features[channels];  // dL/dfeature 0..6, and 0
+  float color[3];
+  float by_color[3];  // dL/dcolour
+  float error;        // sum over channels of |C - G|
+};
+
+struct Picture {
+  kernels::View view;
+  std::uint32_t draw_key = 0;
+  int tiles_x = 0, tiles_y = 0;
+
+  std::vector<kernels::ProjectedFace> projected;  // one a face
+  std::vector<std::uint32_t> bin_begin;           // one a tile, and the end
+  std::vector<std::uint32_t> bins;                // faces of each tile, in their order
+
+  // One a pixel, row by row from the top.
+  std::vector<VisiblePixel> visible;
+  std::vector<float> color;     // three planes
+  std::vector<float> by_color;  // three planes: dL/dcolour
+  std::vector<float> loss;      // sum over channels of |C - G|; then what the score takes
+  std::vector<PixelGradient> gradient;
+
+  std::size_t pixels() const { return std::size_t(view.width) * view.height; }
+  kernels::Rectangle tile(std::size_t index) const;
+};
+
+/// The camera relative to a model's origin.
+kernels::View view_of(const Camera& camera, glm::dvec3 origin, double near, double far);
+
+}  // namespace tureen::trainer

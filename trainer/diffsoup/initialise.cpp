@@ -1,0 +1,241 @@
+#include "trainer/diffsoup/initialise.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <tuple>
+
+#include "base/error.hpp"
+#include "trainer/common/neighbours.hpp"
+#include "trainer/diffsoup/mlp_parameters.hpp"
+#include "trainer/diffsoup/split_choice.hpp"
+
+namespace tureen::trainer {
+
+namespace {
+
+constexpr std::uint64_t begin_stream = 2;
+
+double mean(std::span<const double> values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return values.empty() ? 0 : sum / double(values.size());
+}
+
+/// Positions in their order; of those that coincide, the first.
+std::vector<glm::dvec3> once_each(const std::vector<glm::dvec3>& points) {
+  std::vector<std::uint32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto key = [&points](std::uint32_t i) {
+    return std::tuple(points[i].x, points[i].y, points[i].z, i);
+  };
+  std::ranges::sort(order, {}, key);
+  std::vector<bool> repeated(points.size(), false);
+  for (std::size_t i = 1; i < order.size(); ++i)
+    repeated[order[i]] = points[order[i]] == points[order[i - 1]];
+  std::vector<glm::dvec3> kept;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!repeated[i]) kept.push_back(points[i]);
+  return kept;
+}
+
+/// The positions without those that are likely mistakes: see seeds_at_points.
+std::vector<glm::dvec3> plausible(std::span<const DatasetPoint> points) {
+  glm::dvec3 centre;
+  std::vector<double> values(points.size());
+  const auto quantile = [&values](double fraction) {
+    const auto at = values.begin() + std::ptrdiff_t(fraction * double(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    std::ranges::transform(points, values.begin(),
+                           [axis](const DatasetPoint& point) { return point.position[axis]; });
+    centre[axis] = quantile(0.5);
+  }
+  std::ranges::transform(points, values.begin(), [&centre](const DatasetPoint& point) {
+    return glm::distance(point.position, centre);
+  });
+  const double farthest = 2 * quantile(0.995);
+  std::vector<glm::dvec3> kept;
+  for (const DatasetPoint& point : points)
+    if (glm::distance(point.position, centre) <= farthest) kept.push_back(point.position);
+  return once_each(kept);
+}
+
+/// All points, and others beside them.
+std::vector<glm::dvec3> extended(const std::vector<glm::dvec3>& points, std::size_t count,
+                                 double lone_spacing, Random& random) {
+  std::vector<double> distances = nearest_distances(points);
+  if (points.size() == 1) distances[0] = lone_spacing;
+  std::vector<glm::dvec3> all = points;
+  while (all.size() < count) {
+    const std::size_t beside = random.below(points.size());
+    all.push_back(points[beside] + distances[beside] * random.in_ball());
+  }
+  return all;
+}
+
+std::vector<glm::dvec3> thinned(const std::vector<glm::dvec3>& points, std::size_t count,
+                                Random& random) {
+  const std::size_t spread = (2 * count + 2) / 3;  // two thirds, rounded up
+  const auto first = std::uint32_t(random.below(points.size()));
+  std::vector<glm::dvec3> chosen;
+  std::vector<bool> taken(points.size(), false);
+  for (const std::uint32_t i : farthest_points(points, spread, first)) {
+    chosen.push_back(points[i]);
+    taken[i] = true;
+  }
+  std::vector<glm::dvec3> others;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!taken[i]) others.push_back(points[i]);
+  for (const std::uint32_t i : draw(random, count - chosen.size(), others.size()))
+    chosen.push_back(others[i]);
+  return chosen;
+}
+
+/// Around the cube: uniform in direction, and in the logarithm of the distance.
+glm::dvec3 far_point(const Region& region, double far_extent, Random& random) {
+  glm::dvec3 direction(0.0);
+  while (glm::length(direction) < 0.1) direction = random.in_ball();  // nearer it is inexact
+  direction = glm::normalize(direction);
+  const glm::dvec3 size = glm::abs(direction);
+  const double border = 1 / std::max({size.x, size.y, size.z});  // where it leaves the cube
+  const double distance = border * std::pow(std::max(far_extent / border, 1.0), random.uniform());
+  return region.centre + region.half_side * distance * direction;
+}
+
+glm::dvec3 near_point(const Region& region, Random& random) {
+  const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1);
+  return region.centre + region.half_side * glm::dvec3(x, y, z);
+}
+
+Model grey_model(const Config& config, glm::dvec3 origin, std::vector<glm::vec3> positions) {
+  Model model{.min_level = config.coarse_level,
+              .max_level = config.coarse_level,
+              .positions = std::move(positions),
+              .logits = {},
+              .mlp = initial_mlp(config.seed),
+              .origin = origin};
+  model.logits.assign(model.faces() * model.texels() * channels, 0.0f);
+  return model;
+}
+
+Model from_mesh(const Scene& mesh, const Config& config) {
+  const Model model = from_scene(
+      mesh,
+      {.min_level = config.coarse_level, .max_level = config.coarse_level, .seed = config.seed});
+  const std::vector<Split> splits = longest_edges(model, std::size_t(config.initial_triangles));
+  return split(model, splits, ChildTexture::resampled).model;
+}
+
+/// Those of the seeds that do not lie around the region are put at points instead.
+void put_at_points(const Dataset& dataset, const Region& region, const Config& config, double far,
+                   Seeds& seeds, Random& random) {
+  const auto count = std::size_t(config.initial_triangles);
+  const std::size_t at = count - std::size_t(std::llround(far * double(count)));
+  seeds.centres.resize(count);
+  seeds.radii.resize(count);
+  if (at == 0) return;
+  const Seeds points = seeds_at_points(dataset.points,
+                                       {.count = at,
+                                        .radius = config.initial_radius,
+                                        .local = config.local_radius,
+                                        .lone_spacing = region.half_side},
+                                       random);
+  std::ranges::copy(points.centres, seeds.centres.begin());
+  std::ranges::copy(points.radii, seeds.radii.begin());
+}
+
+}  // namespace
+
+Seeds seeds_at_points(std::span<const DatasetPoint> points, const PointSeeds& options,
+                      Random& random) {
+  assert(!points.empty());
+  const std::vector<glm::dvec3> kept = plausible(points);
+  Seeds seeds;
+  seeds.centres = kept.size() < options.count
+                      ? extended(kept, options.count, options.lone_spacing, random)
+                      : thinned(kept, options.count, random);
+  seeds.radii = nearest_distances(seeds.centres);
+  double mean_distance = mean(seeds.radii);
+  if (!(mean_distance > 0)) mean_distance = options.lone_spacing;
+  for (double& radius : seeds.radii)
+    radius =
+        options.radius * (options.local ? std::max(radius, 0.1 * mean_distance) : mean_distance);
+  return seeds;
+}
+
+Seeds random_seeds(const Region& region, std::span<const Photograph> views,
+                   const RandomSeeds& options, Random& random) {
+  const auto near_count =
+      options.count - std::size_t(std::llround(options.far * double(options.count)));
+  const auto seen = [&views](glm::dvec3 point) {
+    return std::ranges::any_of(
+        views, [&](const Photograph& view) { return in_picture(view.camera, point); });
+  };
+  Seeds seeds;
+  while (seeds.centres.size() < options.count) {
+    const bool is_near = seeds.centres.size() < near_count;
+    glm::dvec3 point;
+    for (int attempt = 0; attempt < 100; ++attempt) {
+      point = is_near ? near_point(region, random) : far_point(region, options.far_extent, random);
+      if (seen(point)) break;
+    }
+    seeds.centres.push_back(point);
+  }
+  const std::span<const glm::dvec3> all = seeds.centres;
+  double spacing = mean(nearest_distances(all.first(near_count)));
+  if (!(spacing > 0)) spacing = region.half_side;  // one point, or none
+  for (const glm::dvec3 centre : seeds.centres) {
+    const double distance = glm::distance(centre, region.centre) / region.half_side;
+    const bool is_near = seeds.radii.size() < near_count;
+    seeds.radii.push_back(options.radius * spacing * (is_near ? 1.0 : distance));
+  }
+  return seeds;
+}
+
+std::vector<glm::vec3> equilateral_triangles(const Seeds& seeds, glm::dvec3 origin,
+                                             Random& random) {
+  assert(seeds.centres.size() == seeds.radii.size());
+  const double sine = std::sqrt(0.75);  // of 120 degrees
+  const glm::dvec3 corners[] = {{1, 0, 0}, {-0.5, sine, 0}, {-0.5, -sine, 0}};
+  std::vector<glm::vec3> positions;
+  positions.reserve(3 * seeds.centres.size());
+  for (std::size_t i = 0; i < seeds.centres.size(); ++i) {
+    const glm::dmat3 rotation = random.rotation();
+    for (const glm::dvec3 corner : corners)
+      positions.emplace_back(seeds.centres[i] - origin + seeds.radii[i] * (rotation * corner));
+  }
+  return positions;
+}
+
+Model initial_model(const Dataset& dataset, const Config& config, const Scene* mesh) {
+  assert((mesh != nullptr) == (config.initialisation == Initialisation::mesh));
+  if (mesh) return from_mesh(*mesh, config);
+  const bool has_points = !dataset.points.empty();
+  if (config.initialisation == Initialisation::points && !has_points)
+    throw InputError({}, "the dataset has no points to begin at",
+                     "random initialisation needs none");
+  const auto count = std::size_t(config.initial_triangles);
+  Region region = region_of_interest(dataset);
+  Random random(config.seed, begin_stream);
+  const bool at_points = has_points && config.initialisation != Initialisation::random;
+  if (config.box > 0 && !at_points) region.half_side = config.box;
+  const double far = at_points ? config.around_points : config.far_points;
+  Seeds seeds;
+  if (!at_points || far > 0)
+    seeds = random_seeds(region, dataset.train,
+                         {.count = count,
+                          .radius = config.initial_radius,
+                          .far = far,
+                          .far_extent = config.far_extent},
+                         random);
+  if (at_points) put_at_points(dataset, region, config, far, seeds, random);
+  return grey_model(config, region.centre, equilateral_triangles(seeds, region.centre, random));
+}
+
+}  // namespace tureen::trainer
