@@ -7,12 +7,13 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "camera/angles.hpp"
+
 namespace tureen {
 
 namespace {
 
 using std::numbers::pi;
-constexpr double degree = pi / 180;
 
 // Why the elevation ends here: orbit() in the header.
 constexpr double highest_elevation = 89.9 * degree;

@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <string>
 
+#include "camera/angles.hpp"
 #include "camera/camera_spline.hpp"
 #include "camera/view_state.hpp"
 
@@ -14,7 +15,6 @@ namespace tureen {
 
 namespace {
 
-constexpr double turn = 6.28318530717958647693;
 constexpr int keyframes_a_turn = 8;  // far from half a turn, beyond which the short way is another
 
 }  // namespace
@@ -210,7 +210,7 @@ CameraPathData turntable(const Turntable& options) {
   for (int i = 0; i < count; ++i) {
     const double part = double(i) / count;
     const glm::dmat3 turned =
-        glm::mat3_cast(rotation_of_vector(turn * options.turns * part * up)) * axes;
+        glm::mat3_cast(rotation_of_vector(full_turn * options.turns * part * up)) * axes;
     Camera camera = camera_of(lens_of(first), turned, target + options.distance * turned[2],
                               first.width, first.height);
     camera.name = "turntable " + std::to_string(i);
@@ -226,9 +226,10 @@ CameraPathData turntable(const Subject& subject, const Bearing& start, const Len
   constexpr int directions = 72;
   double distance = 0;
   for (int i = 0; i < directions; ++i)
-    distance = std::max(
-        distance,
-        framing_distance(subject, {start.azimuth + turn * i / directions, start.elevation}, lens));
+    distance =
+        std::max(distance,
+                 framing_distance(
+                     subject, {start.azimuth + full_turn * i / directions, start.elevation}, lens));
   const double length = glm::length(subject.up);
   const glm::dvec3 up = length > 0 ? subject.up / length : glm::dvec3(0, 1, 0);
   const ViewState first{.up = up,

@@ -5,12 +5,11 @@
 #include <glm/geometric.hpp>
 
 #include "base/decimal_text.hpp"
+#include "camera/angles.hpp"
 
 namespace tureen {
 
 namespace {
-
-constexpr double degree = 0.017453292519943295;
 
 std::optional<glm::dvec3> unit(const glm::dvec3& v) {
   const double length = glm::length(v);

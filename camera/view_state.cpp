@@ -4,11 +4,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "camera/angles.hpp"
+
 namespace tureen {
 
 namespace {
-
-constexpr double turn = 6.28318530717958647693;
 
 /// Front, side and up of the angles; right-handed like (z, x, y).
 struct Horizon {
@@ -112,7 +112,7 @@ void place_eye(ViewState& state, const glm::dvec3& eye) {
 
 void take_short_way(ViewState& state, const ViewState& reference) {
   const auto near = [](double angle, double other) {
-    return other + std::remainder(angle - other, turn);
+    return other + std::remainder(angle - other, full_turn);
   };
   state.bearing.azimuth = near(state.bearing.azimuth, reference.bearing.azimuth);
   state.roll = near(state.roll, reference.roll);

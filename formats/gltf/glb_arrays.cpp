@@ -4,7 +4,7 @@ namespace tureen {
 
 namespace {
 
-std::size_t bytes_of_component(int type) {
+std::size_t component_bytes(int type) {
   switch (type) {
     case glb_layout::unsigned_byte:
       return 1;
@@ -50,7 +50,7 @@ GlbArrays::Location GlbArrays::location(const JsonView& holder, const char* key,
   if (accessor["componentType"].natural() != std::uint64_t(format.component_type))
     accessor["componentType"].fail("expected " + std::to_string(format.component_type));
   if (accessor.find("sparse")) accessor.fail("is sparse, which this extension does not use");
-  const std::size_t each = bytes_of_component(format.component_type) * format.components;
+  const std::size_t each = component_bytes(format.component_type) * format.components;
   const std::uint64_t count =
       accessor["count"].natural(std::numeric_limits<std::uint64_t>::max() / 64);
   const JsonView view = root_["bufferViews"].at(index(accessor["bufferView"]));

@@ -17,7 +17,6 @@ namespace tureen {
 
 namespace {
 
-constexpr int features = LatticeTexture::features;
 constexpr int channels = LatticeTexture::channels;
 
 /// One face's texels as floats, features apart from alpha: what projections take.
@@ -25,16 +24,17 @@ struct FaceTexels {
   std::vector<float> features, alpha;
 
   explicit FaceTexels(int level)
-      : features(lattice::texel_count(level) * tureen::features),
+      : features(lattice::texel_count(level) * LatticeTexture::features),
         alpha(lattice::texel_count(level)) {}
 
   static FaceTexels of(const LatticeTexture& texture, const LatticePatch& patch) {
     FaceTexels result{int(patch.level)};
     const auto finite = [](float value) { return std::isfinite(value) ? value : 0.0f; };
     for (std::size_t i = 0; i < result.alpha.size(); ++i) {
-      for (int c = 0; c < tureen::features; ++c)
-        result.features[i * tureen::features + c] = finite(texture.value(patch.first_texel + i, c));
-      result.alpha[i] = finite(texture.value(patch.first_texel + i, tureen::features));
+      for (int c = 0; c < LatticeTexture::features; ++c)
+        result.features[i * LatticeTexture::features + c] =
+            finite(texture.value(patch.first_texel + i, c));
+      result.alpha[i] = finite(texture.value(patch.first_texel + i, LatticeTexture::features));
     }
     return result;
   }
@@ -115,8 +115,8 @@ LatticeTexture with_levels(const LatticeTexture& texture, const std::vector<Valu
     const FaceTexels coarse =
         projected(projections.get(int(patch.level), levels[t]), FaceTexels::of(texture, patch));
     for (std::size_t i = 0; i < coarse.alpha.size(); ++i) {
-      for (int c = 0; c < features; ++c)
-        texels.push_back(stored<Value>(coarse.features[i * features + c], false));
+      for (int c = 0; c < LatticeTexture::features; ++c)
+        texels.push_back(stored<Value>(coarse.features[i * LatticeTexture::features + c], false));
       texels.push_back(stored<Value>(coarse.alpha[i], true));
     }
   }
@@ -129,7 +129,7 @@ LatticeTexture with_levels(const LatticeTexture& texture, const std::vector<Valu
 std::vector<std::uint8_t> smallest_levels(const LatticeTexture& texture,
                                           const LevelTolerance& tolerance,
                                           const LevelProgress& progress) {
-  const int compared = texture.mlp ? features : 3;
+  const int compared = texture.mlp ? LatticeTexture::features : 3;
   std::vector<std::uint8_t> levels;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint8_t> known;
   Projections projections;

@@ -13,9 +13,9 @@ namespace tureen::trainer {
 namespace {
 
 /// The pyramid between an eye and a rectangle parallel to its picture.
-class Pyramid {
+class NearPyramid {
  public:
-  Pyramid(const Camera& camera, glm::dvec3 origin, double near)
+  NearPyramid(const Camera& camera, glm::dvec3 origin, double near)
       : pixels_(camera, origin), near_(near) {}
 
   bool meets(const glm::vec3* corners) const {
@@ -96,7 +96,7 @@ std::vector<std::uint8_t> reaching_near_zone(const Model& model, std::span<const
   assert(near > 0);
   std::vector<std::uint8_t> reaching(model.faces(), 0);
   for (const Camera& camera : cameras) {
-    const Pyramid pyramid(camera, model.origin, near);
+    const NearPyramid pyramid(camera, model.origin, near);
     for (std::size_t face = 0; face < model.faces(); ++face)
       if (!reaching[face]) reaching[face] = pyramid.meets(&model.positions[3 * face]);
   }

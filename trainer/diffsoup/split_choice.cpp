@@ -81,9 +81,9 @@ void split_longest(Faces& faces, std::size_t budget, const Starts& starts,
 }
 
 /// What of an edge a camera sees, beyond its near plane.
-class Picture {
+class ViewProjection {
  public:
-  Picture(const Camera& camera, glm::dvec3 origin, double near)
+  ViewProjection(const Camera& camera, glm::dvec3 origin, double near)
       : pixels_(camera, origin), near_(near) {}
 
   glm::dvec3 operator()(glm::vec3 position) const { return pixels_(position); }
@@ -159,7 +159,7 @@ std::vector<Split> longest_projected_edges(const Model& model, std::span<const S
   Faces faces(model);
   for (const SplitView& view : views) {
     assert(view.visible.size() == model.faces());
-    const Picture project(view.camera, model.origin, rule.near);
+    const ViewProjection project(view.camera, model.origin, rule.near);
     const auto longest = [&](std::uint32_t face) -> std::optional<Candidate> {
       const glm::vec3* corner = &faces.positions[3 * std::size_t(face)];
       const glm::dvec3 p[3] = {project(corner[0]), project(corner[1]), project(corner[2])};
