@@ -319,7 +319,7 @@ ExitCode train(const TrainOptions& options) {
       trainer::with_empty_near_zone(trainer::scaled_to(config, region.half_side), dataset, region);
   run.state = checkpoint ? std::move(checkpoint->state) : first_state(dataset, scaled, mesh);
   const std::vector<trainer::TrainingView> views =
-      trainer::take_training_views(dataset.train, scaled);
+      trainer::take_training_views(dataset.train, scaled.background);
   trainer::Trainer trainer(scaled, views,
                            trainer::make_backend(views, scaled, options.device, options.threads),
                            run.state);

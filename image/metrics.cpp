@@ -8,7 +8,6 @@
 
 #include "base/error.hpp"
 #include "image/flip.hpp"
-#include "scene/triangle_soup.hpp"
 
 namespace tureen {
 
@@ -28,8 +27,6 @@ double largest_difference(const glm::vec4& a, const glm::vec4& b) {
 bool is_finite(const glm::vec4& p) {
   return std::isfinite(p.r) && std::isfinite(p.g) && std::isfinite(p.b) && std::isfinite(p.a);
 }
-
-bool is_hit(const glm::vec4& p) { return p.a >= alpha_threshold; }
 
 void require_comparable(const ImageF& a, const ImageF& b) {
   const auto size = [](const ImageF& image) {
@@ -82,7 +79,7 @@ Metrics compare(const ImageF& a, const ImageF& b, const MetricOptions& options) 
     const double largest = largest_difference(p, q);
     result.max_abs = std::max(result.max_abs, largest);
     failing += largest > options.pixel_tolerance;
-    mismatched += is_hit(p) != is_hit(q);
+    mismatched += (p.a >= options.alpha_threshold) != (q.a >= options.alpha_threshold);
     result.non_finite += !is_finite(p) || !is_finite(q);
   }
   result.mae = sum / (3.0 * double(pixels));

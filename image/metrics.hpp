@@ -14,6 +14,8 @@ struct MetricOptions {
   /// failing_fraction counts pixels of which a channel is off by more than this. The default lets
   /// a rounding to 8 bits fall to the other side: one step, and slack for float arithmetic.
   double pixel_tolerance = 1.0 / 255 + 1e-6;
+  /// A picture hits the pixels whose alpha is at least this; the scene's alpha_threshold.
+  float alpha_threshold = 0.5f;
   /// FLIP takes most of the time; without it `flip` is 0.
   bool with_flip = true;
 };
@@ -28,9 +30,10 @@ struct Metrics {
   double flip = 0;      // mean FLIP (LDR, 67 pixels per degree)
   double max_abs = 0;   // the largest difference in a channel
   double p999_abs = 0;  // 99.9 % of all channels differ by no more: rendering bugs live above
-  double coverage_mismatch = 0;  // fraction of pixels that only one picture hits (alpha >= 1/2)
-  double failing_fraction = 0;   // of pixels, see MetricOptions
-  std::size_t non_finite = 0;    // pixels in which either picture has a NaN or an infinity
+  double coverage_mismatch =
+      0;  // fraction of pixels that only one picture hits (MetricOptions::alpha_threshold)
+  double failing_fraction = 0;  // of pixels, see MetricOptions
+  std::size_t non_finite = 0;   // pixels in which either picture has a NaN or an infinity
 };
 
 /// -10 log10(mse), at most 100: what equal pictures get.

@@ -19,7 +19,7 @@ std::optional<std::string> defect(const Quality& quality) {
   if (quality.supersampling < 1 || quality.supersampling > 8)
     return "supersampling is " + std::to_string(quality.supersampling) + ", not 1 to 8";
   if (quality.resolution_scale < 1 && quality.supersampling > 1)
-    return "fewer samples than pixels are asked for, and more";
+    return "a resolution scale below 1 and supersampling cannot be combined";
   return std::nullopt;
 }
 

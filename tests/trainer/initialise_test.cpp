@@ -10,6 +10,7 @@
 #include <glm/matrix.hpp>
 
 #include "base/error.hpp"
+#include "formats/dataset/dataset.hpp"
 #include "tests/support/random_soups.hpp"
 #include "tests/trainer/random_model.hpp"
 #include "trainer/common/neighbours.hpp"

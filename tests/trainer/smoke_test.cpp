@@ -68,7 +68,7 @@ struct TrainingRun {
   TrainingRun(const Config& config, int threads, const TrainingState& state)
       : views([&] {
           std::vector<Photograph> train = still_life().train;
-          return take_training_views(train, config);
+          return take_training_views(train, config.background);
         }()),
         trainer(config, views, make_cpu_backend(views, config, threads), state) {}
 
@@ -85,7 +85,7 @@ struct TrainingRun {
 double test_psnr(TrainingRun& run, const Config& config) {
   double sum = 0;
   for (const Photograph& photograph : still_life().test) {
-    const TrainingView truth = training_view(photograph, config);
+    const TrainingView truth = training_view(photograph, config.background);
     const std::vector<float> drawn = run.trainer.backend().render(photograph.camera);
     double squared = 0;
     for (std::size_t i = 0; i < drawn.size(); ++i) {

@@ -30,7 +30,7 @@ TEST(TrainingViews, AreThePhotographsOverTheBackgroundPlaneByPlane) {
   config.background[0] = 1.0f;
   config.background[1] = 0.25f;
   config.background[2] = 0.0f;
-  const TrainingView view = training_view(photograph, config);
+  const TrainingView view = training_view(photograph, config.background);
   EXPECT_EQ(view.camera.name, "r_1");
   EXPECT_TRUE(view.ignored.empty());
   const std::size_t pixels = photograph.image.pixels.size();
@@ -51,8 +51,8 @@ TEST(TrainingViews, AreThePhotographsOverTheBackgroundPlaneByPlane) {
 
 TEST(TrainingViews, AreTakenOutOfTheDataset) {
   std::vector<Photograph> photographs{random_photograph(1), random_photograph(2)};
-  const TrainingView expected = training_view(photographs[1], {});
-  const std::vector<TrainingView> views = take_training_views(photographs, {});
+  const TrainingView expected = training_view(photographs[1], Config{}.background);
+  const std::vector<TrainingView> views = take_training_views(photographs, Config{}.background);
   ASSERT_EQ(views.size(), 2u);
   EXPECT_EQ(views[1].target, expected.target);
   EXPECT_EQ(photographs.size(), 2u);

@@ -4,7 +4,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "formats/dataset/dataset.hpp"
+#include "scene/photographs.hpp"
 
 namespace tureen::trainer {
 

@@ -14,7 +14,7 @@ std::uint8_t composited(std::uint8_t value, std::uint8_t alpha, float background
 
 }  // namespace
 
-TrainingView training_view(const Photograph& photograph, const Config& config) {
+TrainingView training_view(const Photograph& photograph, std::span<const float, 3> background) {
   const Image8& image = photograph.image;
   assert(image.width == photograph.camera.width && image.height == photograph.camera.height);
   const std::size_t pixels = image.pixels.size();
@@ -24,30 +24,20 @@ TrainingView training_view(const Photograph& photograph, const Config& config) {
     const glm::u8vec4 pixel = image.pixels[p];
     for (int c = 0; c < 3; ++c)
       view.target[std::size_t(c) * pixels + p] =
-          composited(pixel[c], pixel.a, config.background[c]);
+          composited(pixel[c], pixel.a, background[std::size_t(c)]);
   }
   return view;
 }
 
 std::vector<TrainingView> take_training_views(std::vector<Photograph>& photographs,
-                                              const Config& config) {
+                                              std::span<const float, 3> background) {
   std::vector<TrainingView> views;
   views.reserve(photographs.size());
   for (Photograph& photograph : photographs) {
-    views.push_back(training_view(photograph, config));
+    views.push_back(training_view(photograph, background));
     photograph.image = {};
   }
   return views;
-}
-
-Config scaled_to(const Config& config, double half_side) {
-  assert(half_side > 0);
-  const double factor = half_side / reference_extent;
-  Config scaled = config;
-  scaled.vertex_rate = float(config.vertex_rate * factor);
-  scaled.near = float(config.near * factor);
-  scaled.far = float(config.far * factor);
-  return scaled;
 }
 
 }  // namespace tureen::trainer

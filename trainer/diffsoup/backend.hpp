@@ -1,4 +1,4 @@
-// What does the arithmetic of a training step: a processor (trainer/cpu) or a GPU (trainer/cuda).
+// The arithmetic of a training step, by a processor (cpu/) or a GPU (cuda/).
 #pragma once
 
 #include <memory>
@@ -7,19 +7,11 @@
 #include <vector>
 
 #include "scene/camera.hpp"
+#include "trainer/common/training_views.hpp"
 #include "trainer/diffsoup/config.hpp"
 #include "trainer/diffsoup/state.hpp"
 
 namespace tureen::trainer {
-
-/// A picture to learn from. Colours are composited on the background already.
-struct TrainingView {
-  Camera camera;
-  /// Three planes of width x height, row 0 on top: red, green, blue; value = byte / 255.
-  std::vector<std::uint8_t> target;
-  /// One a pixel, 1 where there is nothing to learn from; empty where all pixels count.
-  std::vector<std::uint8_t> ignored;
-};
 
 /// Rates of one step, after decay.
 struct Rates {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "base/input.hpp"
-#include "formats/dataset/dataset.hpp"
+#include "scene/photographs.hpp"
 #include "trainer/diffsoup/config.hpp"
 #include "trainer/diffsoup/state.hpp"
 

@@ -1,5 +1,7 @@
 #include "trainer/diffsoup/config.hpp"
 
+#include <cassert>
+
 namespace tureen::trainer {
 
 Config preset(Preset kind) {
@@ -51,6 +53,16 @@ Config published(Preset kind) {
     config.around_points = 0.0f;
   }
   return config;
+}
+
+Config scaled_to(const Config& config, double half_side) {
+  assert(half_side > 0);
+  const double factor = half_side / reference_extent;
+  Config scaled = config;
+  scaled.vertex_rate = float(config.vertex_rate * factor);
+  scaled.near = float(config.near * factor);
+  scaled.far = float(config.far * factor);
+  return scaled;
 }
 
 }  // namespace tureen::trainer

@@ -115,4 +115,8 @@ Config preset(Preset kind);
 /// The published choices wherever they differ from ours (--compat).
 Config published(Preset kind);
 
+/// The configuration with its lengths of training (vertex_rate, near, far: see reference_extent) in
+/// the units of a dataset whose region of interest has this half side.
+Config scaled_to(const Config& config, double half_side);
+
 }  // namespace tureen::trainer

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "formats/dataset/dataset.hpp"
+#include "scene/photographs.hpp"
 #include "scene/scene.hpp"
 #include "trainer/common/random.hpp"
 #include "trainer/common/region.hpp"

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "formats/dataset/dataset.hpp"
 #include "scene/camera.hpp"
+#include "scene/photographs.hpp"
 #include "trainer/common/region.hpp"
 #include "trainer/diffsoup/config.hpp"
 #include "trainer/diffsoup/model.hpp"

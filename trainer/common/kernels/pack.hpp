@@ -4,10 +4,8 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 
 #include "trainer/common/kernels/host_device.hpp"
-#include "trainer/diffsoup/model.hpp"
 
 namespace tureen::trainer::kernels {
 
@@ -16,19 +14,6 @@ namespace tureen::trainer::kernels {
 inline constexpr int pack_lanes = 16;  // one register of AVX-512, two of AVX2, four of SSE
 using Pack __attribute__((vector_size(sizeof(float) * pack_lanes))) = float;
 using IntPack __attribute__((vector_size(sizeof(float) * pack_lanes))) = std::int32_t;
-
-/// The channels of one texel.
-using TexelPack __attribute__((vector_size(sizeof(float) * channels))) = float;
-
-TUREEN_HOST_DEVICE TexelPack load_texel(const float* values) {
-  TexelPack result;
-  std::memcpy(&result, values, sizeof result);
-  return result;
-}
-
-TUREEN_HOST_DEVICE void store_texel(float* values, const TexelPack& texel) {
-  std::memcpy(values, &texel, sizeof texel);
-}
 
 #endif
 

@@ -8,6 +8,7 @@
 #include "trainer/common/kernels/edge_gradient.hpp"
 #include "trainer/common/kernels/pack.hpp"
 #include "trainer/common/kernels/score.hpp"
+#include "trainer/diffsoup/kernels/texel_pack.hpp"
 
 namespace tureen::trainer {
 

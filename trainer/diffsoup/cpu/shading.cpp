@@ -8,6 +8,7 @@
 #include "trainer/common/cpu/vector_clones.hpp"
 #include "trainer/common/kernels/pack.hpp"
 #include "trainer/diffsoup/kernels/color_network.hpp"
+#include "trainer/diffsoup/kernels/texel_pack.hpp"
 
 namespace tureen::trainer {
 

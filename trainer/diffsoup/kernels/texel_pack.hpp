@@ -1,0 +1,27 @@
+// The channels of one texel as one register.
+#pragma once
+
+#include <cstring>
+
+#include "trainer/common/kernels/host_device.hpp"
+#include "trainer/diffsoup/model.hpp"
+
+namespace tureen::trainer::kernels {
+
+#if defined(__GNUC__) && !defined(__CUDACC__)
+
+using TexelPack __attribute__((vector_size(sizeof(float) * channels))) = float;
+
+TUREEN_HOST_DEVICE TexelPack load_texel(const float* values) {
+  TexelPack result;
+  std::memcpy(&result, values, sizeof result);
+  return result;
+}
+
+TUREEN_HOST_DEVICE void store_texel(float* values, const TexelPack& texel) {
+  std::memcpy(values, &texel, sizeof texel);
+}
+
+#endif
+
+}  // namespace tureen::trainer::kernels
