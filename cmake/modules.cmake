@@ -1,8 +1,23 @@
+# The arrows between modules are checked before anything compiles (cmake/arrows.cmake).
+file(GLOB_RECURSE arrows_sources CONFIGURE_DEPENDS LIST_DIRECTORIES false
+  base/*.?pp image/*.?pp scene/*.?pp camera/*.?pp formats/*.?pp oracle/*.?pp runtime/*.?pp
+  trainer/*.?pp trainer/*.cu* jobs/*.?pp viewer/*.?pp web/engine/*.?pp)
+set(arrows_stamp "${PROJECT_BINARY_DIR}/arrows.stamp")
+add_custom_command(
+  OUTPUT "${arrows_stamp}"
+  COMMAND "${CMAKE_COMMAND}" "-DROOT=${PROJECT_SOURCE_DIR}" "-DSTAMP=${arrows_stamp}"
+          -P "${PROJECT_SOURCE_DIR}/cmake/arrows.cmake"
+  DEPENDS "${PROJECT_SOURCE_DIR}/cmake/arrows.cmake" ${arrows_sources}
+  COMMENT "Checking the arrows between modules"
+  VERBATIM)
+add_custom_target(arrows DEPENDS "${arrows_stamp}")
+
 # tureen_module(NAME SOURCES .. PUBLIC .. PRIVATE ..): the library tureen_NAME of a folder. Modules and
 # libraries that are PUBLIC appear in its headers, PRIVATE ones only in its sources.
 function(tureen_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(tureen_${name} STATIC ${ARG_SOURCES})
+  add_dependencies(tureen_${name} arrows)
   target_link_libraries(tureen_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} tureen_warnings)
 endfunction()
 

@@ -1,0 +1,72 @@
+# Which module may include headers of which: ARCHITECTURE.md draws it. A module is a folder of this
+# list, and a file belongs to the longest one that holds it. Run by every build:
+#   cmake -DROOT=<repository> -DSTAMP=<file> -P cmake/arrows.cmake
+cmake_minimum_required(VERSION 3.25)
+
+# Each line is a module and what it may include beside itself; "scene" stands for scene/edit, too.
+set(arrows
+  "base:"
+  "image: base"
+  "scene: base image"
+  "camera: base image scene"
+  "formats: base image scene"
+  "oracle: base image scene"
+  "shaders:"
+  "runtime/gl: base"
+  "runtime/plan: base image scene"
+  "runtime/passes: base image scene shaders runtime/gl runtime/plan"
+  "runtime: base image scene runtime/gl runtime/plan runtime/passes runtime/debug_views"
+  "runtime/debug_views: base image scene runtime runtime/gl runtime/plan runtime/passes"
+  "trainer/common: base image scene"
+  "trainer/diffsoup: base image scene trainer/common"
+  "jobs/timing: base image scene runtime runtime/gl"
+  "jobs/visibility: base image scene oracle runtime runtime/gl"
+  "jobs/tradeoff: base image scene oracle runtime runtime/gl jobs/visibility"
+  "viewer: base image scene camera formats runtime runtime/gl runtime/plan runtime/passes runtime/debug_views jobs/timing"
+  "web: base image scene camera formats runtime runtime/gl runtime/plan runtime/debug_views jobs/timing")
+
+set(modules "")
+foreach(line IN LISTS arrows)
+  string(REGEX MATCH "^[^:]+" module "${line}")
+  string(REGEX REPLACE "^[^:]+: *" "" allowed "${line}")
+  string(REPLACE " " ";" allowed "${allowed}")
+  list(APPEND modules ${module})
+  set(allowed_${module} ${allowed})
+endforeach()
+# Longest first, so that runtime/gl is found before runtime.
+list(SORT modules ORDER DESCENDING)
+
+# module_of(PATH OUT): empty for what no module holds.
+function(module_of path out)
+  foreach(module IN LISTS modules)
+    string(FIND "${path}" "${module}/" at)
+    if(at EQUAL 0)
+      set(${out} ${module} PARENT_SCOPE)
+      return()
+    endif()
+  endforeach()
+  set(${out} "" PARENT_SCOPE)
+endfunction()
+
+set(wrong "")
+foreach(folder IN ITEMS base image scene camera formats oracle runtime trainer jobs viewer web)
+  file(GLOB_RECURSE sources RELATIVE "${ROOT}"
+    "${ROOT}/${folder}/*.hpp" "${ROOT}/${folder}/*.cpp" "${ROOT}/${folder}/*.cu*")
+  foreach(source IN LISTS sources)
+    module_of(${source} from)
+    file(STRINGS "${ROOT}/${source}" lines REGEX "^#include \"")
+    foreach(line IN LISTS lines)
+      string(REGEX REPLACE "^#include \"([^\"]*)\".*" "\\1" header "${line}")
+      module_of(${header} to)
+      if(NOT EXISTS "${ROOT}/${header}" OR to STREQUAL from OR to IN_LIST allowed_${from})
+        continue()
+      endif()
+      list(JOIN allowed_${from} ", " allowed)
+      string(APPEND wrong "\n  ${source} includes ${header}; ${from}/ may include ${allowed}")
+    endforeach()
+  endforeach()
+endforeach()
+if(wrong)
+  message(FATAL_ERROR "Arrows between modules that cmake/arrows.cmake does not list:${wrong}")
+endif()
+file(TOUCH "${STAMP}")
