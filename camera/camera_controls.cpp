@@ -83,6 +83,12 @@ const char* name_of(NamedView view) {
   return "";
 }
 
+const char* key_of(NamedView view) {
+  if (view == NamedView::three_quarter_left) return "three-quarter-left";
+  if (view == NamedView::three_quarter_back) return "three-quarter-back";
+  return name_of(view);
+}
+
 Bearing bearing_of(NamedView view) {
   const auto [azimuth, elevation] = three_quarter_view;
   switch (view) {

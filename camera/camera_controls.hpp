@@ -64,6 +64,8 @@ inline constexpr std::array named_views{NamedView::front,
 
 /// For people: "front", "three-quarter left".
 const char* name_of(NamedView view);
+/// For programs: "front", "three-quarter-left".
+const char* key_of(NamedView view);
 Bearing bearing_of(NamedView view);
 
 /// Where the keys push, and how much faster than speed().

@@ -76,6 +76,7 @@ BenchResult run(const BenchOptions& options) {
   result.machine.rasteriser_threads = rasteriser_threads_of(result.device.renderer);
   const BenchClock clock = clock_for(result.device, options.processor_time);
   result.protocol.clock = clock.text;
+  result.protocol.processor_time = options.processor_time;
   const BenchCases cases = make_cases(options.cases, context, scene);
   for (const SkippedCase& each : cases.skipped)
     result.notes.push_back(each.name + " is left out: " + each.reason);

@@ -72,13 +72,14 @@ std::vector<BenchChange> changes_between(const BenchResult& now, const BenchResu
   if (!now.program.build.empty() && !then.program.build.empty())
     compare(What::build, now.program.build, then.program.build);
   compare(What::commit, now.program.commit, then.program.commit);
-  compare(What::clock, now.protocol.clock, then.protocol.clock);
+  if (now.protocol.processor_time != then.protocol.processor_time)
+    compare(What::clock, now.protocol.clock, then.protocol.clock);
   return result;
 }
 
 std::optional<Incomparable> incomparable(const BenchResult& now, const BenchResult& then) {
   if (now.device.software != then.device.software) return Incomparable::software;
-  if (now.protocol.clock != then.protocol.clock) return Incomparable::clock;
+  if (now.protocol.processor_time != then.protocol.processor_time) return Incomparable::clock;
   return std::nullopt;
 }
 

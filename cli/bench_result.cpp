@@ -136,6 +136,7 @@ Json to_json(const BenchResult& result) {
             {"device", to_json(result.device)},
             {"protocol",
              {{"clock", result.protocol.clock},
+              {"processor_time", result.protocol.processor_time},
               {"rounds", result.protocol.rounds},
               {"aa_spread", result.protocol.aa_spread}}},
             {"load",
@@ -156,13 +157,20 @@ BenchResult bench_result_from_json(const std::string& text, const std::string& f
   const JsonView root(document, file);
   require_format(root, format_name, bench_result_version, "no result of tureen bench");
   const JsonView protocol = root["protocol"], load = root["load"];
+  BenchProgram program = program_of(root["program"]);
+  // Results of earlier versions have only the option.
+  const std::optional<JsonView> known = protocol.find("processor_time");
+  const bool processor_time = known ? boolean(*known)
+                                    : std::count(program.arguments.begin(), program.arguments.end(),
+                                                 "--processor-time") > 0;
   const std::optional<JsonView> peak = root.find("peak_mib");
   return {.date = root["date"].text(),
-          .program = program_of(root["program"]),
+          .program = std::move(program),
           .scene = scene_of(root["scene"]),
           .machine = machine_of(root["machine"]),
           .device = device_of(root["device"]),
           .protocol = {.clock = protocol["clock"].text(),
+                       .processor_time = processor_time,
                        .rounds = integer(protocol["rounds"]),
                        .aa_spread = protocol["aa_spread"].number()},
           .load = {.read_ms = load["read_ms"].number(),

@@ -42,9 +42,10 @@ struct BenchDevice {
 };
 
 struct BenchProtocol {
-  std::string clock;     // what times were read from, a sentence for people
-  int rounds = 0;        // asked for; a measurement says how many were made
-  double aa_spread = 0;  // the largest of all measurements
+  std::string clock;            // what times were read from, a sentence for people
+  bool processor_time = false;  // of all threads, instead of time that passed
+  int rounds = 0;               // asked for; a measurement says how many were made
+  double aa_spread = 0;         // the largest of all measurements
 };
 
 /// What happens before the first frame, of the first configuration; never part of a frame's time.

@@ -84,7 +84,7 @@ void apply(const Edits& edits, Scene& scene) {
                      (soup ? appearance_name(soup->appearance) : "soft triangles"));
   const Edits changes = effective(edits, *soup);
   if (changes == Edits{}) {
-    say("the scene is so already: it stays as it is");
+    say("the edits change nothing: the scene is within these limits already");
     return;
   }
   Progress progress("reducing the scene");

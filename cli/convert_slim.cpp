@@ -201,8 +201,10 @@ Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& g
     scene.cameras.resize(1);
     lost.push_back(fmt::format("Slim: of {} recorded cameras only the first is kept.", cameras));
   }
+  const Json remarks = remarks_json(scene.info.remarks);
   // The file stores the losses of reading and of compressing.
   scene.info.notes = all_notes(scene.info);
+  const Json notes = scene.info.notes;
   scene.info.remarks.clear();
   scene.info.notes.insert(scene.info.notes.end(), lost.begin(), lost.end());
   // Of this file, not of the scene that it holds.
@@ -236,6 +238,8 @@ Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& g
                {"compressed_before", compressed_before},
                {"faces_left_out", result.unseen},
                {"texels_kept_roughly", result.unseen_texels},
+               {"notes", notes},
+               {"remarks", remarks},
                {"lost", lost}};
   if (published) {
     json["published_bytes"] = *published;

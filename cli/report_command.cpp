@@ -64,7 +64,8 @@ bool open_in_browser(const std::string& page) {
 ExitCode report(const ReportOptions& options) {
   const bool opens = options.output.empty();
   if (!opens && extension_of(options.output) != ".html")
-    throw UsageError("'" + options.output + "' does not end in .html; a report is one page");
+    throw UsageError("'" + options.output +
+                     "' is no name that ends in .html; a report is one page");
   const fs::path page = opens ? page_in_cache() : fs::path(options.output);
   for (const std::string& input : options.inputs)
     if (!fs::is_directory(input)) require_not_input(page, input);

@@ -66,10 +66,11 @@ std::vector<std::string> warnings_about(const Outcome& outcome) {
 std::optional<std::string> spread_warning(double aa_spread) {
   if (aa_spread <= BenchmarkOptions{}.stable_within) return std::nullopt;
   return fmt::format(
-      "one configuration differs from itself by {:.0f} %: what lies within twice that is no "
-      "difference, and another run may choose otherwise; a quiet machine, more --rounds or "
-      "--processor-time tell more apart",
-      100 * aa_spread);
+      "two measurements of one configuration differ by {:.0f} %, so differences below {:.0f} % "
+      "mean "
+      "nothing and another run may choose otherwise; use a quiet machine, more --rounds or "
+      "--processor-time",
+      100 * aa_spread, 200 * aa_spread);
 }
 
 }  // namespace tureen::cli

@@ -200,6 +200,7 @@ Json to_json(const TradeoffReport& report) {
             {"views", report.views},
             {"rounds", report.rounds},
             {"clock", report.clock},
+            {"processor_time", report.processor_time},
             {"samples", report.samples}}},
           {"limits",
            {{"least_psnr_db", report.limits.min_psnr_db},

@@ -41,8 +41,9 @@ struct TradeoffReport {
   std::string camera_set;  // "hemisphere:4"
   int width = 0, height = 0, views = 0, rounds = 0;
   bool with_flip = true;
-  std::string clock;    // what times are read from, in words
-  std::string samples;  // of the drawing panel's reference: "device" or "exact"
+  std::string clock;            // what times are read from, in words
+  bool processor_time = false;  // of all threads, instead of time that passed
+  std::string samples;          // of the drawing panel's reference: "device" or "exact"
   tradeoff::Limits limits;
   Study study;
   /// Of the drawing panel's outcomes and of the antialiasing one's, in their order; nothing for

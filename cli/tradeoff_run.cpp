@@ -113,6 +113,7 @@ Study study_of(const TradeoffOptions& options, const Scene& scene, TradeoffRepor
   report.device = device_of(context);
   const BenchClock clock = clock_for(report.device, options.processor_time);
   report.clock = clock.text;
+  report.processor_time = options.processor_time;
   StudyOptions study{.subpixel_bits = tradeoff::device_subpixel_bits()};
   if (study.subpixel_bits != 8)
     report.notes.push_back(fmt::format(

@@ -30,7 +30,7 @@ void write_chosen(const fs::path& path, Scene scene, TradeoffReport& report) {
   const Edits& edits = report.study.drawing.outcomes[*report.study.choice].applied.edits;
   std::vector<std::string> sentences;
   if (edits == Edits{}) {
-    sentences.emplace_back("no edit: nothing cheaper is within the limits");
+    sentences.emplace_back("no edit: none within the limits is measurably faster");
   } else {
     auto& soup = std::get<TriangleSoup>(scene.primitives);
     Progress progress("reducing the scene");

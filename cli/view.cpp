@@ -44,10 +44,10 @@ ExitCode become_window(const std::vector<std::string>& arguments) {
 #endif
   if (errno == ENOENT)
     throw UsageError(
-        "the window is a program of its own, " + std::string(window_program) +
-            ", which is neither beside this one nor on PATH",
-        "build it with GLFW and Dear ImGui (libglfw3-dev, libimgui-dev); tureen render "
-        "draws without it");
+        "there is no " + std::string(window_program) +
+            ", the program of the window, beside this program or on PATH",
+        "install libglfw3-dev and libimgui-dev and build it with ./dev demo, or draw without a "
+        "window: tureen render");
   throw OutputError({program, {}, {}}, "cannot be started");
 }
 

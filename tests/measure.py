@@ -337,9 +337,9 @@ PARTS = ['training', 'frames', 'dense', 'gpu', 'specialisations', 'growth', 'tra
 
 # What earlier versions of `./dev bench` took, and the replacements.
 RETIRED = {
-    'leave_out': 'the part specialisations', 'slim': 'the part compress', 'agreement': './dev test -R Agreement',
+    'leave_out': 'the part specialisations', 'slim': 'the part compress', 'agreement': './dev test -R AgreesWithTheOracle',
     'train-fox': 'the part training', 'train-bottle': 'the part training', 'train-lego': 'the part training',
-    'train-example': 'the part training', 'ablations': 'tureen train with other options',
+    'train-example': 'the part training', 'ablations': 'tureen train --config FILE',
     '--ficus': '--data FOLDER', '--fox': '--scene FILE', '--photographs': '--data FOLDER', '--lego': '--data FOLDER',
     '--bottle': '--data FOLDER',
 }
@@ -365,6 +365,8 @@ def bench(arguments):
     for word in (argument.split('=')[0] for argument in arguments):
         word not in RETIRED or parser.error(f'{word} was removed; use {RETIRED[word]}')
     options = parser.parse_args(arguments)
+    if options.data != parser.get_default('data') and not options.data.is_dir():
+        parser.error(f'there is no folder {options.data}')
     for part in options.part:
         part in PARTS or parser.error(f"there is no part '{part}'; the parts are {', '.join(PARTS)}")
     for path in options.scene:

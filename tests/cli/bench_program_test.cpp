@@ -130,8 +130,9 @@ TEST_F(Bench, WhatIsKeptIsSaidAsAnOptionOfRender) {
 }
 
 TEST_F(Bench, ProcessorTimeIsSaidWhereItIsWhatWasMeasured) {
-  const std::string clock =
-      bench_json({"--processor-time", "--only", "tureen"})["protocol"]["clock"];
+  const nlohmann::json protocol = bench_json({"--processor-time", "--only", "tureen"})["protocol"];
+  EXPECT_EQ(protocol["processor_time"], true);
+  const std::string clock = protocol["clock"];
   const ChildResult steady = bench({"--only", "tureen", "--json"});
   const std::string other = nlohmann::json::parse(steady.out)["protocol"]["clock"];
   EXPECT_NE(clock, other);

@@ -65,7 +65,7 @@ BenchResult result() {
   result.scene = {awkward, awkward, 15000, "lattice"};
   result.machine = {"Some CPU & more", 2, 4096};
   result.device = {"EGL", "llvmpipe <256 bits>", "Mesa", "4.5 driver 9", true};
-  result.protocol = {"steady", 5, 0.02};
+  result.protocol = {.clock = "steady", .rounds = 5, .aa_spread = 0.02};
   result.load = {1, 2, 3, 4, 5};
   result.configurations = {{"tureen", {}, {"M1: no <network>"}, 2, 3, 5},
                            {"published", {"--pipeline", "published"}, {}, 0, 6, 7}};
@@ -187,6 +187,7 @@ TEST(BenchComparison, SoftwareAndHardwareAreNotCompared) {
   EXPECT_EQ(report_bench(options, now, then), ExitCode::check_failed);
   now = then;
   now.protocol.clock = "processor time";
+  now.protocol.processor_time = true;
   comparison = compare_benches(now, then);
   EXPECT_THAT(comparison.ratios, IsEmpty());
   EXPECT_EQ(comparison.incomparable, Incomparable::clock);
@@ -210,6 +211,7 @@ TEST(BenchComparison, InEnglish) {
   const BenchResult then = result();
   BenchResult now = then;
   now.protocol.clock = "processor time";
+  now.protocol.processor_time = true;
   now.measurements.clear();
   EXPECT_THAT(comparison_lines(compare_benches(now, then)),
               ElementsAre("not compared: their times are of different clocks",

@@ -124,9 +124,7 @@ Json set_pose(const Json& arguments) {
 
 NamedView named_view(const std::string& name) {
   for (const NamedView view : named_views) {
-    std::string known = name_of(view);
-    for (char& c : known) c = c == ' ' ? '-' : c;
-    if (known == name) return view;
+    if (key_of(view) == name) return view;
   }
   throw UsageError("there is no view \"" + name + "\"");
 }
