@@ -1,27 +1,31 @@
 #include "base/decimal_text.hpp"
 
 #include <array>
-#include <charconv>
+#include <cstdio>
 
 namespace tureen {
 
 namespace {
 
-std::string formatted(double value, std::chars_format format, int precision) {
+// Not std::to_chars: browser toolchains have it for integers only.
+std::string formatted(const char* format, int digits, double value) {
   std::array<char, 330> text;  // the largest double has 309 digits before the point
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), value, format, precision).ptr;
-  return {text.data(), end};
+  const int size = std::snprintf(text.data(), text.size(), format, digits, value);
+  std::string result(text.data(), std::size_t(size));
+  // A locale's decimal point may be any characters, but none of those that numbers consist of.
+  constexpr const char* of_numbers = "0123456789+-einfa";
+  const std::size_t point = result.find_first_not_of(of_numbers);
+  if (point != std::string::npos) {
+    const std::size_t end = result.find_first_of(of_numbers, point);
+    result.replace(point, end - point, ".");
+  }
+  return result;
 }
 
 }  // namespace
 
-std::string short_decimal(double value, int digits) {
-  return formatted(value, std::chars_format::general, digits);
-}
+std::string short_decimal(double value, int digits) { return formatted("%.*g", digits, value); }
 
-std::string fixed_decimal(double value, int places) {
-  return formatted(value, std::chars_format::fixed, places);
-}
+std::string fixed_decimal(double value, int places) { return formatted("%.*f", places, value); }
 
 }  // namespace tureen
