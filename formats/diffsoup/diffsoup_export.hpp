@@ -36,10 +36,11 @@ Scene read_diffsoup_export(const std::filesystem::path& folder, const ReadOption
 
 /// Writes the folder whole or not at all; one that is there is replaced if it is an export, and
 /// nothing but that, or empty. Bytes are written as they are, floats rounded, alpha on its side of
-/// 1/2 (image/quantise.hpp). Face and vertex colours become level 0. Faces of lower levels are refined
-/// to the highest. Without a color MLP an inert one is written (f3 = 0). Returns what was lost or
-/// added, a sentence each. Throws UsageError for other appearances, other networks than 16-16-16-3
-/// of seven features, no triangles at all, or more texels than an image may hold; and OutputError.
+/// 1/2 (image/quantise.hpp). Face and vertex colours become level 0. Faces of lower levels are
+/// refined to the highest. Without a color MLP an inert one is written (f3 = 0). Returns what was
+/// lost or added, a sentence each. Throws UsageError for other appearances, other networks than
+/// 16-16-16-3 of seven features, no triangles at all, or more texels than an image may hold; and
+/// OutputError.
 std::vector<std::string> write_diffsoup_export(const Scene& scene,
                                                const std::filesystem::path& folder);
 

@@ -130,7 +130,14 @@ TEST(BenchResult, OlderFilesAreRead) {
   EXPECT_EQ(read.program.build, "");
   EXPECT_FALSE(read.machine.rasteriser_threads);
   EXPECT_FALSE(read.peak_mib);
+  EXPECT_FALSE(read.protocol.processor_time);
   EXPECT_EQ(read.measurements[0].frame_ms.p99, 1.0 / 3);
+}
+
+TEST(BenchResult, OlderFilesHaveProcessorTimeAsAnOption) {
+  nlohmann::json document = of_version_1();
+  document["program"]["arguments"].push_back("--processor-time");
+  EXPECT_TRUE(bench_result_from_json(document.dump(), "bench.json").protocol.processor_time);
 }
 
 /// Every key that stands in the document, as "measurements/0/frame_ms/mean".
@@ -149,8 +156,8 @@ TEST(BenchResult, MissesEveryKeyThatAllHave) {
   const nlohmann::json complete = to_json(example());
   const auto keys = all_keys(complete);
   ASSERT_GT(keys.size(), 60u);
-  const std::set<std::string> optional{"/program/build", "/machine/rasteriser_threads",
-                                       "/peak_mib"};
+  const std::set<std::string> optional{"/program/build", "/machine/rasteriser_threads", "/peak_mib",
+                                       "/protocol/processor_time"};
   for (const auto& key : keys) {
     // Files of earlier versions have no list of specialisations.
     if (optional.contains(key.to_string()) || key.back() == "specialisations") continue;
