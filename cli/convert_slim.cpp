@@ -13,12 +13,23 @@
 #include "cli/scene_argument.hpp"
 #include "cli/scene_page.hpp"
 #include "cli/scratch.hpp"
-#include "cli/slim.hpp"
 #include "formats/diffsoup/diffsoup_export.hpp"
+#include "jobs/compress/slim.hpp"
 
 namespace tureen::cli {
 
 namespace {
+
+/// "25 photographs", "24 of its 100 recorded cameras", "1 recorded camera and 23 views from above
+/// and around", ..
+std::string views_text(const SlimViews& views) {
+  if (views.photographs > 0) return count_text(int(views.photographs), "photograph");
+  if (views.around == 0)
+    return fmt::format("{} of its {} recorded cameras", views.cameras, views.recorded);
+  const std::string around = count_text(int(views.around), "view") + " from above and around";
+  return views.cameras == 0 ? around
+                            : count_text(int(views.cameras), "recorded camera") + " and " + around;
+}
 
 namespace fs = std::filesystem;
 
@@ -65,8 +76,8 @@ std::vector<Camera> training_cameras(const DatasetArgument& dataset,
 
 /// What the loss was measured on: "9 photographs of fox at scale 0.25", or recorded cameras.
 std::string measured_on(const SlimResult& result, const DatasetArgument& photographs) {
-  if (photographs.path.empty()) return describe(result.views);
-  return fmt::format("{} of {} at scale {:g}", describe(result.views), name_of(photographs),
+  if (photographs.path.empty()) return views_text(result.views);
+  return fmt::format("{} of {} at scale {:g}", views_text(result.views), name_of(photographs),
                      photographs.options.scale);
 }
 
@@ -232,7 +243,7 @@ Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& g
                {"loss_db", result.loss.db},
                {"loss_is_measured", with_photographs},
                {"render_psnr_db", result.loss.render_psnr_db},
-               {"views", describe(result.views)},
+               {"views", views_text(result.views)},
                {"recorded_cameras", cameras},
                {"training_cameras", result.lent_cameras},
                {"compressed_before", compressed_before},

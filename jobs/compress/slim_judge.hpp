@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "formats/dataset/dataset.hpp"
 #include "runtime/gl/context.hpp"
+#include "scene/photographs.hpp"
 #include "scene/scene.hpp"
 
-namespace tureen::cli {
+namespace tureen {
 
 struct SlimLoss {
   /// By how much the scene comes less near to its photographs, mean PSNR over the views: measured
@@ -31,9 +31,8 @@ struct SlimViews {
   bool operator==(const SlimViews&) const = default;
 };
 
-/// "25 photographs", "24 of its 100 recorded cameras", "1 recorded camera and 23 views from above
-/// and around", ..
-std::string describe(const SlimViews& views);
+/// Called often during long work; throws to end it. May be empty where a declaration says so.
+using Cancel = std::function<void()>;
 
 class SlimJudge {
  public:
@@ -44,8 +43,9 @@ class SlimJudge {
   /// slim_views, up to 24. `context` must outlive the judge and be current. The scene holds a soup
   /// without defect(). Throws UsageError where the scene comes only within hopeless_db of the
   /// photographs, where the loss means nothing, and what drawing throws.
-  SlimJudge(const gl::Context& context, const Scene& scene,
-            std::span<const Photograph> photographs);
+  /// `cancel` may be empty.
+  SlimJudge(const gl::Context& context, const Scene& scene, std::span<const Photograph> photographs,
+            Cancel cancel = {});
 
   SlimLoss loss(const TriangleSoup& soup) const;
 
@@ -60,6 +60,7 @@ class SlimJudge {
   double model_db(const std::vector<double>& squared_errors) const;
 
   const gl::Context& context_;
+  Cancel cancel_;
   glm::dvec3 origin_;
   glm::vec3 background_;
   std::vector<Camera> cameras_;
@@ -84,4 +85,4 @@ inline constexpr double hopeless_db = 10;
 std::vector<Camera> slim_views(const Scene& scene, std::span<const Camera> recorded,
                                std::size_t count);
 
-}  // namespace tureen::cli
+}  // namespace tureen

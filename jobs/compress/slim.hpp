@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/slim_judge.hpp"
 #include "formats/tureen_glb/tureen_glb_slim.hpp"
+#include "jobs/compress/slim_judge.hpp"
 
-namespace tureen::cli {
+namespace tureen {
 
 struct SlimRequest {
   /// In decibels, above 0.
@@ -60,4 +60,4 @@ struct SlimResult {
 /// what SlimJudge throws.
 SlimResult slim(const Scene& scene, const SlimRequest& request);
 
-}  // namespace tureen::cli
+}  // namespace tureen

@@ -1,18 +1,17 @@
-#include "cli/slim_judge.hpp"
+#include "jobs/compress/slim_judge.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.hpp"
 #include "camera/camera_sets.hpp"
-#include "cli/bench_words.hpp"
-#include "cli/interrupt.hpp"
 #include "image/metrics.hpp"
 #include "image/render_error.hpp"
 #include "runtime/renderer.hpp"
 
-namespace tureen::cli {
+namespace tureen {
 
 namespace {
 
@@ -43,18 +42,12 @@ std::vector<Camera> slim_views(const Scene& scene, std::span<const Camera> recor
   return views;
 }
 
-std::string describe(const SlimViews& views) {
-  if (views.photographs > 0) return count_text(int(views.photographs), "photograph");
-  if (views.around == 0)
-    return fmt::format("{} of its {} recorded cameras", views.cameras, views.recorded);
-  const std::string around = count_text(int(views.around), "view") + " from above and around";
-  return views.cameras == 0 ? around
-                            : count_text(int(views.cameras), "recorded camera") + " and " + around;
-}
-
 SlimJudge::SlimJudge(const gl::Context& context, const Scene& scene,
-                     std::span<const Photograph> photographs)
-    : context_(context), origin_(scene.origin), background_(scene.info.background) {
+                     std::span<const Photograph> photographs, Cancel cancel)
+    : context_(context),
+      cancel_(std::move(cancel)),
+      origin_(scene.origin),
+      background_(scene.info.background) {
   for (const Photograph& photograph : photographs) {
     cameras_.push_back(photograph.camera);
     photographs_.push_back(composited(to_float(photograph.image), background_));
@@ -108,10 +101,10 @@ void SlimJudge::draw(const TriangleSoup& soup,
                      const std::function<void(std::size_t, const ImageF&)>& visit) const {
   Renderer renderer(context_, soup, origin_, {.background = {background_, 1.0f}});
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
-    throw_if_interrupted();
+    if (cancel_) cancel_();
     renderer.draw(cameras_[i]);
     visit(i, to_float(renderer.read_color()));
   }
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen

@@ -1,8 +1,9 @@
 // What errors of a soup's texels show, and the steps that follow from it: the part of the search
-// for a slim file (cli/slim.hpp) that stays the same while the step of colour changes.
+// for a slim file (jobs/compress/slim.hpp) that stays the same while the step of colour changes.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
@@ -13,14 +14,15 @@
 #include "scene/edit/feature_sensitivity.hpp"
 #include "scene/triangle_soup.hpp"
 
-namespace tureen::cli {
+namespace tureen {
 
 class SlimImportance {
  public:
   /// Of a soup with a lattice texture, which must outlive it, as these views (at least one) show
-  /// it. Unless `by_texel` the texels of a face weigh alike, whichever of them show.
+  /// it. Unless `by_texel` the texels of a face weigh alike, whichever of them show. `cancel` is
+  /// called often and may throw.
   SlimImportance(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
-                 std::span<const Camera> views, bool by_texel);
+                 std::span<const Camera> views, bool by_texel, const std::function<void()>& cancel);
 
   /// How texels are coded in steps of so many 255ths of colour in the mean (slim_basis). Where bits
   /// have no price, each value comes as near as its step allows.
@@ -37,4 +39,4 @@ class SlimImportance {
   std::size_t unseen_texels_ = 0;
 };
 
-}  // namespace tureen::cli
+}  // namespace tureen

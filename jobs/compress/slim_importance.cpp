@@ -1,14 +1,13 @@
-#include "cli/slim_importance.hpp"
+#include "jobs/compress/slim_importance.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "cli/interrupt.hpp"
 #include "jobs/visibility/visibility_count.hpp"
 #include "scene/lattice.hpp"
 
-namespace tureen::cli {
+namespace tureen {
 
 namespace {
 
@@ -57,10 +56,10 @@ std::uint8_t nearest_multiplier(double wanted) {
 }  // namespace
 
 SlimImportance::SlimImportance(const gl::Context& context, const TriangleSoup& soup,
-                               glm::dvec3 origin, std::span<const Camera> views, bool by_texel)
+                               glm::dvec3 origin, std::span<const Camera> views, bool by_texel,
+                               const std::function<void()>& cancel)
     : texture_(std::get<LatticeTexture>(soup.appearance)),
-      weights_(count_visible_texels(context, soup, origin, views,
-                                    [](double) { throw_if_interrupted(); })) {
+      weights_(count_visible_texels(context, soup, origin, views, [&](double) { cancel(); })) {
   std::vector<glm::dvec3> eyes;
   for (const Camera& view : views) eyes.push_back(view.eye() - origin);
 
@@ -109,4 +108,4 @@ SlimTexelOptions SlimImportance::options(double step, std::uint8_t alpha_step,
           .bit_price = bits_have_a_price ? bit_price : 0};
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen

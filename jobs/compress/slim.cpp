@@ -1,4 +1,4 @@
-#include "cli/slim.hpp"
+#include "jobs/compress/slim.hpp"
 
 #include <fmt/format.h>
 
@@ -10,13 +10,12 @@
 
 #include "base/error.hpp"
 #include "camera/camera_sets.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/slim_importance.hpp"
+#include "jobs/compress/slim_importance.hpp"
 #include "jobs/visibility/visibility_count.hpp"
 #include "scene/edit/keep_faces.hpp"
 #include "scene/edit/lattice_levels.hpp"
 
-namespace tureen::cli {
+namespace tureen {
 
 namespace {
 
@@ -43,10 +42,10 @@ constexpr std::array<std::uint8_t, 3> alpha_steps = {85, 17, 1};
 
 /// Without the faces that none of the views shows.
 TriangleSoup seen_faces(const gl::Context& context, const Scene& scene,
-                        std::span<const Camera> views) {
+                        std::span<const Camera> views, const Cancel& cancel) {
   const auto& soup = std::get<TriangleSoup>(scene.primitives);
-  const auto pixels = count_visible_pixels(context, soup, scene.origin, views,
-                                           [](double) { throw_if_interrupted(); });
+  const auto pixels =
+      count_visible_pixels(context, soup, scene.origin, views, [&](double) { cancel(); });
   std::vector<std::uint8_t> keeps;
   for (const std::uint64_t count : pixels) keeps.push_back(count > 0);
   return keep_faces(soup, keeps);
@@ -63,23 +62,23 @@ std::vector<Camera> all_views(const Scene& scene, const std::vector<Camera>& vie
 
 /// Each face at the smallest level that says the same to half a step of 8 bits. What a finer level
 /// would say is coded as nothing anyway; without it there are fewer texels to decode and to draw.
-void lower_levels(TriangleSoup& soup) {
+void lower_levels(TriangleSoup& soup, const Cancel& cancel) {
   auto& texture = std::get<LatticeTexture>(soup.appearance);
-  const LevelProgress interrupted = [](double) { throw_if_interrupted(); };
-  texture = at_levels(texture, smallest_levels(texture, {}, interrupted), interrupted);
+  const LevelProgress progress = [&](double) { cancel(); };
+  texture = at_levels(texture, smallest_levels(texture, {}, progress), progress);
 }
 
 /// The scene's own, first of all the one that its slim file keeps, and what joins them.
 std::vector<Camera> recorded_cameras(const gl::Context& context, const Scene& scene,
-                                     const SlimRequest& request) {
+                                     const SlimRequest& request, const Cancel& cancel) {
   std::vector<Camera> cameras = scene.cameras;
   if (cameras.size() >= telling_cameras || request.training_cameras.size() < telling_cameras)
     return cameras;
   // By a damaged pose, say, which would vote for leaving everything out.
   const std::vector<Camera>& others = request.training_cameras;
-  const auto pixels = count_covered_pixels(context, std::get<TriangleSoup>(scene.primitives),
-                                           scene.origin, slim_views(scene, others, others.size()),
-                                           [](double) { throw_if_interrupted(); });
+  const auto pixels =
+      count_covered_pixels(context, std::get<TriangleSoup>(scene.primitives), scene.origin,
+                           slim_views(scene, others, others.size()), [&](double) { cancel(); });
   std::vector<Camera> showing;
   for (std::size_t i = 0; i < others.size(); ++i)
     if (pixels[i] > 0) showing.push_back(others[i]);
@@ -92,10 +91,11 @@ class Search {
  public:
   Search(const Scene& scene, const SlimRequest& request)
       : request_(request),
+        cancel_([this] { report_progress(); }),
         origin_(scene.origin),
         context_(gl::Context::create(request.context)),
-        judge_(context_, scene, request.photographs),
-        recorded_(recorded_cameras(context_, scene, request)),
+        judge_(context_, scene, request.photographs, cancel_),
+        recorded_(recorded_cameras(context_, scene, request, cancel_)),
         lent_(recorded_.size() - scene.cameras.size()),
         views_(slim_views(scene, recorded_, counted_views)),
         soup_(std::get<TriangleSoup>(scene.primitives)) {
@@ -103,7 +103,7 @@ class Search {
     if (request.keep_unseen || recorded_.size() < telling_cameras) return;
     const std::vector<Camera> all = all_views(scene, views_);
     const std::size_t faces = soup_.triangles.size();
-    soup_ = seen_faces(context_, scene, all);
+    soup_ = seen_faces(context_, scene, all, cancel_);
     unseen_ = faces - soup_.triangles.size();
     seeing_views_ = all.size();
   }
@@ -113,9 +113,9 @@ class Search {
     result.model_db = judge_.model_db();
     result.views = judge_.views();
     find_bits(result);
-    lower_levels(soup_);
+    lower_levels(soup_, cancel_);
     const SlimImportance importance(context_, soup_, origin_, views_,
-                                    recorded_.size() >= telling_cameras);
+                                    recorded_.size() >= telling_cameras, cancel_);
     const bool found = std::any_of(alpha_steps.begin(), alpha_steps.end(), [&](std::uint8_t alpha) {
       return find_step(result, importance, alpha);
     });
@@ -137,7 +137,7 @@ class Search {
   /// The largest step of colour that keeps within the bound; whether there is one.
   bool find_step(SlimResult& result, const SlimImportance& importance, std::uint8_t alpha_step) {
     const auto fits = [&](double step, bool bits_have_a_price = true) {
-      progress();
+      next_try();
       SlimSoup slim =
           encode_slim(soup_, {.position_bits = result.position_bits,
                               .texels = importance.options(step, alpha_step, bits_have_a_price)});
@@ -173,21 +173,29 @@ class Search {
 
   void find_bits(SlimResult& result) {
     for (int bits = fewest_bits; bits <= max_slim_bits; ++bits) {
-      progress();
+      next_try();
       result.position_bits = bits;
       result.geometry_loss = geometry_loss(bits);
       if (result.geometry_loss.db <= geometry_share * request_.max_loss_db) return;
     }
   }
 
-  void progress() {
+  void next_try() {
+    ++tries_;
+    report_progress();
+  }
+
+  void report_progress() const {
     // Most scenes take about five tries for the positions, the finest colours at once, and eight
     // of the scan.
     constexpr double usual_tries = 5 + 1 + bisections + 8;
-    if (request_.progress) request_.progress(std::min(0.99, double(tries_++) / usual_tries));
+    const int done = std::max(tries_ - 1, 0);
+    if (request_.progress) request_.progress(std::min(0.99, done / usual_tries));
   }
 
   const SlimRequest& request_;
+  int tries_ = 0;
+  const Cancel cancel_;  // reports progress, which may throw
   const glm::dvec3 origin_;
   gl::Context context_;
   SlimJudge judge_;
@@ -197,7 +205,6 @@ class Search {
   TriangleSoup soup_;
   std::size_t unseen_ = 0, seeing_views_ = 0;
   double least_loss_ = std::numeric_limits<double>::infinity();
-  int tries_ = 0;
 };
 
 }  // namespace
@@ -210,4 +217,4 @@ SlimResult slim(const Scene& scene, const SlimRequest& request) {
   return Search(scene, request).run();
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen

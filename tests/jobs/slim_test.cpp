@@ -1,5 +1,5 @@
 // The search for a slim file: what it promises holds, and what it is allowed to lose it uses.
-#include "cli/slim.hpp"
+#include "jobs/compress/slim.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include "tests/support/errors.hpp"
 #include "tests/support/random.hpp"
 
-namespace tureen::cli {
+namespace tureen {
 namespace slim_test {
 
 /// The first faces of the example, from some of its cameras at a fifth of their size.
@@ -281,4 +281,4 @@ TEST(Slim, ViewsAreRecordedCamerasOrAround) {
 }
 
 }  // namespace slim_test
-}  // namespace tureen::cli
+}  // namespace tureen
