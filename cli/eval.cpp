@@ -3,13 +3,14 @@
 
 #include <iterator>
 #include <memory>
+#include <optional>
 
 #include "base/error.hpp"
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/dataset_argument.hpp"
 #include "cli/drawing_options.hpp"
-#include "cli/evaluation.hpp"
+#include "cli/eval_images.hpp"
 #include "cli/memory_option.hpp"
 #include "cli/output_argument.hpp"
 #include "cli/plan_json.hpp"
@@ -19,6 +20,7 @@
 #include "cli/scene_argument.hpp"
 #include "cli/table.hpp"
 #include "cli/values.hpp"
+#include "jobs/eval/evaluation.hpp"
 
 namespace tureen::cli {
 
@@ -48,7 +50,8 @@ std::vector<Photograph> photographs_of(Dataset& dataset) {
   return photographs;
 }
 
-Json report(const EvalOptions& options, const Evaluation& result) {
+Json report(const EvalOptions& options, const Evaluation& result,
+            const std::vector<std::string>& output) {
   const bool with_flip = options.evaluation.metrics.with_flip;
   Json views = Json::array();
   for (const ViewMetrics& view : result.views) views.push_back(to_json(view, with_flip));
@@ -62,7 +65,7 @@ Json report(const EvalOptions& options, const Evaluation& result) {
           {"renderer", result.renderer},
           {"plan", result.plan},
           {"specialisations", specialisations_json(result.specialisations)},
-          {"output", result.output}};
+          {"output", output}};
 }
 
 ExitCode evaluate_scene(EvalOptions options) {
@@ -72,14 +75,14 @@ ExitCode evaluate_scene(EvalOptions options) {
     throw UsageError("photographs have something behind them: white, black or 0.2,0.4,1");
   if (!options.background.empty())
     evaluation.background = glm::vec3(parse_background(options.background));
-  evaluation.folder = options.folder;
   if (!options.folder.empty()) require_writable_folder(options.folder);
   const std::filesystem::path data = options.dataset.path;
   std::error_code unknown;  // what is not there is said where it is read
-  evaluation.spared = std::filesystem::is_directory(data, unknown) ? data : data.parent_path();
+  const std::filesystem::path spared =
+      std::filesystem::is_directory(data, unknown) ? data : data.parent_path();
   if (!options.folder.empty())
     for (const std::filesystem::path& file : result_files(options.folder, "eval")) {
-      require_not_input(file, evaluation.spared);
+      require_not_input(file, spared);
       require_not_input(file, options.scene.path);
     }
 
@@ -96,12 +99,21 @@ ExitCode evaluate_scene(EvalOptions options) {
                      std::string("it holds no photographs to evaluate with --split ") +
                          split_name(options.split));
 
+  std::optional<EvalImages> images;
+  if (!options.folder.empty()) {
+    images.emplace(options.folder, spared, photographs);
+    evaluation.on_view = [&](std::size_t view, const ImageF& photograph, const ImageF& rendering) {
+      images->write(view, photograph, rendering);
+    };
+  }
   Evaluation result;
   {
     Progress progress("evaluating");
     evaluation.progress = [&](double fraction) { progress.update(fraction); };
     result = evaluate(soup, scene.origin, photographs, evaluation);
   }
+  std::vector<std::string> output;
+  if (images) output = images->finish();
   say_list("Reading " + options.scene.path + ":", all_notes(scene.info));
   say_list("Reading " + options.dataset.path + ":", described(dataset.remarks));
   say_list("Plan:", result.plan);
@@ -117,13 +129,13 @@ ExitCode evaluate_scene(EvalOptions options) {
   add_row("mean", result.mean);
   for (const std::string& line : table.lines()) say(line);
   if (!options.folder.empty()) {
-    say(fmt::format("wrote {} images to {}", result.output.size(), options.folder));
+    say(fmt::format("wrote {} images to {}", output.size(), options.folder));
     const std::vector<std::filesystem::path> files = result_files(options.folder, "eval");
-    for (const std::filesystem::path& file : files) result.output.push_back(file.string());
-    write_result(options.folder, "eval", json_text(report(options, result)));
+    for (const std::filesystem::path& file : files) output.push_back(file.string());
+    write_result(options.folder, "eval", json_text(report(options, result, output)));
     for (const std::filesystem::path& file : files) say("wrote " + file.string());
   }
-  if (options.json) print_json(report(options, result));
+  if (options.json) print_json(report(options, result, output));
   return ExitCode::done;
 }
 

@@ -1,6 +1,6 @@
 // How near a run has come to views that it does not train on, drawn by the trainer itself: quick
 // enough for every few hundred steps. What is reported in the end is drawn by the runtime
-// (cli/evaluation.hpp).
+// (jobs/eval/evaluation.hpp).
 #pragma once
 
 #include <functional>

@@ -26,19 +26,19 @@ Json to_json(const RenderError& error, bool with_flip) {
   return json;
 }
 
-Json to_json(const std::optional<ModelError>& error, bool with_flip) {
+Json to_json(const std::optional<tradeoff::ModelError>& error, bool with_flip) {
   if (!error) return nullptr;
   return {{"psnr_db", error->psnr_db},
           {"ssim", error->ssim},
           {"flip", with_flip ? Json(error->flip) : Json(nullptr)}};
 }
 
-Json to_json(const std::optional<ExactError>& error) {
+Json to_json(const std::optional<tradeoff::ExactError>& error) {
   if (!error) return nullptr;
   return {{"psnr_db", error->psnr_db}, {"coverage", error->coverage_mismatch}};
 }
 
-Json settings_json(const Panel& panel, const Outcome& outcome) {
+Json settings_json(const tradeoff::Panel& panel, const tradeoff::Outcome& outcome) {
   Json json = Json::object();
   for (std::size_t i = 0; i < panel.settings.size(); ++i)
     json[panel.settings[i].key] =
@@ -46,14 +46,14 @@ Json settings_json(const Panel& panel, const Outcome& outcome) {
   return json;
 }
 
-std::optional<ModelError> model_of(const std::vector<std::optional<ModelError>>& list,
-                                   std::size_t i) {
+std::optional<tradeoff::ModelError> model_of(
+    const std::vector<std::optional<tradeoff::ModelError>>& list, std::size_t i) {
   return i < list.size() ? list[i] : std::nullopt;
 }
 
-Json configuration_json(const TradeoffReport& report, const Panel& panel, std::size_t i,
-                        const std::optional<ModelError>& model) {
-  const Outcome& outcome = panel.outcomes[i];
+Json configuration_json(const TradeoffReport& report, const tradeoff::Panel& panel, std::size_t i,
+                        const std::optional<tradeoff::ModelError>& model) {
+  const tradeoff::Outcome& outcome = panel.outcomes[i];
   return {{"name", outcome.name},
           {"scene", report.scene.name},
           {"method", name_of(outcome.method)},
@@ -69,15 +69,15 @@ Json configuration_json(const TradeoffReport& report, const Panel& panel, std::s
           {"e_render", to_json(outcome.error, report.with_flip)},
           {"e_render_exact", to_json(outcome.exact)},
           {"e_model", to_json(model, report.with_flip)},
-          {"on_front", is_on_front(panel, i)},
+          {"on_front", tradeoff::is_on_front(panel, i)},
           {"stable", outcome.stable},
-          {"judged", is_judged(outcome)},
+          {"judged", tradeoff::is_judged(outcome)},
           {"non_finite_pixels", outcome.error.non_finite},
-          {"warnings", warnings_about(outcome)}};
+          {"warnings", tradeoff::warnings_about(outcome)}};
 }
 
-Json panel_json(const TradeoffReport& report, const Panel& panel,
-                const std::vector<std::optional<ModelError>>& model) {
+Json panel_json(const TradeoffReport& report, const tradeoff::Panel& panel,
+                const std::vector<std::optional<tradeoff::ModelError>>& model) {
   Json settings = Json::array(), configurations = Json::array(), skipped = Json::array();
   for (std::size_t i = 0; i < panel.settings.size(); ++i) {
     Json values = Json::array();
@@ -92,7 +92,7 @@ Json panel_json(const TradeoffReport& report, const Panel& panel,
   }
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i)
     configurations.push_back(configuration_json(report, panel, i, model_of(model, i)));
-  for (const Skipped& each : panel.skipped)
+  for (const tradeoff::SkippedOutcome& each : panel.skipped)
     skipped.push_back({{"name", each.name}, {"reason", each.reason}});
   return {{"knobs", settings},
           {"configurations", configurations},
@@ -105,9 +105,9 @@ Json panel_json(const TradeoffReport& report, const Panel& panel,
 }
 
 Json choice_json(const TradeoffReport& report) {
-  const Study& study = report.study;
+  const tradeoff::Study& study = report.study;
   if (!study.choice) return nullptr;
-  const Outcome& outcome = study.drawing.outcomes[*study.choice];
+  const tradeoff::Outcome& outcome = study.drawing.outcomes[*study.choice];
   return {{"configuration", *study.choice},
           {"name", outcome.name},
           {"psnr_db", outcome.error.psnr_db},
@@ -124,14 +124,15 @@ Json model_protocol_json(const TradeoffReport& report) {
 
 // -- for people ----------------------------------------------------------------------------------
 
-void add_row(Table& table, const TradeoffReport& report, const Panel& panel, std::size_t i) {
-  const Outcome& outcome = panel.outcomes[i];
+void add_row(Table& table, const TradeoffReport& report, const tradeoff::Panel& panel,
+             std::size_t i) {
+  const tradeoff::Outcome& outcome = panel.outcomes[i];
   const RenderError& error = outcome.error;
   const bool chosen = &panel == &report.study.drawing && report.study.choice == i;
-  const Outcome* generic = generic_of(panel, outcome);
-  table.row({chosen                  ? ">"
-             : is_on_front(panel, i) ? "*"
-                                     : "",
+  const tradeoff::Outcome* generic = tradeoff::generic_of(panel, outcome);
+  table.row({chosen                            ? ">"
+             : tradeoff::is_on_front(panel, i) ? "*"
+                                               : "",
              outcome.name, ms_text(outcome.ms.min_of_medians),
              generic ? ms_text(generic->ms.min_of_medians) : not_known,
              fmt::format("{:.2f}", error.psnr_db),
@@ -141,11 +142,12 @@ void add_row(Table& table, const TradeoffReport& report, const Panel& panel, std
              fmt::format("{:.1f}", outcome.device_mib)});
 }
 
-void say_panel(const TradeoffReport& report, const Panel& panel, const std::string& title) {
+void say_panel(const TradeoffReport& report, const tradeoff::Panel& panel,
+               const std::string& title) {
   Table table({"", "<configuration", "ms", "generic ms", "PSNR dB", "exact dB", "max", "99.9 %",
                "coverage", "MiB"});
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i)
-    if (panel.outcomes[i].method != Method::generic) add_row(table, report, panel, i);
+    if (panel.outcomes[i].method != tradeoff::Method::generic) add_row(table, report, panel, i);
   say(title);
   for (const std::string& line : table.lines()) say(line);
   say(
@@ -153,19 +155,21 @@ void say_panel(const TradeoffReport& report, const Panel& panel, const std::stri
                   "{:.1f} % (A/A); hypervolume {:.1f} decade dB",
                   panel.ideal.psnr_db, 100 * panel.aa_spread, panel.hypervolume));
   std::vector<std::string> lines = panel.notes;
-  for (const Skipped& skipped : panel.skipped)
+  for (const tradeoff::SkippedOutcome& skipped : panel.skipped)
     lines.push_back(skipped.name + ": " + skipped.reason);
-  for (const Outcome& outcome : panel.outcomes)
-    for (const std::string& warning : warnings_about(outcome))
-      lines.push_back(outcome.name + (outcome.method == Method::generic ? " (generic)" : "") +
-                      ": " + warning);
+  for (const tradeoff::Outcome& outcome : panel.outcomes)
+    for (const std::string& warning : tradeoff::warnings_about(outcome))
+      lines.push_back(outcome.name +
+                      (outcome.method == tradeoff::Method::generic ? " (generic)" : "") + ": " +
+                      warning);
   say_list("Not measured, and warnings:", lines);
 }
 
 void say_model(const TradeoffReport& report) {
   if (!report.model) return;
   Table table({"configuration", "PSNR dB", "SSIM"});
-  const auto add = [&](const Panel& panel, const std::vector<std::optional<ModelError>>& list) {
+  const auto add = [&](const tradeoff::Panel& panel,
+                       const std::vector<std::optional<tradeoff::ModelError>>& list) {
     for (std::size_t i = 0; i < list.size(); ++i)
       if (list[i])
         table.row({panel.outcomes[i].name, fmt::format("{:.2f}", list[i]->psnr_db),
@@ -185,7 +189,7 @@ const char* where_it_looks(const TradeoffReport& report) {
 }
 
 Json to_json(const TradeoffReport& report) {
-  const Study& study = report.study;
+  const tradeoff::Study& study = report.study;
   return {{"format", tradeoff_format},
           {"version", tradeoff_version},
           {"date", report.date},
@@ -233,13 +237,13 @@ void say_tables(const TradeoffReport& report) {
 }
 
 std::string choice_sentence(const TradeoffReport& report) {
-  const Study& study = report.study;
+  const tradeoff::Study& study = report.study;
   const std::string limits =
       fmt::format("at least {:g} dB and at most {:g} of the pixels uncovered or covered wrongly",
                   report.limits.min_psnr_db, report.limits.max_coverage_mismatch);
   if (!study.choice) return "No configuration keeps to the limits: " + limits + ".";
-  const Outcome& chosen = study.drawing.outcomes[*study.choice];
-  const Outcome& defaults = study.drawing.outcomes.front();
+  const tradeoff::Outcome& chosen = study.drawing.outcomes[*study.choice];
+  const tradeoff::Outcome& defaults = study.drawing.outcomes.front();
   return fmt::format("The cheapest with {}: {}, {} ms at {:.2f} dB; the defaults take {} ms.",
                      limits, chosen.name, ms_text(chosen.ms.min_of_medians), chosen.error.psnr_db,
                      ms_text(defaults.ms.min_of_medians));

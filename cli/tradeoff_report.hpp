@@ -9,20 +9,14 @@
 
 #include "cli/bench_result.hpp"
 #include "cli/report.hpp"
-#include "cli/tradeoff_panel.hpp"
+#include "jobs/tradeoff/model_errors.hpp"
+#include "jobs/tradeoff/panel.hpp"
 
 namespace tureen::cli {
 
 /// What the document calls itself, and the version of its layout.
 inline constexpr const char* tradeoff_format = "tureen tradeoff";
 inline constexpr int tradeoff_version = 1;
-
-/// How near a way to draw comes to photographs.
-struct ModelError {
-  double psnr_db = 0;  // the mean of the views' decibels, as eval says it
-  double ssim = 0;     // border `valid`
-  double flip = 0;     // 0 where it was left out
-};
 
 /// What E_model was measured with.
 struct ModelProtocol {
@@ -45,10 +39,10 @@ struct TradeoffReport {
   bool processor_time = false;  // of all threads, instead of time that passed
   std::string samples;          // of the drawing panel's reference: "device" or "exact"
   tradeoff::Limits limits;
-  Study study;
+  tradeoff::Study study;
   /// Of the drawing panel's outcomes and of the antialiasing one's, in their order; nothing for
   /// those that were not measured. Empty without a dataset.
-  std::vector<std::optional<ModelError>> drawing_model, antialiasing_model;
+  std::vector<std::optional<tradeoff::ModelError>> drawing_model, antialiasing_model;
   std::optional<ModelProtocol> model;
   std::optional<std::string> scene_written;  // by --write, where
   std::vector<std::string> notes;            // on reading the scene, the cameras, the dataset

@@ -8,10 +8,10 @@
 #include "base/error.hpp"
 #include "cli/bench_device.hpp"
 #include "cli/progress.hpp"
-#include "cli/tradeoff_model.hpp"
-#include "cli/tradeoff_study.hpp"
 #include "cli/tradeoff_views.hpp"
 #include "cli/version.hpp"
+#include "jobs/tradeoff/model_errors.hpp"
+#include "jobs/tradeoff/study.hpp"
 
 namespace tureen::cli {
 
@@ -55,7 +55,8 @@ std::vector<Photograph> test_photographs(const TradeoffOptions& options, Tradeof
   const int most =
       options.photographs > 0 ? options.photographs : defaults_of(options.effort).photographs;
   Dataset dataset = read(options.dataset, DatasetPart::test);
-  std::vector<Photograph> photographs = spread_out(std::move(dataset.test), std::size_t(most));
+  std::vector<Photograph> photographs =
+      tradeoff::spread_out(std::move(dataset.test), std::size_t(most));
   if (photographs.empty())
     throw InputError({options.dataset.path, {}, {}}, "it holds no photographs to test with");
   for (std::string& note : described(dataset.remarks)) report.notes.push_back(std::move(note));
@@ -68,14 +69,15 @@ void measure_models(const TradeoffOptions& options, const Scene& scene,
   const auto& soup = std::get<TriangleSoup>(scene.primitives);
   report.model = {options.dataset.path, "test", int(photographs.size()), name(SsimBorder::valid)};
   Progress progress("photographs");
-  ModelOptions model{.backend = options.backend,
-                     .background = scene.info.background,
-                     .with_flip = options.with_flip};
+  tradeoff::ModelOptions model{.backend = options.backend,
+                               .background = scene.info.background,
+                               .with_flip = options.with_flip};
   model.progress = [&](double fraction) { progress.update(0.8 * fraction); };
-  report.drawing_model = model_errors(report.study.drawing, soup, scene.origin, photographs, model);
+  report.drawing_model =
+      tradeoff::model_errors(report.study.drawing, soup, scene.origin, photographs, model);
   model.progress = [&](double fraction) { progress.update(0.8 + 0.2 * fraction); };
   report.antialiasing_model =
-      model_errors(report.study.antialiasing, soup, scene.origin, photographs, model);
+      tradeoff::model_errors(report.study.antialiasing, soup, scene.origin, photographs, model);
 }
 
 /// The part of the report that is known before measuring.
@@ -97,7 +99,8 @@ TradeoffReport head_of(const TradeoffOptions& options, const Scene& scene) {
   return report;
 }
 
-Study study_of(const TradeoffOptions& options, const Scene& scene, TradeoffReport& report) {
+tradeoff::Study study_of(const TradeoffOptions& options, const Scene& scene,
+                         TradeoffReport& report) {
   const Defaults defaults = defaults_of(options.effort);
   const auto& soup = std::get<TriangleSoup>(scene.primitives);
   report.rounds = options.rounds > 0 ? options.rounds : defaults.rounds;
@@ -114,7 +117,7 @@ Study study_of(const TradeoffOptions& options, const Scene& scene, TradeoffRepor
   const BenchClock clock = clock_for(report.device, options.processor_time);
   report.clock = clock.text;
   report.processor_time = options.processor_time;
-  StudyOptions study{.subpixel_bits = tradeoff::device_subpixel_bits()};
+  tradeoff::StudyOptions study{.subpixel_bits = tradeoff::device_subpixel_bits()};
   if (study.subpixel_bits != 8)
     report.notes.push_back(fmt::format(
         "this device rounds vertices to 1/{} pixel, and so does the oracle where it samples as the "
@@ -138,9 +141,10 @@ Study study_of(const TradeoffOptions& options, const Scene& scene, TradeoffRepor
     }
     progress->update(fraction);
   };
-  Study found = run_study({context, soup, scene.origin, views.judges, views.counting}, study);
+  tradeoff::Study found =
+      tradeoff::run_study({context, soup, scene.origin, views.judges, views.counting}, study);
   progress.reset();
-  const Candidates left = candidates(found.drawing);
+  const tradeoff::Candidates left = tradeoff::candidates(found.drawing);
   if (const auto cheapest = tradeoff::cheapest_within(left.points, report.limits))
     found.choice = left.index[*cheapest];
   return found;

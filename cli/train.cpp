@@ -14,7 +14,7 @@
 #include "cli/commands.hpp"
 #include "cli/config_options.hpp"
 #include "cli/dataset_argument.hpp"
-#include "cli/evaluation.hpp"
+#include "cli/eval_images.hpp"
 #include "cli/held_out.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory_option.hpp"
@@ -26,6 +26,7 @@
 #include "cli/training_session.hpp"
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "formats/scene_file.hpp"
+#include "jobs/eval/evaluation.hpp"
 #include "scene/edit/lattice_bytes.hpp"
 #include "trainer/common/kernels/projection.hpp"
 #include "trainer/common/training_views.hpp"
@@ -197,7 +198,7 @@ void say_result(const TrainOptions& options, const Dataset& dataset, const Resul
 Json report(const Dataset& dataset, const Result& result) {
   Json test{{"views", dataset.test.size()}};
   if (result.evaluation) {
-    test.update(to_json(result.evaluation->mean, true));
+    test.update(cli::to_json(result.evaluation->mean, true));
     test["drawn_by"] = result.evaluation->renderer;
   } else {
     test["psnr_db"] = result.trainer_psnr_db;

@@ -21,7 +21,8 @@ set(arrows
   "trainer/diffsoup: base image scene trainer/common"
   "jobs/timing: base image scene runtime runtime/gl"
   "jobs/visibility: base image scene oracle runtime runtime/gl"
-  "jobs/tradeoff: base image scene oracle runtime runtime/gl jobs/visibility"
+  "jobs/eval: base image scene runtime runtime/gl runtime/plan"
+  "jobs/tradeoff: base image scene oracle runtime runtime/gl runtime/plan jobs/eval jobs/timing jobs/visibility"
   "jobs/compress: base image scene camera formats runtime runtime/gl jobs/visibility"
   "viewer: base image scene camera formats runtime runtime/gl runtime/plan runtime/passes runtime/debug_views jobs/timing"
   "web: base image scene camera formats runtime runtime/gl runtime/plan runtime/debug_views jobs/timing")

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "cli/tradeoff_model.hpp"
+#include "jobs/tradeoff/model_errors.hpp"
 #include "jobs/tradeoff/reference.hpp"
 #include "tests/support/errors.hpp"
 
@@ -18,9 +18,9 @@ using testing::ElementsAre;
 
 void nothing(tradeoff::Applied&) {}
 
-Outcome outcome(tradeoff::Configuration configuration, const std::string& name, double ms,
-                double psnr) {
-  Outcome result;
+tradeoff::Outcome outcome(tradeoff::Configuration configuration, const std::string& name, double ms,
+                          double psnr) {
+  tradeoff::Outcome result;
   result.configuration = std::move(configuration);
   result.name = name;
   result.ms = {.mean = ms,
@@ -37,15 +37,15 @@ Outcome outcome(tradeoff::Configuration configuration, const std::string& name, 
   return result;
 }
 
-Panel panel() {
-  Panel result;
+tradeoff::Panel panel() {
+  tradeoff::Panel result;
   result.settings = {
       {"lattice_level", "lattice level", {{"3", "level 3", nothing}, {"2", "level 2", nothing}}},
       {"texel_bits", "texel bits", {{"8", "8 bits", nothing}, {"4", "4 bits", nothing}}}};
   result.outcomes = {outcome({0, 0}, "defaults", 10, 60), outcome({0, 0}, "defaults", 20, 60),
                      outcome({1, 0}, "level 2", 8, 40), outcome({0, 1}, "4 bits", 9, 50),
                      outcome({1, 1}, "level 2, \"4 bits\"", 7, 39)};
-  result.outcomes[1].method = Method::generic;
+  result.outcomes[1].method = tradeoff::Method::generic;
   result.ranges = {{0, 1.25, 20}, {1, 1.1, 10}};
   result.front = {4, 2, 3, 0};
   result.ideal.psnr_db = 61;
@@ -70,11 +70,11 @@ TradeoffReport report() {
   result.clock = "sundial";
   result.samples = "device";
   result.study.drawing = panel();
-  Outcome published = outcome({0, 0}, "published pipeline", 90, 55);
-  published.method = Method::published;
+  tradeoff::Outcome published = outcome({0, 0}, "published pipeline", 90, 55);
+  published.method = tradeoff::Method::published;
   result.study.drawing.outcomes.push_back(published);
-  for (Outcome& each : result.study.drawing.outcomes)
-    each.exact = ExactError{each.error.psnr_db - 10, 0.25};
+  for (tradeoff::Outcome& each : result.study.drawing.outcomes)
+    each.exact = tradeoff::ExactError{each.error.psnr_db - 10, 0.25};
   result.study.published = 5;
   result.study.antialiasing = panel();
   result.study.antialiasing.skipped = {{"half the resolution", "this device has none"}};
@@ -102,8 +102,8 @@ TEST(TradeoffReport, SaysWhatWasMeasured) {
 }
 
 TEST(TradeoffReport, TimesOfABusyMachineAreWarnedOf) {
-  EXPECT_FALSE(spread_warning(0.05));
-  EXPECT_THAT(spread_warning(0.234).value_or(""), Names("23 %"));
+  EXPECT_FALSE(tradeoff::spread_warning(0.05));
+  EXPECT_THAT(tradeoff::spread_warning(0.234).value_or(""), Names("23 %"));
 }
 
 TEST(TradeoffReport, TheChoiceIsASentence) {
@@ -114,27 +114,27 @@ TEST(TradeoffReport, TheChoiceIsASentence) {
 }
 
 TEST(TradeoffReport, WarnsOfOutcomesThatMeanLess) {
-  Panel made = panel();
-  Outcome& doubtful = made.outcomes[2];
-  EXPECT_THAT(warnings_about(doubtful), testing::IsEmpty());
+  tradeoff::Panel made = panel();
+  tradeoff::Outcome& doubtful = made.outcomes[2];
+  EXPECT_THAT(tradeoff::warnings_about(doubtful), testing::IsEmpty());
   doubtful.stable = false;
-  EXPECT_EQ(warnings_about(doubtful).size(), 1u);
+  EXPECT_EQ(tradeoff::warnings_about(doubtful).size(), 1u);
   doubtful.error.non_finite = 37;
-  EXPECT_THAT(warnings_about(doubtful), ElementsAre(testing::_, Names(37)));
+  EXPECT_THAT(tradeoff::warnings_about(doubtful), ElementsAre(testing::_, Names(37)));
 }
 
 TEST(TradeoffCandidates, AreWhatCanBeChosen) {
   TradeoffReport made = report();
-  made.study.drawing.outcomes[4].method = Method::published;
+  made.study.drawing.outcomes[4].method = tradeoff::Method::published;
   made.study.drawing.aa_spread = 0.01;
-  const Candidates all = candidates(made.study.drawing);
+  const tradeoff::Candidates all = tradeoff::candidates(made.study.drawing);
   EXPECT_THAT(all.index, ElementsAre(0, 2, 3));
   EXPECT_DOUBLE_EQ(all.points[0].spread_ms, 0.2);
   EXPECT_EQ(all.points[1].departures, 1);
 }
 
-Panel supersampled() {
-  Panel result;
+tradeoff::Panel supersampled() {
+  tradeoff::Panel result;
   result.settings = tradeoff::antialiasing_settings(8);
   const std::vector<tradeoff::Configuration> star{{0, 0}, {0, 1}, {0, 2}, {0, 3}};
   double ms = 5, psnr = 30;
@@ -148,15 +148,15 @@ Panel supersampled() {
 
 // 8 x 8 samples differ from a reference of 8 x 8 by rounding, whatever they cost.
 TEST(TradeoffCandidates, TheReferencesOwnSamplesAreOnNoFront) {
-  Panel made = supersampled();
+  tradeoff::Panel made = supersampled();
   ASSERT_EQ(made.outcomes[3].applied.quality.supersampling, tradeoff::antialiased_samples);
-  EXPECT_FALSE(is_judged(made.outcomes[3]));
-  EXPECT_TRUE(is_judged(made.outcomes[2]));
-  find_front(made);
+  EXPECT_FALSE(tradeoff::is_judged(made.outcomes[3]));
+  EXPECT_TRUE(tradeoff::is_judged(made.outcomes[2]));
+  tradeoff::find_front(made);
   EXPECT_THAT(made.front, ElementsAre(0, 1, 2));
-  Panel without = supersampled();
+  tradeoff::Panel without = supersampled();
   without.outcomes.pop_back();
-  find_front(without);
+  tradeoff::find_front(without);
   EXPECT_EQ(made.hypervolume, without.hypervolume);
 }
 
@@ -165,7 +165,7 @@ TEST(SpreadOut, TakesPhotographsEvenly) {
   for (int i = 0; i < 10; ++i) photographs[std::size_t(i)].camera.name = std::to_string(i);
   const auto names = [&](std::size_t most) {
     std::string text;
-    for (const Photograph& each : spread_out(photographs, most)) text += each.camera.name;
+    for (const Photograph& each : tradeoff::spread_out(photographs, most)) text += each.camera.name;
     return text;
   };
   EXPECT_EQ(names(0), "0123456789");

@@ -1,4 +1,4 @@
-#include "cli/tradeoff_panel.hpp"
+#include "jobs/tradeoff/panel.hpp"
 
 #include <fmt/format.h>
 
@@ -7,12 +7,12 @@
 #include "jobs/timing/benchmark.hpp"
 #include "jobs/tradeoff/reference.hpp"
 
-namespace tureen::cli {
+namespace tureen::tradeoff {
 
 const char* name_of(Method method) { return method_names[std::size_t(method)]; }
 
 bool is_judged(const Outcome& outcome) {
-  return outcome.applied.quality.supersampling != tradeoff::antialiased_samples;
+  return outcome.applied.quality.supersampling != antialiased_samples;
 }
 
 Candidates candidates(const Panel& panel) {
@@ -34,9 +34,8 @@ Candidates candidates(const Panel& panel) {
 
 void find_front(Panel& panel) {
   const Candidates all = candidates(panel);
-  for (const std::size_t i : tradeoff::pareto_front(all.points))
-    panel.front.push_back(all.index[i]);
-  panel.hypervolume = tradeoff::hypervolume(all.points);
+  for (const std::size_t i : pareto_front(all.points)) panel.front.push_back(all.index[i]);
+  panel.hypervolume = hypervolume(all.points);
 }
 
 bool is_on_front(const Panel& panel, std::size_t outcome) {
@@ -73,4 +72,4 @@ std::optional<std::string> spread_warning(double aa_spread) {
       100 * aa_spread, 200 * aa_spread);
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen::tradeoff

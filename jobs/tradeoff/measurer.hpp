@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "cli/tradeoff_study.hpp"
+#include "jobs/tradeoff/study.hpp"
 
-namespace tureen::cli {
+namespace tureen::tradeoff {
 
 /// One case: how it draws, and what is known of it before it is measured.
 struct Job {
@@ -18,8 +18,8 @@ struct Job {
   PlanPreferences plan;
 };
 
-Job job_of(const std::vector<tradeoff::QualitySetting>& settings,
-           const tradeoff::Configuration& configuration, bool specialised);
+Job job_of(const std::vector<QualitySetting>& settings, const Configuration& configuration,
+           bool specialised);
 
 class Measurer {
  public:
@@ -56,4 +56,4 @@ class Measurer {
   std::string task_;
 };
 
-}  // namespace tureen::cli
+}  // namespace tureen::tradeoff

@@ -12,7 +12,7 @@
 #include "jobs/tradeoff/pareto.hpp"
 #include "jobs/tradeoff/quality_settings.hpp"
 
-namespace tureen::cli {
+namespace tureen::tradeoff {
 
 /// Against References::exact.
 struct ExactError {
@@ -31,9 +31,9 @@ const char* name_of(Method method);
 
 /// One way to draw, with the numbers it came to.
 struct Outcome {
-  tradeoff::Configuration configuration;  // of the panel's settings
-  std::string name;                       // in words: "lattice level 2"
-  tradeoff::Applied applied;
+  Configuration configuration;  // of the panel's settings
+  std::string name;             // in words: "lattice level 2"
+  Applied applied;
   Method method = Method::specialised;
   /// In milliseconds, except the spread, a fraction (FrameStatistics::spread).
   FrameStatistics ms;
@@ -45,17 +45,18 @@ struct Outcome {
   int departures() const { return tradeoff::departures(configuration); }
 };
 
-struct Skipped {
+/// A configuration that was not measured.
+struct SkippedOutcome {
   std::string name;
   std::string reason;
 };
 
 /// Outcomes with one reference: of drawing settings, or of antialiasing ones.
 struct Panel {
-  std::vector<tradeoff::QualitySetting> settings;
+  std::vector<QualitySetting> settings;
   std::vector<Outcome> outcomes;  // the defaults first
-  std::vector<tradeoff::SettingRange> ranges;
-  std::vector<Skipped> skipped;
+  std::vector<SettingRange> ranges;
+  std::vector<SkippedOutcome> skipped;
   std::vector<std::string> notes;
   double aa_spread = 0;            // the largest of the groups
   std::vector<std::size_t> front;  // fastest first; of candidates()
@@ -66,7 +67,7 @@ struct Panel {
 };
 
 /// Whether the error of an outcome depends on its settings. Supersampling at the antialiasing
-/// reference's own samples (tradeoff::antialiased_samples) is measured for its time.
+/// reference's own samples (antialiased_samples) is measured for its time.
 bool is_judged(const Outcome& outcome);
 
 /// Sentences on why time or error of an outcome mean less than they seem.
@@ -75,7 +76,7 @@ std::vector<std::string> warnings_about(const Outcome& outcome);
 /// Time and error of the outcomes that may be on the front; `index` has their indices in
 /// Panel::outcomes.
 struct Candidates {
-  std::vector<tradeoff::Point> points;
+  std::vector<Point> points;
   std::vector<std::size_t> index;
 };
 Candidates candidates(const Panel& panel);
@@ -107,4 +108,4 @@ struct Study {
 /// is a fraction.
 std::optional<std::string> spread_warning(double aa_spread);
 
-}  // namespace tureen::cli
+}  // namespace tureen::tradeoff

@@ -13,22 +13,22 @@
 #include <string>
 #include <vector>
 
-#include "cli/tradeoff_panel.hpp"
 #include "jobs/tradeoff/experiment.hpp"
+#include "jobs/tradeoff/panel.hpp"
 #include "jobs/tradeoff/reference.hpp"
 #include "runtime/renderer.hpp"
 
-namespace tureen::cli {
+namespace tureen::tradeoff {
 
 struct StudyOptions {
   glm::vec3 background{0.0f};
   /// Of the reference of drawing settings: device or exact.
-  tradeoff::Samples samples = tradeoff::Samples::device;
+  Samples samples = Samples::device;
   int subpixel_bits = 8;  // of the device
   int rounds = 5;
   /// Most renderers at a time; each holds the scene on the device.
   std::size_t group = 12;
-  tradeoff::FactorialLimits factorial = {};
+  FactorialLimits factorial = {};
   int max_samples = 4;  // an axis, of supersampling
   bool with_flip = true;
   /// As BenchmarkOptions::clock.
@@ -57,4 +57,4 @@ struct StudyScene {
 /// skipped with the reason.
 Study run_study(const StudyScene& scene, const StudyOptions& options);
 
-}  // namespace tureen::cli
+}  // namespace tureen::tradeoff

@@ -6,11 +6,18 @@
 #include <span>
 #include <vector>
 
-#include "cli/evaluation.hpp"
-#include "cli/tradeoff_report.hpp"
-#include "formats/dataset/dataset.hpp"
+#include "jobs/tradeoff/panel.hpp"
+#include "runtime/gl/context.hpp"
+#include "scene/photographs.hpp"
 
-namespace tureen::cli {
+namespace tureen::tradeoff {
+
+/// How near a way to draw comes to photographs.
+struct ModelError {
+  double psnr_db = 0;  // the mean of the views' decibels, as eval says it
+  double ssim = 0;     // border `valid`
+  double flip = 0;     // 0 where it was left out
+};
 
 struct ModelOptions {
   gl::Backend backend = gl::Backend::automatic;
@@ -28,4 +35,4 @@ std::vector<std::optional<ModelError>> model_errors(const Panel& panel, const Tr
                                                     std::span<const Photograph> photographs,
                                                     const ModelOptions& options);
 
-}  // namespace tureen::cli
+}  // namespace tureen::tradeoff

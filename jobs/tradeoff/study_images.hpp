@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/tradeoff_study.hpp"
+#include "jobs/tradeoff/study.hpp"
 
-namespace tureen::cli {
+namespace tureen::tradeoff {
 
 /// Tells options.progress, where somebody listens.
 void report(const StudyOptions& options, const std::string& task, double fraction);
@@ -23,7 +23,7 @@ void on_all_cores(
 
 /// One picture a camera. Throws what options.progress throws, soon after it did.
 std::vector<ImageF> oracle_pictures(const StudyScene& scene, const StudyOptions& options,
-                                    tradeoff::Samples samples);
+                                    Samples samples);
 
 /// In 8 bits a channel, as a screen shows them.
 std::vector<ImageF> as_shown(std::span<const ImageF> pictures);
@@ -36,4 +36,4 @@ RenderError error_between(std::span<const ImageF> reference, std::span<const Ima
 using Errors = std::pair<RenderError, std::optional<ExactError>>;
 Errors errors_of(const References& references, std::span<const ImageF> drawn, bool with_flip);
 
-}  // namespace tureen::cli
+}  // namespace tureen::tradeoff

@@ -1,4 +1,4 @@
-#include "cli/tradeoff_measurer.hpp"
+#include "jobs/tradeoff/measurer.hpp"
 
 #include <algorithm>
 #include <future>
@@ -6,10 +6,10 @@
 #include <tuple>
 
 #include "base/error.hpp"
-#include "cli/tradeoff_pictures.hpp"
 #include "jobs/timing/benchmark.hpp"
+#include "jobs/tradeoff/study_images.hpp"
 
-namespace tureen::cli {
+namespace tureen::tradeoff {
 
 namespace {
 
@@ -22,12 +22,12 @@ FrameStatistics scaled(FrameStatistics ms, double factor) {
 
 }  // namespace
 
-Job job_of(const std::vector<tradeoff::QualitySetting>& settings,
-           const tradeoff::Configuration& configuration, bool specialised) {
+Job job_of(const std::vector<QualitySetting>& settings, const Configuration& configuration,
+           bool specialised) {
   Job job;
   job.outcome.configuration = configuration;
-  job.outcome.name = tradeoff::describe(settings, configuration);
-  job.outcome.applied = tradeoff::applied_by(settings, configuration);
+  job.outcome.name = describe(settings, configuration);
+  job.outcome.applied = applied_by(settings, configuration);
   job.outcome.method = specialised ? Method::specialised : Method::generic;
   job.plan.specialise = specialised;
   job.plan.quality = job.outcome.applied.quality;
@@ -144,4 +144,4 @@ void Measurer::compare(std::vector<Running>& running, std::size_t first) {
     if (errors[i].valid()) take(i);
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen::tradeoff

@@ -1,4 +1,4 @@
-#include "cli/tradeoff_pictures.hpp"
+#include "jobs/tradeoff/study_images.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -6,7 +6,7 @@
 #include <future>
 #include <thread>
 
-namespace tureen::cli {
+namespace tureen::tradeoff {
 
 void report(const StudyOptions& options, const std::string& task, double fraction) {
   if (options.progress) options.progress(task, fraction);
@@ -45,15 +45,15 @@ void on_all_cores(
 }
 
 std::vector<ImageF> oracle_pictures(const StudyScene& scene, const StudyOptions& options,
-                                    tradeoff::Samples samples) {
+                                    Samples samples) {
   std::vector<ImageF> pictures(scene.cameras.size());
   const auto progress = [&](double fraction) { report(options, "reference pictures", fraction); };
   on_all_cores(pictures.size(), progress, [&](std::size_t i, const auto& check) {
-    pictures[i] = tradeoff::reference_picture(scene.soup, scene.origin, scene.cameras[i],
-                                              {.samples = samples,
-                                               .subpixel_bits = options.subpixel_bits,
-                                               .background = options.background,
-                                               .progress = check});
+    pictures[i] = reference_picture(scene.soup, scene.origin, scene.cameras[i],
+                                    {.samples = samples,
+                                     .subpixel_bits = options.subpixel_bits,
+                                     .background = options.background,
+                                     .progress = check});
   });
   return pictures;
 }
@@ -80,4 +80,4 @@ Errors errors_of(const References& references, std::span<const ImageF> drawn, bo
   return errors;
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen::tradeoff

@@ -1,6 +1,9 @@
-#include "cli/tradeoff_model.hpp"
+#include "jobs/tradeoff/model_errors.hpp"
 
-namespace tureen::cli {
+#include "jobs/eval/evaluation.hpp"
+#include "scene/edit/edits.hpp"
+
+namespace tureen::tradeoff {
 
 namespace {
 
@@ -51,4 +54,4 @@ std::vector<std::optional<ModelError>> model_errors(const Panel& panel, const Tr
   return errors;
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen::tradeoff

@@ -1,4 +1,4 @@
-#include "cli/tradeoff_study.hpp"
+#include "jobs/tradeoff/study.hpp"
 
 #include <fmt/format.h>
 
@@ -7,22 +7,19 @@
 #include <cmath>
 #include <iterator>
 
-#include "cli/tradeoff_measurer.hpp"
-#include "cli/tradeoff_pictures.hpp"
 #include "jobs/timing/benchmark.hpp"
+#include "jobs/tradeoff/measurer.hpp"
+#include "jobs/tradeoff/study_images.hpp"
 #include "jobs/visibility/visibility_count.hpp"
 
-namespace tureen::cli {
+namespace tureen::tradeoff {
 
 namespace {
 
-using tradeoff::Configuration;
-using tradeoff::QualitySetting;
-
 /// Refuses configurations that cannot be drawn, before anything is uploaded.
-tradeoff::Refusal refusal_of(const std::vector<QualitySetting>& settings) {
+Refusal refusal_of(const std::vector<QualitySetting>& settings) {
   return [&settings](const Configuration& configuration) {
-    return defect(tradeoff::applied_by(settings, configuration).quality);
+    return defect(applied_by(settings, configuration).quality);
   };
 }
 
@@ -34,34 +31,32 @@ std::vector<Job> jobs_of(const std::vector<QualitySetting>& settings,
   return jobs;
 }
 
-void add_skipped(Panel& panel, const tradeoff::Design& design) {
-  for (const tradeoff::Skipped& skipped : design.skipped)
-    panel.skipped.push_back(
-        {tradeoff::describe(panel.settings, skipped.configuration), skipped.reason});
+void add_skipped(Panel& panel, const Design& design) {
+  for (const Skipped& skipped : design.skipped)
+    panel.skipped.push_back({describe(panel.settings, skipped.configuration), skipped.reason});
 }
 
 /// The ranges of the settings, from the outcomes of the star that were measured as specialised.
 void find_ranges(Panel& panel) {
   std::vector<Configuration> configurations;
-  std::vector<tradeoff::Measured> measured;
+  std::vector<Measured> measured;
   for (const Outcome& outcome : panel.outcomes) {
     if (outcome.method == Method::generic || outcome.method == Method::published) continue;
     configurations.push_back(outcome.configuration);
     measured.push_back(
         {outcome.ms.min_of_medians, is_judged(outcome) ? outcome.error.psnr_db : std::nan("")});
   }
-  panel.ranges = tradeoff::setting_ranges(configurations, measured, panel.settings.size());
+  panel.ranges = setting_ranges(configurations, measured, panel.settings.size());
 }
 
 /// After the star: all combinations of the settings that matter, and the front.
 void finish(const StudyOptions& options, const std::string& task, Measurer& measurer,
             Panel& panel) {
   find_ranges(panel);
-  const tradeoff::Design rest =
-      tradeoff::factorial(tradeoff::value_counts(panel.settings), panel.ranges,
-                          refusal_of(panel.settings), options.factorial);
+  const Design rest = factorial(value_counts(panel.settings), panel.ranges,
+                                refusal_of(panel.settings), options.factorial);
   add_skipped(panel, rest);
-  panel.notes = tradeoff::describe(rest.reduction, options.factorial);
+  panel.notes = describe(rest.reduction, options.factorial);
   measurer.measure(jobs_of(panel.settings, rest.configurations, true), task);
   find_front(panel);
   if (auto warning = spread_warning(panel.aa_spread)) panel.notes.push_back(*std::move(warning));
@@ -73,18 +68,17 @@ RenderError ideal_error(const std::vector<ImageF>& reference, bool with_flip) {
 
 void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& study) {
   Panel& panel = study.drawing;
-  References references{oracle_pictures(scene, options, tradeoff::Samples::device),
-                        oracle_pictures(scene, options, tradeoff::Samples::exact)};
+  References references{oracle_pictures(scene, options, Samples::device),
+                        oracle_pictures(scene, options, Samples::exact)};
   study.grid = error_between(references.exact, references.judge, options.with_flip);
-  if (options.samples == tradeoff::Samples::exact) references.judge = references.exact;
+  if (options.samples == Samples::exact) references.judge = references.exact;
   panel.ideal = ideal_error(references.judge, options.with_flip);
 
   const std::vector<std::uint64_t> visible = count_visible_pixels(
       scene.context, scene.soup, scene.origin, scene.counting,
       [&](double fraction) { report(options, "visible triangles", fraction); });
-  panel.settings = tradeoff::drawing_settings(scene.soup, visible);
-  const tradeoff::Design star =
-      tradeoff::star(tradeoff::value_counts(panel.settings), refusal_of(panel.settings));
+  panel.settings = drawing_settings(scene.soup, visible);
+  const Design star = tradeoff::star(value_counts(panel.settings), refusal_of(panel.settings));
   add_skipped(panel, star);
 
   Measurer measurer(scene, options, references, panel);
@@ -105,11 +99,10 @@ void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& 
 
 void study_antialiasing(const StudyScene& scene, const StudyOptions& options, Study& study) {
   Panel& panel = study.antialiasing;
-  const References references{oracle_pictures(scene, options, tradeoff::Samples::antialiased), {}};
+  const References references{oracle_pictures(scene, options, Samples::antialiased), {}};
   panel.ideal = ideal_error(references.judge, options.with_flip);
-  panel.settings = tradeoff::antialiasing_settings(options.max_samples);
-  const tradeoff::Design star =
-      tradeoff::star(tradeoff::value_counts(panel.settings), refusal_of(panel.settings));
+  panel.settings = antialiasing_settings(options.max_samples);
+  const Design star = tradeoff::star(value_counts(panel.settings), refusal_of(panel.settings));
   add_skipped(panel, star);
   Measurer measurer(scene, options, references, panel);
   measurer.measure(jobs_of(panel.settings, star.configurations, true), "antialiasing");
@@ -126,4 +119,4 @@ Study run_study(const StudyScene& scene, const StudyOptions& options) {
   return study;
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen::tradeoff

@@ -7,21 +7,19 @@
 // the mean is that of the views, as papers report it.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "cli/report.hpp"
-#include "formats/dataset/dataset.hpp"
 #include "image/metrics.hpp"
 #include "runtime/gl/context.hpp"
 #include "runtime/plan/plan.hpp"
+#include "scene/photographs.hpp"
 #include "scene/scene.hpp"
 
-namespace tureen::cli {
+namespace tureen {
 
 struct EvaluationOptions {
   gl::Backend backend = gl::Backend::automatic;
@@ -29,11 +27,10 @@ struct EvaluationOptions {
   /// Behind the scene and behind photographs with alpha; display-referred.
   glm::vec3 background{0.0f};
   MetricOptions metrics = {.ssim_border = SsimBorder::valid};
-  /// Where to put the photograph, the rendering and a heat map of their differences side by side, a
-  /// PNG a view, and a contact sheet of them. Empty: no pictures. Made where it does not exist.
-  std::filesystem::path folder = {};
-  /// The dataset's own folder: where `folder` lies inside it no file that is there is replaced.
-  std::filesystem::path spared = {};
+  /// Called with each view's index, its photograph over the background, and its rendering, in any
+  /// order and from several threads; may throw to end the evaluation.
+  std::function<void(std::size_t view, const ImageF& photograph, const ImageF& rendering)> on_view =
+      {};
   /// Called now and then with the fraction done, 0..1; may throw to end the evaluation.
   std::function<void(double)> progress = {};
 };
@@ -52,21 +49,12 @@ struct Evaluation {
   std::string renderer;
   std::vector<std::string> plan;                       // describe()
   std::vector<AppliedSpecialisation> specialisations;  // of the plan
-  std::vector<std::string> output;                     // the pictures written
 };
 
 /// Views are measured on all cores while others are drawn. There is one photograph at least, and
 /// the soup has no defect(). Throws ContextError, DeviceLimitError, UsageError where the window of
-/// the SSIM does not fit into a view or a picture would replace one of the dataset, OutputError;
-/// pictures that are there by then stay.
+/// the SSIM does not fit into a view, and what the callbacks throw.
 Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
                     std::span<const Photograph> photographs, const EvaluationOptions& options);
 
-/// The names of the pictures in the folder: "train/r_0.png" gives "train_r_0.png". Letters other
-/// than those that every file system takes become '_', and equal names are told apart by a number.
-std::vector<std::string> picture_names(std::span<const Photograph> photographs);
-
-/// {"name": .., "psnr_db": .., "ssim": .., "flip": ..}; no name where it has none.
-Json to_json(const ViewMetrics& metrics, bool with_flip);
-
-}  // namespace tureen::cli
+}  // namespace tureen

@@ -1,0 +1,70 @@
+#include "jobs/eval/evaluation.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <deque>
+#include <future>
+#include <thread>
+
+#include "runtime/plan/plan_description.hpp"
+#include "runtime/renderer.hpp"
+
+namespace tureen {
+
+namespace {
+
+/// What is left to do for a view once it is drawn. Runs on any thread.
+ViewMetrics measure(std::size_t view, const Photograph& photograph, const Image8& rendering,
+                    const EvaluationOptions& options) {
+  const ImageF truth = composited(to_float(photograph.image), options.background);
+  const ImageF drawn = to_float(rendering);
+  const Metrics metrics = compare(truth, drawn, options.metrics);
+  if (options.on_view) options.on_view(view, truth, drawn);
+  return {photograph.camera.name, metrics.psnr_db, metrics.ssim, metrics.flip};
+}
+
+ViewMetrics mean_of(const std::vector<ViewMetrics>& views) {
+  ViewMetrics sum;
+  for (const ViewMetrics& view : views) {
+    sum.psnr_db += view.psnr_db;
+    sum.ssim += view.ssim;
+    sum.flip += view.flip;
+  }
+  const double n = double(views.size());
+  return {"", sum.psnr_db / n, sum.ssim / n, sum.flip / n};
+}
+
+}  // namespace
+
+Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
+                    std::span<const Photograph> photographs, const EvaluationOptions& options) {
+  assert(!photographs.empty());
+  const gl::Context context = gl::Context::create({.backend = options.backend});
+  Renderer renderer(context, soup, origin,
+                    {.plan = options.plan, .background = {options.background, 1.0f}});
+  Evaluation result;
+  result.context = context.description();
+  result.renderer = context.capabilities().renderer;
+
+  // One view more than cores is in memory at a time. Destroying what is left waits for it.
+  const std::size_t most = std::max(1u, std::thread::hardware_concurrency());
+  std::deque<std::future<ViewMetrics>> running;
+  const auto take_first = [&] {
+    result.views.push_back(running.front().get());
+    running.pop_front();
+  };
+  for (std::size_t i = 0; i < photographs.size(); ++i) {
+    if (options.progress) options.progress(double(i) / double(photographs.size()));
+    renderer.draw(photographs[i].camera);
+    running.push_back(std::async(std::launch::async, measure, i, std::cref(photographs[i]),
+                                 renderer.read_color(), std::cref(options)));
+    if (running.size() == most) take_first();
+  }
+  while (!running.empty()) take_first();
+  result.mean = mean_of(result.views);
+  result.plan = describe(renderer.plan());
+  result.specialisations = renderer.plan().applied;
+  return result;
+}
+
+}  // namespace tureen
