@@ -1,4 +1,4 @@
-// The checksum of PNG, zip and gzip: it tells damage, not intent.
+// The checksum of PNG, zip and gzip. It detects damage; it does not authenticate.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace tureen {
 
-/// CRC-32 as in PNG's annex D, a byte at a time: a browser build has no zlib, and what is checked
-/// takes several times as long to decode.
+/// CRC-32 as in PNG's annex D, one byte at a time. A browser build has no zlib, and decoding the
+/// checked bytes takes several times as long.
 std::uint32_t crc32_of(std::span<const std::byte> bytes);
 
 }  // namespace tureen

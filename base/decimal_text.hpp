@@ -1,4 +1,4 @@
-// Numbers in sentences, with a decimal point whatever the locale of the program around us.
+// Numbers in sentences, with a decimal point in every locale.
 #pragma once
 
 #include <string>

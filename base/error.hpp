@@ -1,6 +1,5 @@
-// The one family of exceptions that every module throws: what went wrong, where and why, and what a
-// person can do about it.
-// A caller's bug is an assertion instead; no library exits or prints.
+// The exceptions that every module throws: the failure, its place, its reason and a possible
+// remedy. A caller's bug is an assertion instead. No library exits or prints.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +9,8 @@
 
 namespace tureen {
 
-/// Where in an input something went wrong. `byte` counts from 0, `line` from 1; either may be
-/// absent, and a place without a file is the machine or the request itself.
+/// Where an input failed. `byte` counts from 0, `line` from 1; either may be absent. A place
+/// without a file means the machine or the request itself.
 struct Place {
   std::string file;
   std::optional<std::uint64_t> byte;
@@ -21,9 +20,9 @@ struct Place {
 /// "file:line: " or "file: byte N: " or "".
 std::string to_string(const Place& place);
 
-/// what() is the place, the reason and the hint. The reason holds for every program. The hint names
-/// what a person can do at the command line (an option, another name, a command); it may be empty,
-/// and a page leaves it away.
+/// what() joins the place, the reason and the hint. The reason holds for every program. The hint
+/// names a remedy on the command line: an option, another name, a command. It may be empty, and a
+/// page omits it.
 class Error : public std::runtime_error {
  public:
   Error(Place place, std::string reason, std::string hint = {})
@@ -43,24 +42,25 @@ class Error : public std::runtime_error {
   std::string hint_;
 };
 
-/// The input is bad or of a kind we do not read. The program exits with 3.
+/// The input is bad or of an unsupported kind. The program exits with 3.
 struct InputError : Error {
   using Error::Error;
 };
 
-/// The request makes no sense (an option, a conversion that cannot be). The program exits with 2.
+/// The request is impossible: a wrong option or conversion. The program exits with 2.
 struct UsageError : Error {
   explicit UsageError(std::string reason, std::string hint = {})
       : Error({}, std::move(reason), std::move(hint)) {}
 };
 
-/// No OpenGL context can be had, or it lacks what we need. The program exits with 4.
+/// No OpenGL context is available, or it lacks a required feature. The program exits with 4.
 struct ContextError : Error {
   explicit ContextError(std::string reason, std::string hint = {})
       : Error({}, std::move(reason), std::move(hint)) {}
 };
 
-/// The scene does not fit on this device; the reason forecasts what would. Exits with 5.
+/// The scene does not fit on this device; the reason forecasts what would fit. The program exits
+/// with 5.
 struct DeviceLimitError : Error {
   explicit DeviceLimitError(std::string reason, std::string hint = {})
       : Error({}, std::move(reason), std::move(hint)) {}

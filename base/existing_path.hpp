@@ -1,20 +1,21 @@
-// Whether something lies at a path that a person named, and why it cannot be had where it does not.
+// Whether a path exists, and if not, the reason.
 #pragma once
 
 #include <filesystem>
 
 namespace tureen {
 
-/// Whether nothing lies there. What may not be looked up is not missing: opening it says why.
+/// Whether nothing exists at `path`. False if the lookup itself is denied: opening reports the
+/// reason.
 bool is_missing(const std::filesystem::path& path);
 
-/// Throws an InputError with the reason where nothing lies at `path` (a folder that is not there, a
-/// link that leads nowhere, a name that is close), or where it may not be looked up or, if it is a
-/// folder, entered. Throws UsageError where the path is empty.
+/// Throws InputError with the reason if nothing exists at `path` (missing folder, broken link,
+/// similar name). Throws InputError too if the lookup is denied or a folder cannot be entered.
+/// Throws UsageError if the path is empty.
 void require_there(const std::filesystem::path& path);
 
-/// Whether `path` is `folder` or lies below it, wherever links lead. Neither need be there; what
-/// cannot be looked up lies nowhere.
+/// Whether `path` is `folder` or lies below it, with links followed. Neither has to exist. False
+/// for a path that cannot be looked up.
 bool lies_in(const std::filesystem::path& path, const std::filesystem::path& folder);
 
 }  // namespace tureen

@@ -1,4 +1,4 @@
-// How a path ends, which tells formats where no content does.
+// The extension of a path, for formats that their content does not identify.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 
 namespace tureen {
 
-/// With its dot and in small letters, as cameras and Windows write them large: ".glb" of "a.GLB";
-/// empty where there is none.
+/// With its dot, in lower case, since cameras and Windows write upper case: ".glb" from "a.GLB".
+/// Empty if there is none.
 std::string extension_of(const std::filesystem::path& path);
 
 }  // namespace tureen

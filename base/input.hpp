@@ -1,4 +1,4 @@
-// Untrusted bytes, read in order: a file or a block of memory. Every failure names the place.
+// Untrusted bytes from a file or a block of memory, read in order. Every failure names the place.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +18,10 @@ namespace tureen {
 
 class Input {
  public:
-  /// Throws InputError when the file cannot be opened or is not a regular file. A read of several
-  /// files hands the budget of the first to the others.
+  /// Throws InputError if the file cannot be opened or is not a regular file. A reader of several
+  /// files passes the budget of the first one to the others.
   static Input open(const std::filesystem::path& path, MemoryBudget budget = MemoryBudget());
-  /// The bytes must outlive the Input. `name` stands for the file in error messages.
+  /// The bytes must outlive the Input. Error messages print `name` as the file.
   static Input memory(std::string name, std::span<const std::byte> bytes,
                       MemoryBudget budget = MemoryBudget());
 
@@ -31,24 +31,24 @@ class Input {
   std::uint64_t remaining() const { return size_ - position_; }
 
   const MemoryBudget& budget() const { return budget_; }
-  /// Counts what is about to be allocated: so many elements of `each` bytes. Throws InputError
-  /// where that is more than the budget has left.
+  /// Counts `elements` of `each` bytes before their allocation. Throws InputError if they exceed
+  /// the rest of the budget.
   void take_memory(std::uint64_t elements, std::size_t each, const char* what) {
     if (!budget_.take(elements, each)) fail(budget_.refusal(what), max_memory_hint);
   }
-  /// make_room (base/memory_budget.hpp), or an InputError.
+  /// Calls make_room (base/memory_budget.hpp); throws InputError if it fails.
   template <class T>
   void make_room_in(std::vector<T>& values, std::uint64_t more, const char* what) {
     if (!make_room(values, more, budget_)) fail(budget_.refusal(what), max_memory_hint);
   }
 
-  /// Throws InputError when `position` lies past the end.
+  /// Throws InputError if `position` lies past the end.
   void seek(std::uint64_t position);
 
-  /// As many bytes as there are, up to buffer.size(); 0 at the end.
+  /// Reads up to buffer.size() bytes and returns their number; 0 at the end.
   std::size_t read_some(std::span<std::byte> buffer);
 
-  /// Fills all of `buffer`, or throws an InputError that says which of `what` is cut short.
+  /// Fills all of `buffer`, or throws an InputError that `what` is truncated.
   void read(std::span<std::byte> buffer, const char* what);
 
   template <class T>
@@ -59,8 +59,8 @@ class Input {
     return value;
   }
 
-  /// `count` values; the count is checked against the bytes that remain, and against the budget,
-  /// before any allocation.
+  /// `count` values. The count is checked against the remaining bytes and the budget before any
+  /// allocation.
   template <class T>
   std::vector<T> read_values(std::uint64_t count, const char* what) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -71,7 +71,7 @@ class Input {
     return values;
   }
 
-  /// Everything from the current position on.
+  /// All bytes from the current position on.
   std::vector<std::byte> read_rest();
 
   /// Throws an InputError at the current position, or at `byte`.

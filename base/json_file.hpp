@@ -1,4 +1,4 @@
-// JSON from untrusted hands: what a reader of small JSON files needs, with places in its errors.
+// Reading small JSON files from untrusted sources, with places in the errors.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,27 +9,27 @@
 
 namespace tureen {
 
-/// Files of more bytes are refused.
+/// Size limit in bytes; larger files are rejected.
 inline constexpr std::uint64_t max_json_bytes = 16u << 20;
 
-/// What an object with the same key twice means. JSON leaves it open.
+/// The treatment of an object with the same key twice, which JSON leaves open.
 enum class RepeatedKeys {
-  last_counts,  // as most readers have it
-  refused,      // for what people write by hand
+  last_counts,  // as most readers do
+  refused,      // for files written by hand
 };
 
-/// Parses the whole input. Throws an InputError with the byte where the text is no JSON, or does
-/// not keep to the limits of base/json_limits.hpp.
+/// Parses the whole input. Throws InputError with the byte if the text is not JSON or exceeds the
+/// limits of base/json_limits.hpp.
 nlohmann::json read_json(Input& input, RepeatedKeys repeated = RepeatedKeys::last_counts);
 
-/// A finite float; throws an InputError that names `what` otherwise.
+/// A finite float. Otherwise throws an InputError that names `what`.
 float json_float(const nlohmann::json& value, const std::string& file, const std::string& what);
 
 /// An array of exactly `count` finite floats.
 std::vector<float> json_floats(const nlohmann::json& value, std::size_t count,
                                const std::string& file, const std::string& what);
 
-/// The value under `key`; throws an InputError where `object` is no object or lacks it.
+/// The value under `key`. Throws InputError if `object` is not an object or lacks the key.
 const nlohmann::json& json_at(const nlohmann::json& object, const char* key,
                               const std::string& file);
 

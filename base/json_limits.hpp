@@ -1,5 +1,5 @@
-// What is known of JSON before it is parsed, so that no text can ask for more stack or memory than
-// there is. All JSON that we read passes here: our own readers' and what tinygltf is given.
+// Limits on JSON, checked before parsing, so that no text can exhaust the stack or the memory. They
+// apply to all JSON: to our readers and to tinygltf.
 #pragma once
 
 #include <cstddef>
@@ -12,27 +12,27 @@
 
 namespace tureen {
 
-/// Deeper nesting is refused: whoever walks the value recursively must not run out of stack. The
-/// deepest file that we know of, a glTF with extensions, has a dozen levels.
+/// Largest nesting depth; deeper texts are rejected, since recursive code must not overflow the
+/// stack. The deepest known file, a glTF with extensions, has about 12 levels.
 inline constexpr int max_json_depth = 64;
 
-/// What a value of a parsed document takes at most, beside the letters of its texts: itself, the
-/// node of the object's tree that holds it and its key, and what vectors have in reserve.
+/// Upper bound of the memory per value of a parsed document, in bytes, excluding the characters of
+/// its texts: the value, the tree node with its key, and spare capacity of vectors.
 inline constexpr std::size_t json_value_bytes = 128;
 
-/// An upper bound of the number of values and keys that a parser makes of `text`, whether it is
-/// JSON or not: 1 where it stops at the first character. Throws an InputError, with the byte of
-/// `file` of which `text` begins at `first_byte`, where it is nested deeper than max_json_depth.
+/// An upper bound of the number of values and keys that a parser creates from `text`, whether or
+/// not it is JSON; 1 if it stops at the first character. Throws InputError if the nesting exceeds
+/// max_json_depth. The error names the byte in `file`, where `text` begins at `first_byte`.
 std::uint64_t count_json_values(std::string_view text, const std::string& file,
                                 std::uint64_t first_byte = 0);
 
-/// Counts what parsing `text` will take. Throws InputError where that is too much, or nested too
-/// deeply.
+/// Counts the memory needed to parse `text`. Throws InputError if it exceeds the budget or the
+/// nesting is too deep.
 void take_json_memory(std::string_view text, const std::string& file, std::uint64_t first_byte,
                       MemoryBudget budget);
 
-/// The one thing that is JSON and cannot be parsed: a number beyond the largest double. `message`
-/// is the parser's, which quotes it; `text` and the rest are as above.
+/// The error for the only valid JSON that cannot be parsed: a number beyond the largest double.
+/// `message` is the parser's, which quotes the number. The other parameters are as above.
 InputError json_number_too_large(std::string_view message, std::string_view text,
                                  const std::string& file, std::uint64_t first_byte = 0);
 

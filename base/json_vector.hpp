@@ -1,4 +1,4 @@
-// Vectors in untrusted JSON: arrays of exactly as many numbers. Include it in sources only.
+// Vectors in untrusted JSON: arrays of exactly N numbers. Include it only in sources.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -1,8 +1,9 @@
-// How much memory reading may take. Files are untrusted, and a few bytes of them can ask for
-// gigabytes: by a count that is false, or by a picture or an archive that unfolds to a thousand
-// times its size. So readers count what they are about to allocate, before they do.
+// A limit on the memory that reading may allocate. Files are untrusted, and a few bytes can request
+// gigabytes: by a false count, or by an image or archive that decompresses to 1000 times its size.
+// Readers therefore count every allocation before they make it.
 //
-// What is counted is what a reader asks for by what a file says: arrays, texts, pictures, what
+// Counted are allocations whose size depends on the file: arrays, texts, images and temporary
+// memory of decoders. The fixed buffers of readers, a few kilobytes, are not counted.
 // decoders hold meanwhile. The few kilobytes of buffers that every reader has are not.
 #pragma once
 
@@ -15,27 +16,27 @@
 
 namespace tureen {
 
-/// 4 GiB: more than twice what the largest published MobileNeRF scenes take (16 shapes, two images
-/// of 4096 x 4096 each), and what a 32-bit browser could hold at most.
+/// 4 GiB: more than twice the need of the largest published MobileNeRF scenes (16 shapes, two
+/// images of 4096 x 4096 each), and the maximum for a 32-bit browser.
 inline constexpr std::uint64_t default_max_memory = std::uint64_t(4) << 30;
 
-/// What one read may take from now on, in bytes. Memory is the process's, and so is this: a program
-/// sets it once, before it reads, and no reader can be forgotten.
+/// The limit for each read from now on, in bytes. It is global, since memory belongs to the
+/// process: a program sets it once before it reads, and it then applies to every reader.
 void set_max_memory(std::uint64_t bytes);
 std::uint64_t max_memory();
 
-/// The hint of every error about this limit.
+/// The hint in every error about this limit.
 inline constexpr const char* max_memory_hint = "--max-memory changes that";
 
-/// "512MB", "4 GB", "1.5GB" or a number of bytes, with kB, MB, GB and TB powers of 1024. Throws
-/// UsageError for anything else, for nothing and for more than a file can have.
+/// Parses "512MB", "4 GB", "1.5GB" or a number of bytes; kB, MB, GB and TB are powers of 1024.
+/// Throws UsageError for any other text, for zero and for more than a file can have.
 std::uint64_t parse_memory_size(const std::string& text);
 
-/// The same the other way round: "4 GB", "1.5 MB", "17 bytes".
+/// The inverse: "4 GB", "1.5 MB", "17 bytes".
 std::string memory_size_text(std::uint64_t bytes);
 
-/// What one read has left, over all the files that it opens: copies count together. Not for several
-/// threads at a time.
+/// The remaining memory of one read over all files that it opens. Copies share one count. Not
+/// thread-safe.
 class MemoryBudget {
  public:
   explicit MemoryBudget(std::uint64_t limit = max_memory());
@@ -44,9 +45,9 @@ class MemoryBudget {
   std::uint64_t taken() const { return count_->taken; }
   std::uint64_t left() const { return limit() - taken(); }
 
-  /// Counts so many elements of `each` bytes; false, and nothing counted, where they are too many.
+  /// Counts `elements` of `each` bytes. Returns false and counts nothing if they exceed the limit.
   [[nodiscard]] bool take(std::uint64_t elements, std::size_t each = 1);
-  /// No more than was taken.
+  /// Subtracts `bytes` from the count; at most the taken bytes.
   void give_back(std::uint64_t bytes);
 
   /// The reason for the error about `what`; its hint is max_memory_hint.
@@ -59,8 +60,8 @@ class MemoryBudget {
   std::shared_ptr<Count> count_;
 };
 
-/// While it lives, what is taken is meant to pass: at its end all of that is given back, but for
-/// what was kept.
+/// Temporary memory: the destructor gives back everything taken during its lifetime, except the
+/// kept bytes.
 class PassingMemory {
  public:
   explicit PassingMemory(MemoryBudget budget)
@@ -72,7 +73,7 @@ class PassingMemory {
     if (budget_.taken() > stays) budget_.give_back(budget_.taken() - stays);
   }
 
-  /// So many of the bytes taken stay.
+  /// Marks `bytes` of the taken bytes as kept.
   void keep(std::uint64_t bytes) { kept_ += bytes; }
 
  private:
@@ -80,9 +81,9 @@ class PassingMemory {
   std::uint64_t before_, kept_ = 0;
 };
 
-/// Room for `more` elements, as vectors make it: exactly that for a first, large part, and in
-/// strides that double where many small ones follow each other. False, and nothing changed, where
-/// that is too much; meanwhile both the old and the new room are counted.
+/// Reserves room for `more` elements. The first large part gets its exact size; later small ones
+/// double the capacity. Returns false and changes nothing if the budget is exceeded. The old and
+/// the new memory are both counted until the copy is done.
 template <class T>
 [[nodiscard]] bool make_room(std::vector<T>& values, std::uint64_t more, MemoryBudget& budget) {
   if (more <= values.capacity() - values.size()) return true;

@@ -1,4 +1,4 @@
-// What --max-memory is, for the help of every program that has it: `tureen` and the window.
+// The help text of --max-memory, for `tureen` and for the viewer.
 #pragma once
 
 namespace tureen {

@@ -1,4 +1,4 @@
-// A file that appears whole or not at all: written under a temporary name, then renamed.
+// A file that is complete or absent: written under a temporary name, then renamed.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,11 @@ namespace tureen {
 
 class Output {
  public:
-  /// Opens a temporary file beside writable_file (output_path.hpp) and throws as that does.
+  /// Opens a temporary file beside writable_file (output_path.hpp); throws the same errors.
   explicit Output(std::filesystem::path path);
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
-  /// Removes the temporary file unless commit() was reached.
+  /// Removes the temporary file unless commit() has succeeded.
   ~Output();
 
   void write(std::span<const std::byte> bytes);
@@ -29,28 +29,28 @@ class Output {
   }
   std::uint64_t position() const { return position_; }
 
-  /// Flushes, closes and renames over `path`. Throws OutputError; `path` is then untouched.
+  /// Flushes, closes and renames to `path`. Throws OutputError and leaves `path` unchanged.
   void commit();
 
  private:
   [[noreturn]] void fail(const char* what) const;
 
-  std::filesystem::path path_;  // with links followed
+  std::filesystem::path path_;  // with links resolved
   std::filesystem::path temporary_;
   std::FILE* file_ = nullptr;
   std::uint64_t position_ = 0;
 };
 
-/// A whole file. Throws OutputError.
+/// Writes a complete file. Throws OutputError.
 void write_file(const std::filesystem::path& path, std::string_view text);
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
-/// Puts the folder `made` in the place of `path`, of which a folder that was there is removed.
-/// Where the system can swap two names (Linux) one of them is at `path` at every moment. Throws
-/// OutputError; `path` is then untouched.
+/// Moves the folder `made` to `path` and removes the folder that was there. If the system can swap
+/// two names (Linux), `path` names one of the two folders at every moment. Throws OutputError and
+/// leaves `path` unchanged.
 void replace_folder(const std::filesystem::path& made, const std::filesystem::path& path);
 
-/// Makes a folder, and those above it, where they are not there. Throws OutputError.
+/// Creates a folder and its missing parents. Throws OutputError.
 void make_folder(const std::filesystem::path& folder);
 
 }  // namespace tureen

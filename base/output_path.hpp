@@ -1,26 +1,26 @@
-// Where what is written to a path goes, and what is never written over.
+// The destination of an output path, and the checks that protect existing files.
 #pragma once
 
 #include <filesystem>
 
 namespace tureen {
 
-/// `path`, or what it leads to where it is a symbolic link: also a name that is not there yet. A
-/// ring of links is given back somewhere along it.
+/// `path` with symbolic links followed, also to a name that does not exist yet. For a cycle of
+/// links the result is some path on the cycle.
 std::filesystem::path followed(const std::filesystem::path& path);
 
-/// `followed`, for a file. Throws OutputError where a folder, a pipe or a device lies there, or a
-/// file that may not be written: replacing takes a folder's permission alone, and would go past
-/// that of the file; UsageError where `path` is empty. It is asked once: what is protected later
-/// is replaced.
+/// `followed`, for a file. Throws OutputError if a folder, a pipe or a device exists there. Throws
+/// OutputError too if the existing file is read-only: a rename needs only the folder's permission
+/// and would bypass that of the file. Throws UsageError if `path` is empty. The check runs once: a
+/// file protected later is replaced.
 std::filesystem::path writable_file(const std::filesystem::path& path);
 
-/// `followed`, for a folder that is replaced as a whole, whatever lies in it. Throws OutputError
-/// where one lies there that may not be written.
+/// `followed`, for a folder that is replaced with all its contents. Throws OutputError if the
+/// existing folder is not writable.
 std::filesystem::path writable_folder(const std::filesystem::path& path);
 
-/// A name beside `path` that no other output of this process or of another has: what is written
-/// there takes the name `path` when it is whole.
+/// A unique name beside `path`, also across processes. The complete output is renamed from it to
+/// `path`.
 std::filesystem::path temporary_beside(const std::filesystem::path& path);
 
 }  // namespace tureen

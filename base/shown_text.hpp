@@ -1,5 +1,5 @@
-// Text from files as it may be shown to people: it cannot steer a terminal, begin a line of its own
-// or fill the screen.
+// Text from files, made safe to print: it cannot control a terminal, start a new line or fill the
+// screen.
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@
 
 namespace tureen {
 
-/// One line. Control characters, those that turn the direction of writing, and bytes that are no
-/// UTF-8 are written out: "\n", "\u001b", "\xff". The rest stays as it is.
+/// One line. Control characters, bidirectional controls and bytes that are not UTF-8 are escaped:
+/// "\n", "\u001b", "\xff". The rest is unchanged.
 std::string shown_text(std::string_view text);
 
-/// The same, and of more than a thousand bytes only the beginning and the end, with how much is
-/// missing between them.
+/// The same, shortened: a text above 1000 bytes keeps its beginning and its end, with the number of
+/// omitted bytes between them.
 std::string shown_line(std::string_view text);
 
 }  // namespace tureen

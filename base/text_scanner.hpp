@@ -1,5 +1,5 @@
-// Reads numbers and words from a text of any size, line by line, through a window of fixed size:
-// what the text formats (OFF, ascii PLY) have in common. Every failure names the line.
+// Reads numbers and words from a text of any size, line by line, through a window of fixed size.
+// The text formats (OFF, ascii PLY) share it. Every failure names the line.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,20 @@
 namespace tureen {
 
 struct TextSyntax {
-  /// From here to the end of the line is a comment; NUL for a text without comments.
+  /// Start of a comment, which extends to the end of the line; NUL for a text without comments.
   char comment = '\0';
-  /// The number of the first line, where the text begins inside a file.
+  /// Number of the first line, for a text that begins inside a file.
   std::uint64_t first_line = 1;
 };
 
-/// A line ends with LF, CR or CR LF; blanks are space, tab, vertical tab and form feed. Nothing
-/// here crosses the end of a line but next_line() and next_content().
+/// A line ends with LF, CR or CR LF; blanks are space, tab, vertical tab and form feed. Only
+/// next_line() and next_content() cross the end of a line.
 ///
-/// Not for texts with quotes or escapes, and not for numbers of more than max_word characters.
+/// Does not support quotes, escapes, or words longer than max_word characters.
 class TextScanner {
  public:
   static constexpr std::size_t window = 256 * 1024;
-  /// Words and numbers up to this long are whole in the window; longer ones are refused.
+  /// Longest word or number in characters; longer ones are rejected.
   static constexpr std::size_t max_word = 1024;
 
   /// Reads `input` from its position on. The input must outlive the scanner, which reads ahead.
@@ -38,34 +38,35 @@ class TextScanner {
   /// Bytes from the next character to the end of the file.
   std::uint64_t remaining() const { return input_.size() - position(); }
 
-  /// Skips blanks and a comment: whether nothing else is left on this line.
+  /// Skips blanks and a comment. Returns whether the line has no more content.
   bool at_line_end();
-  /// Goes to the start of the next line; false, at the end of the text, where there is none.
+  /// Advances to the start of the next line. Returns false at the end of the text.
   bool next_line();
-  /// Goes to the next character that is neither blank nor comment, across lines; false at the end.
+  /// Advances to the next character outside blanks and comments, across lines. Returns false at the
+  /// end.
   bool next_content();
-  /// Ends a line of data: fails where something is left on it, as "more than WHAT on this line".
+  /// Ends a line of data. Fails if more content follows: "more than WHAT on this line".
   void expect_line_end(const char* what);
 
-  /// The number or word that comes next on this line. Each must be followed by a blank, the end
-  /// of the line or a comment, and throws an InputError that names `what` was expected there.
+  /// The next number or word on this line. A blank, the end of the line or a comment must follow.
+  /// Throws an InputError that it expected `what`.
   float read_float(const char* what) { return read_decimal(what).value; }
   Decimal read_decimal(const char* what);
   std::int64_t read_integer(const char* what);
-  /// read_integer, refused outside [low, high] with the value and the bounds.
+  /// read_integer, rejected outside [low, high] with the value and the bounds.
   std::int64_t read_integer(const char* what, std::int64_t low, std::int64_t high);
   std::string read_word(const char* what);
 
-  /// The longest part of the next word that is at most `count` characters, without consuming it.
+  /// The next word, cut to `count` characters, without consuming it.
   std::string_view peek(std::size_t count);
-  /// Passes over `count` characters that peek() has shown.
+  /// Skips `count` characters that peek() has returned.
   void skip(std::size_t count) { next_ += count; }
 
   [[noreturn]] void fail(const std::string& reason, const std::string& hint = {}) const;
 
  private:
   void skip_blanks();
-  /// Makes sure that a word is whole in the window: max_word characters, or all that are left.
+  /// Ensures that the window holds a whole word: max_word characters, or the rest of the text.
   void look_ahead() {
     if (std::size_t(end_ - next_) <= max_word) refill();
   }

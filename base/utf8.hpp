@@ -1,4 +1,4 @@
-// Characters of UTF-8, one at a time: for text that must be looked at before it is shown.
+// Decodes UTF-8 one character at a time, for text that is inspected before printing.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +9,10 @@ namespace tureen {
 
 struct Utf8Character {
   std::uint32_t code = 0;
-  std::size_t length = 0;  // in bytes; 0 where they are no character
+  std::size_t length = 0;  // in bytes; 0 if the bytes are not a character
 };
 
-/// The character that begins at byte `at` of `text`, which is before its end.
+/// The character that begins at byte `at` of `text`; `at` is below its size.
 Utf8Character utf8_character(std::string_view text, std::size_t at);
 
 }  // namespace tureen
