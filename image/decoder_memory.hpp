@@ -1,7 +1,8 @@
-// The memory of a decoder written in C, stb_image: counted, bounded, and zero at first.
+// The memory of stb_image, a decoder written in C: counted, limited and initialised to zero.
 //
-// Bounded, because a few bytes of deflated data can make stb ask for gigabytes whatever the
-// picture's size. Zero, because JPEG's decoder uses tables that a damaged file has never defined.
+// The limit is needed because a few bytes of deflated data can make stb request gigabytes for an
+// image of any size. Zeros are needed because the JPEG decoder reads tables that a damaged file has
+// not defined.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +12,8 @@
 
 namespace tureen::decoder_memory {
 
-/// While it lives, the functions below give this thread what `budget` has left, and no more than
-/// `limit` at a time. All of it must be released before.
+/// During its lifetime the functions below allocate for this thread: at most the rest of `budget`,
+/// and at most `limit` at a time. The caller releases all of it before the destructor.
 class Scope {
  public:
   Scope(MemoryBudget budget, std::uint64_t limit);
@@ -20,7 +21,7 @@ class Scope {
   Scope& operator=(const Scope&) = delete;
   ~Scope();
 
-  /// Whether something was refused, by which of the two.
+  /// Whether an allocation failed, and which of the two limits caused it.
   bool beyond_budget() const { return beyond_budget_; }
   bool beyond_limit() const { return beyond_limit_; }
 
@@ -36,8 +37,8 @@ class Scope {
   bool beyond_budget_ = false, beyond_limit_ = false;
 };
 
-/// As calloc, realloc (what is new is not zero) and free; null where there is no Scope or it
-/// refuses.
+/// As calloc, realloc (added bytes are not zeroed) and free. Return null without a Scope or beyond
+/// its limits.
 void* allocate(std::size_t size);
 void* reallocate(void* old, std::size_t size);
 void release(void* old);

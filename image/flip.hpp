@@ -1,6 +1,6 @@
-// FLIP: the difference that a person sees when flipping between two pictures (Andersson, Nilsson,
+// FLIP: the visible difference when flipping between two images (Andersson, Nilsson,
 // Akenine-Moller, Oskarsson, Astrom and Fairchild, "FLIP: A Difference Evaluator for Alternating
-// Images", HPG 2020). The LDR version, for pictures in sRGB.
+// Images", HPG 2020). This is the LDR version, for images in sRGB.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,8 @@
 namespace tureen {
 
 struct FlipOptions {
-  /// Pixels per degree of the visual field. 67 is the paper's default: 0.7 m in front of a screen
-  /// 0.7 m and 3840 pixels wide.
+  /// Pixels per degree of the visual field. The default, 67, is the paper's: a distance of 0.7 m
+  /// from a screen 0.7 m and 3840 pixels wide.
   double pixels_per_degree = 67.0;
 };
 
@@ -20,9 +20,9 @@ struct FlipResult {
   std::vector<float> map;  // one error in [0, 1] a pixel, row by row from the top
 };
 
-/// Values are display-referred sRGB, clamped to [0, 1] (NaN becomes 0); alpha is ignored. The
-/// pictures have equal sizes of at least one pixel; past the border they go on as at the border.
-/// Symmetric in its arguments.
+/// Values are display-referred sRGB, clamped to [0, 1] (NaN becomes 0); alpha is ignored. Both
+/// images have the same size, at least one pixel. Border pixels are replicated. Symmetric in its
+/// arguments.
 FlipResult flip(const ImageF& reference, const ImageF& test, const FlipOptions& options = {});
 
 }  // namespace tureen

@@ -1,4 +1,4 @@
-// Numbers as colours: a scale that reads in grey as well, and where two pictures differ.
+// Colour scales for numbers, readable in grey as well, and maps of the difference of two images.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -9,29 +9,28 @@
 
 namespace tureen {
 
-/// Dark violet at 0 through red and yellow to white at 1; lightness grows all the way. Clamped.
+/// Dark violet at 0 through red and yellow to white at 1; lightness increases monotonically.
+/// Clamped.
 glm::vec3 heat_ramp(float t);
 
-/// A colour and what it stands for, to be shown beside a picture.
+/// A colour and its meaning, shown beside an image.
 struct LegendEntry {
   glm::u8vec4 color;
   std::string text;
 };
 using Legend = std::vector<LegendEntry>;
 
-/// The colour that stands for a difference in [0, 1] on a logarithmic scale: black for none, then
-/// heat_ramp from 1/255 to 1. Logarithmic, since the differences worth looking for span two
-/// decades.
+/// The colour of a difference in [0, 1] on a logarithmic scale: black for 0, then heat_ramp from
+/// 1/255 to 1. The scale is logarithmic because relevant differences span two decades.
 glm::u8vec4 heat(float difference);
 
-/// heat() of the largest difference in a channel of each pixel. Throws UsageError when the sizes
-/// differ.
+/// heat() of the largest channel difference of each pixel. Throws UsageError if the sizes differ.
 Image8 difference(const ImageF& a, const ImageF& b);
 
-/// Of heat(): steps of 8 bits from 0 to 255.
+/// Legend of heat(): steps of 8 bits from 0 to 255.
 Legend difference_legend();
 
-/// Left, middle and right: a, b and their difference. Throws as it.
+/// Left, middle and right: a, b and their difference. Throws UsageError if the sizes differ.
 Image8 side_by_side(const ImageF& a, const ImageF& b);
 
 }  // namespace tureen

@@ -1,4 +1,4 @@
-// Pictures in memory. Row 0 is the top row; values are display-referred sRGB, straight alpha.
+// Images in memory. Row 0 is the top row; values are display-referred sRGB with straight alpha.
 #pragma once
 
 #include <cstdint>
@@ -35,11 +35,11 @@ struct ImageF {
   const glm::vec4& at(int x, int y) const { return pixels[std::size_t(y) * width + x]; }
 };
 
-/// Rounds to the nearest of 256 values, as a GL framebuffer does; clamps, NaN becomes 0.
+/// Rounds to the nearest of 256 values, as a GL framebuffer does. Clamps; NaN becomes 0.
 Image8 quantised(const ImageF& image);
 
-/// Of the bytes, row by row from the top, as 16 hexadecimal digits: FNV-1a of 64 bits. Pictures
-/// with one hash are the same picture; it proves nothing against somebody who wants to deceive.
+/// FNV-1a hash (64 bits) of the bytes, row by row from the top, as 16 hexadecimal digits. Equal
+/// hashes mean equal images for testing; the hash is not cryptographic.
 std::string pixels_hash(const Image8& image);
 
 /// byte / 255.

@@ -1,5 +1,5 @@
-// What must be known of a JPEG before stb_image decodes it: version 2.27 takes the number of codes
-// of a Huffman table for granted and writes past its own where they are more than 256.
+// A check of JPEG files before stb_image decodes them. Version 2.27 does not check the number of
+// codes in a Huffman table and writes out of bounds beyond 256.
 #pragma once
 
 #include <cstddef>
@@ -15,9 +15,9 @@ struct OversizedTable {
   bool in_header;  // before the first scan, where every decoder reads it
 };
 
-/// The first such table; nothing where there is none, or where the bytes are no JPEG. Every place
-/// counts at which a decoder, however it reads damaged data, could take one to begin: behind the
-/// first scan also what is no part of the picture, as the film that telephones append to one.
+/// The first such table; nullopt if there is none or the bytes are not a JPEG. Checks every
+/// position where a decoder may start reading a table in damaged data. After the first scan this
+/// includes data outside the image, such as the video that phones append.
 std::optional<OversizedTable> oversized_huffman_table(std::span<const std::byte> bytes);
 
 }  // namespace tureen

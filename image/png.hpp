@@ -1,5 +1,5 @@
 // PNG as plain data: no colour management, no gamma, no premultiplication, rows top to bottom.
-// Texels of a lattice travel in these files, so every byte counts.
+// These files also store lattice texels, so every byte must be exact.
 #pragma once
 
 #include <cstddef>
@@ -12,19 +12,19 @@
 
 namespace tureen {
 
-/// Width and height are refused above this before anything is allocated.
+/// Largest width and height; larger images are rejected before any allocation.
 inline constexpr int max_image_side = 65536;
-/// Pixels of one image are refused above this: 2^28 RGBA pixels are 1 GiB.
+/// Largest number of pixels; larger images are rejected. 2^28 RGBA pixels are 1 GiB.
 inline constexpr std::size_t max_image_pixels = std::size_t(1) << 28;
 
-/// Decodes a PNG or a JPEG to RGBA; missing alpha becomes 255, 16 bits become 8 (the high byte).
-/// `name` stands for the file in the InputError thrown for anything undecodable, and for what takes
-/// more memory than the budget has left, or while it is decoded more than pictures of its size do.
-/// Of the budget it keeps what the image takes.
+/// Decodes a PNG or a JPEG to RGBA. Missing alpha becomes 255; 16 bits become 8 (the high byte).
+/// Throws InputError, with `name` as the file, if decoding fails or exceeds the budget. It also
+/// throws if decoding needs more memory than images of this size do. Charges the image's memory to
+/// the budget.
 Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
                     MemoryBudget budget = MemoryBudget());
 
-/// decode_image of everything that `input` holds from its position on.
+/// decode_image of all bytes of `input` from its position on.
 Image8 read_image(Input& input);
 
 /// RGBA8, lossless.

@@ -1,6 +1,5 @@
-// What must be known of a PNG before stb_image decodes it: version 2.27 does not compare the
-// checksums of chunks, and would show a damaged picture as one that is whole; of one that is cut
-// short it does not say so.
+// A check of PNG files before stb_image decodes them. Version 2.27 does not compare the checksums
+// of chunks and does not report truncation, so damaged images would pass as intact.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +10,14 @@
 namespace tureen {
 
 struct PngDamage {
-  std::uint64_t byte;  // at which the chunk begins
+  std::uint64_t byte;  // start of the chunk
   const char* reason;
 };
 
-/// The first chunk that is not as it was written: its checksum is another one, or the bytes end
-/// before it does. Chunks count that the picture is made of; others, as texts and times, may be
-/// damaged, which other readers put up with, too, and so may the last one's checksum be missing.
-/// Nothing where there is none, or where the bytes are no PNG.
+/// The first damaged chunk: its checksum is wrong, or the bytes end inside it. Only chunks that
+/// define the image are checked. Damage in others, such as texts and times, is accepted, as other
+/// readers do; so is a missing checksum of the last chunk. Returns nullopt if all are intact or the
+/// bytes are not a PNG.
 std::optional<PngDamage> png_damage(std::span<const std::byte> bytes);
 
 }  // namespace tureen

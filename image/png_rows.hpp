@@ -1,5 +1,5 @@
-// A PNG that is written row by row: pictures that memory has no room for. RGBA8 as image/png.hpp
-// has it. Not in a browser, which has no zlib.
+// Writes a PNG row by row, for images that exceed the memory. RGBA8, as in image/png.hpp. Not
+// available in a browser, which has no zlib.
 #pragma once
 
 #include <cstdint>
@@ -11,21 +11,21 @@
 
 namespace tureen {
 
-/// The compressor and the checksums are zlib's; of PNG itself this needs three kinds of chunk and
-/// the row filters (PNG specification, 3rd edition, sections 5 and 9).
+/// zlib provides the compressor and the checksums. The class writes three kinds of chunk and the
+/// row filters (PNG specification, 3rd edition, sections 5 and 9).
 class PngRows {
  public:
-  /// Writes the header. `output` must outlive this, and is not committed by it. The sides are at
-  /// least 1.
+  /// Writes the header. `output` must outlive this object, which does not commit it. The sides are
+  /// at least 1.
   PngRows(Output& output, int width, int height);
   ~PngRows();
   PngRows(const PngRows&) = delete;
   PngRows& operator=(const PngRows&) = delete;
 
-  /// The next rows from the top, of the picture's width. Throws OutputError.
+  /// Appends the next rows from the top, of the image's width. Throws OutputError.
   void append(const Image8& rows);
 
-  /// Writes what is left; asserts that all rows were appended. Throws OutputError.
+  /// Writes the rest. Asserts that all rows were appended. Throws OutputError.
   void finish();
 
  private:

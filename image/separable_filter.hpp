@@ -1,5 +1,5 @@
-// Filters that are a product of a row filter and a column filter, in double precision: what SSIM
-// and FLIP are made of.
+// Separable filters: the product of a row filter and a column filter, in double precision. SSIM and
+// FLIP use them.
 #pragma once
 
 #include <span>
@@ -7,7 +7,7 @@
 
 namespace tureen {
 
-/// One channel of a picture, row by row from the top.
+/// One channel of an image, row by row from the top.
 struct Plane {
   int width = 0;
   int height = 0;
@@ -19,16 +19,16 @@ struct Plane {
   double at(int x, int y) const { return values[std::size_t(y) * width + x]; }
 };
 
-/// What a filter sees past the edge of the picture.
+/// The treatment of samples outside the image.
 enum class Border {
-  zero,       // nothing: zeros
-  replicate,  // the nearest pixel of the edge
-  valid,      // it does not look: the result is smaller by the filter's length minus one
+  zero,       // zeros
+  replicate,  // the nearest edge pixel
+  valid,      // no samples outside: the result is smaller by the filter's length minus one
 };
 
-/// The weighted sum of each pixel's neighbours in its row, weights[i] for the one i - radius to
-/// the right: a correlation, the weights are not mirrored. Their number is odd; under
-/// Border::valid it is not greater than the width.
+/// The weighted sum of each pixel's neighbours in its row, weights[i] for the pixel i - radius to
+/// the right. This is a correlation: the weights are not mirrored. Their number is odd; under
+/// Border::valid it is at most the width.
 Plane filter_rows(const Plane& plane, std::span<const double> weights, Border border);
 
 /// The same along columns, weights[i] for the pixel i - radius below.

@@ -1,5 +1,5 @@
-// The sRGB transfer function (IEC 61966-2-1). Tureen's colours are display-referred and are never
-// linearised on their way to the screen; this is for files that want linear values, as glTF does.
+// The sRGB transfer function (IEC 61966-2-1). Rendering never linearises Tureen's display-referred
+// colours. These functions serve file formats with linear values, such as glTF.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,5 @@
-// Videos, by ffmpeg: a program that is asked for when a video is to be written and not before.
-// Frames go to its standard input as they are; no shell reads a word. Not in a browser, which has
-// no programs.
+// Writes videos with ffmpeg, which is needed only for this. Frames go to its standard input
+// uncompressed; no shell is involved. Not available in a browser, which cannot start programs.
 #pragma once
 
 #include <cstdio>
@@ -16,16 +15,16 @@ namespace tureen {
 /// Whether the name ends in .mp4 or .webm, in any case.
 bool is_video_name(const std::filesystem::path& path);
 
-/// The reason and the hint for an error where there is no ffmpeg.
+/// The reason and the hint of the error if ffmpeg is missing.
 inline constexpr const char* ffmpeg_missing =
     "videos are written by ffmpeg, which is not installed (Debian and Ubuntu: ffmpeg)";
 inline constexpr const char* ffmpeg_hint = "-o frame_%04d.png writes frames as pictures without it";
 
-/// Whether ffmpeg lies in one of the folders of PATH.
+/// Whether a folder of PATH contains ffmpeg.
 bool have_ffmpeg();
 
-/// H.264 in .mp4, VP9 in .webm, 8 bits, BT.709, colours at half the resolution as all players take
-/// them. Sides of odd length get their last row or column twice. Alpha is left out.
+/// H.264 in .mp4, VP9 in .webm; 8 bits, BT.709, chroma at half the resolution, which all players
+/// support. Odd sides repeat their last row or column. Alpha is dropped.
 class VideoFile {
  public:
   struct Format {
@@ -34,20 +33,20 @@ class VideoFile {
     double frames_per_second = 30;
   };
 
-  /// Starts ffmpeg with a temporary name beside `path`. Throws UsageError where the name is none of
-  /// a video's or ffmpeg is missing, OutputError where it cannot be started.
+  /// Starts ffmpeg with a temporary name beside `path`. Throws UsageError if the extension is not
+  /// that of a video or ffmpeg is missing. Throws OutputError if ffmpeg cannot be started.
   VideoFile(std::filesystem::path path, const Format& format);
   VideoFile(const VideoFile&) = delete;
   VideoFile& operator=(const VideoFile&) = delete;
-  /// Ends ffmpeg and removes the temporary file unless commit() was reached.
+  /// Ends ffmpeg and removes the temporary file unless commit() has succeeded.
   ~VideoFile();
 
-  /// Waits while ffmpeg is busy with those before. Asserts the size. Throws OutputError with what
-  /// ffmpeg complains about.
+  /// Sends a frame; blocks while ffmpeg is busy. Asserts the size. Throws OutputError with the
+  /// error message from ffmpeg.
   void add(const Image8& frame);
 
-  /// Lets ffmpeg finish and renames over the path. Throws OutputError; what was there is then
-  /// untouched. Asserts a frame.
+  /// Waits for ffmpeg and renames the file to the path. Throws OutputError and leaves an existing
+  /// file unchanged. Asserts at least one frame.
   void commit();
 
  private:
@@ -59,12 +58,12 @@ class VideoFile {
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
-  std::filesystem::path path_, target_, temporary_;  // the second with links followed
+  std::filesystem::path path_, target_, temporary_;  // target_: path_ with links resolved
   Format format_;
-  std::unique_ptr<std::FILE, Close> complaints_;  // without a name
-  int input_ = -1;                                // our end of its standard input
+  std::unique_ptr<std::FILE, Close> complaints_;  // stderr of ffmpeg; unnamed file
+  int input_ = -1;                                // our end of its stdin
   int process_ = -1;
-  std::vector<std::uint8_t> bytes_;  // of one frame
+  std::vector<std::uint8_t> bytes_;  // one frame
 };
 
 }  // namespace tureen
