@@ -1,5 +1,5 @@
-// A pinhole camera in pixels, in the OpenGL convention: in view space x points right, y up, and
-// the camera looks along -z. Readers convert to this at the border and say so.
+// A pinhole camera in pixels, in the OpenGL convention: in view space x points right, y up, and the
+// camera looks along -z. Readers convert to this convention.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -8,9 +8,9 @@
 
 namespace tureen {
 
-/// Focal lengths and principal point in pixels; (cx, cy) is measured from the top left corner of
-/// the image to the right and down, so an image of width w centred on the axis has cx = w / 2.
-/// The centre of the pixel (column, row) lies at (column + 0.5, row + 0.5).
+/// Focal lengths and principal point in pixels. (cx, cy) is measured from the top left corner of
+/// the image to the right and down: an image of width w centred on the axis has cx = w / 2. The
+/// centre of the pixel (column, row) lies at (column + 0.5, row + 0.5).
 struct Camera {
   std::string name;
   int width = 0;
@@ -27,21 +27,22 @@ struct Camera {
   glm::dmat3 world_from_view_rotation() const;
 };
 
-/// A camera at `eye` that looks at `target`. `fov_y` is the full vertical angle in radians, the
-/// principal point is the centre. `up` parallel to the line of sight is replaced by another axis.
+/// A camera at `eye` that looks at `target`. `fov_y` is the full vertical angle in radians; the
+/// principal point is the image centre. If `up` is parallel to the line of sight, another axis
+/// replaces it.
 Camera look_at(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 up, double fov_y, int width,
                int height);
 
-/// The same view drawn at another size: the vertical field of view is kept, pixels stay square
-/// if they were, and a wider image shows more at the sides.
+/// The same view at another size. The vertical field of view is kept and square pixels stay square;
+/// a wider image shows more at the sides.
 Camera resized(const Camera& camera, int width, int height);
 
-/// The very same picture, edge to edge, on a grid of other pixels: each axis scales focal length
-/// and principal point by its own factor, so that a ray through a point of the picture stays the
-/// same. Pixels stay square only where both sizes have one ratio.
+/// The same image, edge to edge, on another pixel grid. Each axis scales focal length and principal
+/// point by its own factor, so rays through image points are unchanged. Pixels stay square only if
+/// both sizes have the same aspect ratio.
 Camera resampled(const Camera& camera, int width, int height);
 
-/// Whether `point`, in world coordinates, lies in front of the camera and on its image, edges
+/// Whether `point`, in world coordinates, lies in front of the camera and inside its image, edges
 /// included.
 bool in_picture(const Camera& camera, glm::dvec3 point);
 

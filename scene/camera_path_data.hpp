@@ -1,5 +1,5 @@
-// A camera path as it is stored: cameras with times. What lies between them is the runtime's
-// (camera/camera_path.hpp).
+// A camera path as stored in files: cameras with times. camera/camera_path.hpp interpolates between
+// them.
 #pragma once
 
 #include <vector>
@@ -11,14 +11,14 @@ namespace tureen {
 struct CameraKeyframe {
   Camera camera;
   double seconds = 0;  // finite; from the beginning of the path
-  /// How far before the eye lies what the camera is about; 0: unknown.
+  /// Distance from the eye to the camera's target; 0: unknown.
   double target_distance = 0;
 };
 
 struct CameraPathData {
-  /// Times do not decrease. Two of the same time are a cut.
+  /// Times do not decrease. Two keyframes with the same time are a cut.
   std::vector<CameraKeyframe> keyframes = {};
-  /// Above 0 the path is a loop: so many seconds after the first keyframe that one comes again.
+  /// Above 0 the path is a loop with this period: the first keyframe returns after `loop_seconds`.
   double loop_seconds = 0;
 };
 

@@ -1,6 +1,6 @@
-// The color MLP: a few dense layers that turn a pixel's features and its view direction into
-// colour. ReLU between layers, a sigmoid at the end. DiffSoup's is 16-16-16-3 with harmonics of
-// degree 2 and a residual blend; MobileNeRF's is 11-16-16-3 with the bare direction.
+// The color MLP: dense layers that map the features and the view direction of a pixel to a colour,
+// with ReLU between layers and a sigmoid at the end. DiffSoup uses 16-16-16-3 with harmonics of
+// degree 2 and a residual blend. MobileNeRF uses 11-16-16-3 with the bare direction.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -11,7 +11,7 @@
 
 namespace tureen {
 
-/// Which way a view direction points. Odd harmonics bands change sign between the two.
+/// The sign of a view direction. Odd harmonics bands change sign between the two conventions.
 enum class ViewConvention { surface_to_eye, eye_to_surface };
 
 enum class DirectionEncoding {
@@ -32,9 +32,9 @@ struct DenseLayer {
   std::vector<float> biases;
 };
 
-/// Inputs are the features, then the encoded direction; the last layer has three outputs. With a
-/// blend channel r, colour = (1 - f_r) (f_0, f_1, f_2) + f_r mlp(x), as DiffSoup does with r = 3;
-/// without one, colour = mlp(x). Values are display-referred sRGB in [0, 1].
+/// The inputs are the features, then the encoded direction; the last layer has three outputs. With
+/// a blend channel r, colour = (1 - f_r) (f_0, f_1, f_2) + f_r mlp(x), as in DiffSoup with r = 3.
+/// Without a blend channel, colour = mlp(x). Values are display-referred sRGB in [0, 1].
 struct ColorMlp {
   static constexpr int max_width = 64;  // of any layer, in or out
   static constexpr int max_layers = 8;
@@ -44,18 +44,18 @@ struct ColorMlp {
   ViewConvention view = ViewConvention::surface_to_eye;
   std::optional<int> blend_channel;
 
-  /// Features that the first layer expects beside the direction.
+  /// Features that the first layer expects in addition to the direction.
   int feature_count() const { return layers.front().inputs - encoded_size(encoding); }
 };
 
-/// Why this network cannot be evaluated (sizes that do not chain, a wrong number of weights, a
-/// weight that is not finite, a blend channel that is no feature ..), or nothing. Readers turn the
-/// sentence into an InputError; everything below asserts it.
+/// The reason why this network cannot be evaluated, or nullopt: mismatched layer sizes, a wrong
+/// number of weights, a weight that is not finite, a blend channel that is not a feature. Readers
+/// throw it as an InputError; the functions below assert that there is no defect.
 std::optional<std::string> defect(const ColorMlp& mlp, int available_features);
 
-/// The colour of one pixel in double precision. `features` holds at least feature_count() values
-/// and at least 3 where there is a blend channel; `to_eye` is the unit direction from the surface
-/// to the eye, turned to mlp.view here.
+/// The colour of one pixel in double precision. `features` holds at least feature_count() values,
+/// and at least 3 with a blend channel. `to_eye` is the unit direction from the surface to the eye;
+/// the function converts it to mlp.view.
 glm::dvec3 evaluate(const ColorMlp& mlp, std::span<const double> features, glm::dvec3 to_eye);
 
 }  // namespace tureen

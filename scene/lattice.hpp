@@ -1,9 +1,9 @@
 // The triangular lattice that textures one triangle (DiffSoup, arXiv 2603.27151, section 3).
 //
-// At level L the lattice has resolution n = 2^L and texels at (x, y), x, y >= 0, x + y <= n.
-// Texel (x, y) lies at barycentrics b0 = x/n (weight of vertex 0), b1 = y/n (vertex 1),
-// b2 = 1 - b0 - b1 (vertex 2). Mind level 0: its texels are, in order, vertex 2, vertex 0,
-// vertex 1. shaders/lattice.glsl states the same rule in GLSL; a test holds the two equal.
+// At level L the lattice has resolution n = 2^L and texels at (x, y), x, y >= 0, x + y <= n. Texel
+// (x, y) lies at barycentrics b0 = x/n (weight of vertex 0), b1 = y/n (vertex 1), b2 = 1 - b0 - b1
+// (vertex 2). At level 0 the texel order is therefore vertex 2, vertex 0, vertex 1.
+// shaders/lattice.glsl states the same rule in GLSL; a test compares the two.
 #pragma once
 
 #include <algorithm>
@@ -23,8 +23,8 @@ constexpr std::uint32_t texel_count(int level) {
   return (n + 1) * (n + 2) / 2;
 }
 
-/// Cells of one triangle, a square of four texels each but on the last diagonal: as many as a
-/// lattice one row smaller has texels, and indexed alike.
+/// Cells of one triangle: squares of four texels each, except on the last diagonal. Their number
+/// and index equal those of the texels of a lattice one row smaller.
 constexpr std::uint32_t cell_count(int level) {
   const std::uint32_t n = 1u << level;
   return n * (n + 1) / 2;
@@ -48,25 +48,24 @@ inline Coordinates texel_coordinates(std::uint32_t index) {
   return {diagonal - y, y};
 }
 
-/// The three texels around a point and their weights, which sum to 1 but for rounding.
+/// The three texels around a point and their weights, which sum to 1 up to rounding.
 template <class Real>
 struct Footprint {
   std::array<std::uint32_t, 3> texels;
   std::array<Real, 3> weights;
 };
 
-/// Piecewise-linear interpolation at barycentrics (b0, b1); continuous across lattice cells.
-/// Cells are clamped, so a point slightly outside extrapolates from the border cell: no index
-/// ever leaves [0, texel_count(level)). NaN yields a valid footprint with NaN weights.
-/// Constant expressions may be evaluated anywhere: nvcc compiles it for GPUs, too.
+/// Piecewise-linear interpolation at barycentrics (b0, b1), continuous across lattice cells. Cells
+/// are clamped, so a point slightly outside extrapolates from the border cell and every index lies
+/// in [0, texel_count(level)). NaN gives a valid footprint with NaN weights. The function is
+/// constexpr so that nvcc also compiles it for GPUs.
 template <class Real>
 constexpr Footprint<Real> footprint(int level, Real b0, Real b1) {
   const int n = resolution(level);
   Real p = b0 * static_cast<Real>(n);
   Real q = b1 * static_cast<Real>(n);
-  // Clamped as floats before the cast: casting a float outside int's range is undefined. The
-  // order of the arguments makes NaN come out as the lower bound. What is not negative the cast
-  // rounds down.
+  // Clamped as floats before the cast, since casting a float outside int's range is undefined. The
+  // argument order turns NaN into the lower bound. The cast rounds non-negative values down.
   const auto cell = [](Real value, int upper) {
     return static_cast<int>(std::min(std::max(Real(0), value), Real(upper)));
   };
@@ -75,8 +74,8 @@ constexpr Footprint<Real> footprint(int level, Real b0, Real b1) {
   p -= static_cast<Real>(x);
   q -= static_cast<Real>(y);
   if (p + q > Real(1)) {
-    // On the last diagonal the fourth corner of the cell lies outside the lattice; a point there
-    // is outside the triangle by rounding alone, and the border texel stands in.
+    // On the last diagonal the fourth corner of the cell lies outside the lattice. A point there is
+    // outside the triangle only by rounding; the border texel replaces that corner.
     const int corner_y = std::min(y + 1, n - (x + 1));
     const Real a = Real(1) - q, b = Real(1) - p;
     return {{texel_index(x + 1, y), texel_index(x, y + 1), texel_index(x + 1, corner_y)},
@@ -86,16 +85,16 @@ constexpr Footprint<Real> footprint(int level, Real b0, Real b1) {
           {p, q, Real(1) - p - q}};
 }
 
-/// What lies between three texels' values. By differences, so that equal values are returned to the
-/// bit: the weights' sum may be a rounding short of 1, and an alpha of 1/2 everywhere would then
-/// fall below its threshold at one point in twenty. shaders/appearance_lattice.glsl does the same.
+/// Interpolates three texels' values by differences, so that equal values are returned exactly. The
+/// weights' sum may be one rounding below 1. An alpha of 1/2 everywhere would then fall below its
+/// threshold at one point in twenty. shaders/appearance_lattice.glsl does the same.
 template <class Real, class Value>
 constexpr Value interpolated(const std::array<Real, 3>& weights, const Value& a, const Value& b,
                              const Value& third) {
   return third + weights[0] * (a - third) + weights[1] * (b - third);
 }
 
-/// The same of one channel's values, by their texels.
+/// The same for one channel, whose values are indexed by texel.
 template <class Real, class Value>
 constexpr Value interpolated(const Footprint<Real>& at, const Value* values) {
   return interpolated(at.weights, values[at.texels[0]], values[at.texels[1]], values[at.texels[2]]);

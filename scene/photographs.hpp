@@ -1,4 +1,4 @@
-// Posed photographs: what a trainer learns from, and the reference of an evaluation.
+// Posed photographs: training data, and the reference in an evaluation.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -10,12 +10,13 @@
 
 namespace tureen {
 
-/// One photograph. Its camera is a pinhole in the OpenGL convention at the picture's own size, and
-/// `camera.name` is the name in the dataset. World coordinates are the dataset's own.
+/// One photograph. Its camera is a pinhole in the OpenGL convention at the image's own size;
+/// `camera.name` is the name in the dataset. World coordinates are those of the dataset.
 ///
-/// Lens distortion has been undone by resampling (formats/dataset/lens.hpp). Focal lengths stay;
-/// rows and columns at the border that the photograph does not fill are cut off, and the principal
-/// point follows. So every pixel is evidence: nobody needs a mask, and alpha below 255 always means
+/// Lens distortion has been removed by resampling (formats/dataset/lens.hpp). Focal lengths are
+/// unchanged. Border rows and columns that the photograph does not fill are cropped, and the
+/// principal point is shifted accordingly. Every pixel is therefore valid without a mask, and alpha
+/// below 255 always comes from the dataset.
 /// what the dataset meant by it.
 struct Photograph {
   Camera camera;
@@ -30,12 +31,12 @@ struct DatasetPoint {
 struct Dataset {
   std::vector<Photograph> train;
   std::vector<Photograph> test;
-  std::vector<DatasetPoint> points;  // of structure from motion; empty where there are none
-  /// What is most likely up: z for transforms.json, as in the scenes of NeRF and instant-ngp; the
-  /// mean of the cameras' up axes for COLMAP.
+  std::vector<DatasetPoint> points;  // from structure from motion; may be empty
+  /// Most likely up axis: z for transforms.json, as in the scenes of NeRF and instant-ngp; the mean
+  /// of the cameras' up axes for COLMAP.
   glm::vec3 up{0.0f, 1.0f, 0.0f};
-  bool has_alpha = false;       // some photograph is transparent somewhere
-  std::vector<Remark> remarks;  // what was assumed or undone
+  bool has_alpha = false;       // whether any photograph has transparent pixels
+  std::vector<Remark> remarks;  // assumptions and corrections of the reader
 };
 
 }  // namespace tureen

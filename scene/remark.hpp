@@ -1,5 +1,5 @@
-// A reader's assumption or loss: a value that programs compare, and the sentence for people that
-// describe() makes of it.
+// An assumption or loss while reading a file: a value that programs compare. describe() formats it
+// as a sentence.
 #pragma once
 
 #include <cstdint>
@@ -9,32 +9,33 @@
 
 namespace tureen {
 
-/// `kind` decides how many counts, values and names there are; it lists them after its name.
+/// `kind` determines the number of counts, values and names; the comment after each kind lists
+/// them.
 struct Remark {
   enum class Kind {
     // Which way is up.
     up_unknown_to_format,      // names: the format. z is assumed
     up_unknown_to_trimesh,     // z is assumed
     up_unknown_to_checkpoint,  // -y is assumed
-    up_of_colmap_scene,        // the checkpoint has a flip_z: -y, and a black background
-    up_of_synthetic_scene,     // it has none: +z, and a white background
-    up_of_transforms,          // a dataset's: z, as in the scenes of NeRF
-    up_of_cameras,             // a dataset's: the mean of its cameras
-    up_of_no_camera,           // a dataset's cameras disagree: -y
+    up_of_colmap_scene,        // the checkpoint has flip_z: -y, and a black background
+    up_of_synthetic_scene,     // no flip_z: +z, and a white background
+    up_of_transforms,          // of a dataset: z, as in the scenes of NeRF
+    up_of_cameras,             // of a dataset: the mean of its cameras' up axes
+    up_of_no_camera,           // of a dataset whose cameras disagree: -y
     // Faces and vertices.
     polygons_split,          // counts: polygons
-    small_faces_dropped,     // counts: faces of fewer than three corners
+    small_faces_dropped,     // counts: faces with fewer than three corners
     corners_dropped,         // counts: corners. names: the primitive
     coordinates_rounded,     // from double to float
     soft_triangles_opaque,   // values: mean solidity, mean opacity
     soft_triangles_dropped,  // counts: dropped, all. values: the least opacity kept
     // Colours.
     color_components_clamped,  // counts: components
-    face_colors_dropped,       // the file colours vertices, too
+    face_colors_dropped,       // the file has vertex colours as well
     colors_missing,
     face_colors_missing,   // counts: triangles
-    face_colors_mapped,    // counts: faces with a number of a colour map
-    vertex_colors_srgb,    // asked for by the caller
+    face_colors_mapped,    // counts: faces with a colour map index
+    vertex_colors_srgb,    // requested by the caller
     vertex_colors_linear,  // likewise
     vertex_colors_srgb_by_generator,
     vertex_colors_linear_by_gltf,
@@ -51,22 +52,22 @@ struct Remark {
     primitives_without_positions_dropped,
     other_projections_dropped,  // cameras
     blind_cameras_dropped,
-    window_parameters_dropped,     // vertex weights and sigma of a checkpoint
-    screen_interpolation_dropped,  // of a checkpoint's colours
-    shapes_missing,                // counts: the shapes missing; the last: all
+    window_parameters_dropped,     // vertex weights and sigma in a checkpoint
+    screen_interpolation_dropped,  // for the colours in a checkpoint
+    shapes_missing,                // counts: missing shapes, all shapes
     shapes_untextured,             // counts: likewise
-    preset_dropped,                // it chooses among soft triangles
-    preset_applied,                // of an earlier version, to the data. names: names_of(Edits)
-    preset_keys_ignored,           // of settings that no longer exist. names: the keys
+    preset_dropped,                // it selects soft triangles by opacity
+    preset_applied,                // from an earlier version, to the data. names: names_of(Edits)
+    preset_keys_ignored,           // for settings that no longer exist. names: the keys
     // The files.
-    text_ignored,        // counts: the line it begins at
+    text_ignored,        // counts: its first line
     bytes_ignored,       // counts: bytes after the last element
     content_misnamed,    // names: the extension, the format of the content
     meta_missing,        // level 5, up -y and a black background are assumed
     level_missing,       // level 5 is assumed
-    image_size_missing,  // counts: the width and height assumed
-    lens_dropped,        // of cameras without photographs
-    lens_undone,         // counts: columns and rows cut off, at most
+    image_size_missing,  // counts: the assumed width and height
+    lens_dropped,        // for cameras without photographs
+    lens_undone,         // counts: largest number of cropped columns and rows
   };
   static constexpr std::size_t kinds = std::size_t(Kind::lens_undone) + 1;
 
@@ -76,23 +77,23 @@ struct Remark {
   std::vector<std::string> names = {};
 
   bool operator==(const Remark&) const = default;
-  /// Any order, for sets. Browser toolchains lack <=> of vectors.
+  /// An arbitrary total order, for sets. Browser toolchains lack <=> for vectors.
   friend bool operator<(const Remark& a, const Remark& b) {
     return std::tie(a.kind, a.counts, a.values, a.names) <
            std::tie(b.kind, b.counts, b.values, b.names);
   }
 };
 
-/// The kind as JSON spells it: "up_unknown_to_format".
+/// The kind's name in JSON: "up_unknown_to_format".
 const char* name_of(Remark::Kind kind);
 
-/// A sentence for people.
+/// A sentence in English.
 std::string describe(const Remark& remark);
 
-/// The option of the program that reads otherwise, "--up changes it", or "".
+/// The option that changes the assumption, "--up changes it", or "".
 std::string hint_of(const Remark& remark);
 
-/// describe(), and after "; " the hint where there is one.
+/// For each remark describe(), then "; " and the hint if there is one.
 std::vector<std::string> described(const std::vector<Remark>& remarks);
 
 }  // namespace tureen

@@ -1,4 +1,4 @@
-// A trained scene: one kind of primitive, and what is known about it.
+// A trained scene: one kind of primitive with metadata.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -17,15 +17,15 @@ namespace tureen {
 struct SceneInfo {
   std::string name;
   glm::vec3 up{0.0f, 1.0f, 0.0f};  // unit length
-  bool up_is_assumed = false;      // by the reader: the file does not say it
+  bool up_is_assumed = false;      // by the reader: the file does not store it
   glm::vec3 background{0.0f};      // display-referred
-  std::string source;              // the method or format it came from, for people
-  bool compressed = false;         // read from a slim file
-  std::vector<Remark> remarks;     // what reading it assumed or lost
-  std::vector<std::string> notes;  // stored in the file: text for people, which nothing interprets
+  std::string source;              // the method or format of origin, free text
+  bool compressed = false;         // read from a compressed file
+  std::vector<Remark> remarks;     // assumptions and losses of the reader
+  std::vector<std::string> notes;  // stored in the file: free text, never interpreted
 };
 
-/// The notes, and after them the remarks described.
+/// The notes, followed by the descriptions of the remarks.
 std::vector<std::string> all_notes(const SceneInfo& info);
 
 struct Scene {
@@ -36,8 +36,8 @@ struct Scene {
   Quality quality = {};  // without a defect()
 };
 
-/// The soup to draw: the scene's own, or what becomes of its soft triangles (to_opaque), with
-/// what that loses added to info.remarks. The scene holds a TriangleSoup afterwards.
+/// The soup to render: the scene's own, or its soft triangles converted by to_opaque. The losses of
+/// the conversion are added to info.remarks. Afterwards the scene holds a TriangleSoup.
 TriangleSoup& opaque_soup(Scene& scene);
 
 }  // namespace tureen

@@ -9,8 +9,8 @@
 
 namespace tureen {
 
-/// After activation: the window of a fragment is rho^sigma, rho = 1 at the incenter, 0 on the
-/// edges; alpha = opacity * window.
+/// Values after activation. The window at a fragment is rho^sigma, with rho = 1 at the incenter and
+/// 0 on the edges; alpha = opacity * window.
 struct SoftTriangles {
   std::vector<glm::vec3> positions;  // three a triangle
   std::vector<float> sigma;          // > 0, one a triangle
@@ -20,8 +20,8 @@ struct SoftTriangles {
   std::vector<glm::vec3> coefficients;
 };
 
-/// How much of its area a soft triangle covers in the mean: opacity * 2 / ((sigma+1)(sigma+2)),
-/// the integral of rho^sigma over the triangle divided by its area.
+/// Mean coverage of a soft triangle over its area: opacity * 2 / ((sigma+1)(sigma+2)), the integral
+/// of rho^sigma over the triangle divided by its area.
 double solidity(double opacity, double sigma);
 
 struct OpaqueResult {
@@ -29,8 +29,8 @@ struct OpaqueResult {
   std::vector<Remark> remarks;  // what was lost
 };
 
-/// Opaque faces with the same harmonics. Keeps every triangle whose opacity reaches
-/// `minimum_opacity`: Triangle Splatting itself skips those below 0.01, which never show.
+/// Opaque faces with the same harmonics. Keeps every triangle with an opacity of at least
+/// `minimum_opacity`. Triangle Splatting itself skips triangles below 0.01.
 OpaqueResult to_opaque(SoftTriangles soft, float minimum_opacity = 0.01f);
 
 }  // namespace tureen

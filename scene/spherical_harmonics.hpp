@@ -1,6 +1,6 @@
-// Real spherical harmonics of degree 0..4 in the order and signs that the radiance-field codes
-// share (Plenoxels, 3DGS, Triangle Splatting, DiffSoup). shaders/harmonics.glsl states the same
-// basis; a test holds the two equal.
+// Real spherical harmonics of degree 0..4, in the order and signs that radiance-field codes share
+// (Plenoxels, 3DGS, Triangle Splatting, DiffSoup). shaders/harmonics.glsl states the same basis; a
+// test compares the two.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ constexpr int count(int degree) { return (degree + 1) * (degree + 1); }
 /// Y_00, the constant basis function: 1 / (2 sqrt(pi)).
 inline constexpr double y00 = 0.28209479177387814;
 
-/// All 25 basis values at the unit direction `d`; entry l*l + l + m is Y_lm. A direction that is
-/// not of unit length scales band l by |d|^l for l <= 1 and is wrong above: normalise first.
+/// All 25 basis values at the unit direction `d`; entry l*l + l + m is Y_lm. `d` must be
+/// normalised: for other lengths bands 0 and 1 scale by |d|^l and higher bands are wrong.
 template <class Real>
 std::array<Real, 25> basis(const glm::vec<3, Real>& d) {
   const Real x = d.x, y = d.y, z = d.z;

@@ -1,7 +1,7 @@
-// What is drawn: triangles, each owning its appearance.
+// The renderable model: triangles, each with its own appearance.
 //
-// Face t of `triangles` is also face t of the appearance: never reorder one without the other.
-// All colours are display-referred sRGB in [0, 1]; nothing linearises or encodes them on the way.
+// Face t of `triangles` is also face t of the appearance: never reorder one without the other. All
+// colours are display-referred sRGB in [0, 1]; no step linearises or encodes them.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace tureen {
 
-/// A fragment exists where its alpha, interpolated over the face, is at least this.
+/// Smallest alpha, interpolated over the face, at which a fragment exists.
 inline constexpr float alpha_threshold = 0.5f;
 
 /// One colour a face. A face whose alpha is below alpha_threshold is not drawn.
@@ -25,14 +25,14 @@ struct FaceColors {
   std::vector<glm::vec4> rgba;  // one a face
 };
 
-/// One colour a vertex, interpolated perspective-correctly; cut out by interpolated alpha.
+/// One colour a vertex, interpolated perspective-correctly. The interpolated alpha cuts out.
 struct VertexColors {
   std::vector<glm::vec4> rgba;  // one a vertex
 };
 
-/// View-dependent colour max(0, 1/2 + sum_i Y_i(d) c_i), clamped to 1. For faces d is the
-/// direction at the centroid, for vertices the direction at the vertex and the resulting colour
-/// is interpolated perspective-correctly. Opaque. Triangle Splatting (arXiv 2505.19175).
+/// View-dependent colour max(0, 1/2 + sum_i Y_i(d) c_i), clamped to 1. For faces d is the direction
+/// at the centroid. For vertices d is the direction at the vertex, and the colour is interpolated
+/// perspective-correctly. Opaque. Triangle Splatting (arXiv 2505.19175).
 struct Harmonics {
   enum class Domain { face, vertex };
   Domain domain = Domain::face;
@@ -42,15 +42,15 @@ struct Harmonics {
   std::vector<glm::vec3> coefficients;
 };
 
-/// Where one face's lattice lies in LatticeTexture::texels.
+/// The position of one face's lattice in LatticeTexture::texels.
 struct LatticePatch {
   std::uint32_t first_texel = 0;
   std::uint32_t level = 0;  // 0..lattice::max_level
 };
 
 /// A lattice of features and alpha a face (scene/lattice.hpp; DiffSoup, arXiv 2603.27151). With a
-/// color MLP the features are its inputs; without one, features 0..2 are the colour. Cut out where
-/// the interpolated alpha is below alpha_threshold.
+/// color MLP the features are its inputs; without one, features 0..2 are the colour. Points with
+/// interpolated alpha below alpha_threshold are cut out.
 struct LatticeTexture {
   static constexpr int features = 7;
   static constexpr int channels = features + 1;  // f0 .. f6, alpha
@@ -66,26 +66,26 @@ struct LatticeTexture {
   float value(std::size_t texel, int channel) const;
 };
 
-/// How one material of UvTextures is sampled and cut out.
+/// Sampling and cut-out of one material of UvTextures.
 struct UvMaterial {
   enum class Wrap { repeat, mirror, clamp };
   enum class Filter { nearest, linear };
 
-  /// Indices into UvTextures::images: none (factor alone), one (colour times factor), or, where
-  /// there is a color MLP, two of equal size (eight features; factor is not used).
+  /// Indices into UvTextures::images. Empty: factor alone. One: colour times factor. Two of equal
+  /// size with a color MLP: eight features, and factor is unused.
   std::vector<std::uint32_t> images;
   Wrap wrap_u = Wrap::repeat;
   Wrap wrap_v = Wrap::repeat;
   Filter filter = Filter::linear;
   glm::vec4 factor{1.0f};
-  /// A fragment exists where this channel of the first image (times factor and vertex colour,
-  /// where there is no MLP) is at least the threshold. 0 draws everything.
+  /// A fragment exists where this channel of the first image is at least the threshold. Without an
+  /// MLP the channel is multiplied by factor and vertex colour. A threshold of 0 draws everything.
   int mask_channel = 3;
   float mask_threshold = 0.0f;
 };
 
-/// Conventional textures. (u, v) = (0, 0) is the top left corner of the first row. No mip levels:
-/// what one sample sees is what the oracle sees. glTF 2.0 and MobileNeRF (arXiv 2208.00277).
+/// Conventional textures. (u, v) = (0, 0) is the top left corner of the first row. There are no mip
+/// levels, so one sample matches the oracle. glTF 2.0 and MobileNeRF (arXiv 2208.00277).
 struct UvTextures {
   std::vector<glm::vec2> uv;                    // one a vertex
   std::vector<std::uint32_t> material_of_face;  // one a face
@@ -97,7 +97,7 @@ struct UvTextures {
 
 using Appearance = std::variant<FaceColors, VertexColors, Harmonics, LatticeTexture, UvTextures>;
 
-/// Names no face where a face is expected: a pixel that shows the background.
+/// The face index of a background pixel.
 inline constexpr std::uint32_t no_face = 0xffffffffu;
 
 struct TriangleSoup {
@@ -114,17 +114,18 @@ struct Bounds {
   double radius() const;
 };
 
-/// The box around all finite vertices that a triangle uses; zeros when there are none.
+/// The box around all finite vertices of the triangles; zeros if there are none.
 Bounds bounds(const TriangleSoup& soup);
 
-/// Bytes that the vectors of this soup hold.
+/// Bytes in the vectors of this soup.
 std::size_t byte_size(const TriangleSoup& soup);
 
-/// The appearance in a word or two: "face colours", "lattice texture", ..
+/// The appearance in one or two words: "face colours", "lattice texture", ..
 const char* appearance_name(const Appearance& appearance);
 
-/// Why this soup cannot be drawn (an index out of range, a size that does not match, ..), or
-/// nothing. Everything that consumes a soup relies on it; readers make sure of it. O(data).
+/// The reason why this soup cannot be drawn (an index out of range, a size that does not match,
+/// ..), or nullopt. Readers return soups without a defect, and all users of a soup rely on that.
+/// O(data).
 std::optional<std::string> defect(const TriangleSoup& soup);
 
 }  // namespace tureen

@@ -1,5 +1,5 @@
-// Changes to a soup's data that make it cheaper to draw and to store. What they cost is measured by
-// `tureen tradeoff`.
+// Changes to a soup's data that make it cheaper to draw and to store. `tureen tradeoff` measures
+// their error.
 #pragma once
 
 #include <cstdint>
@@ -13,40 +13,39 @@
 
 namespace tureen {
 
-/// The default changes nothing. Level, colour and bytes apply to lattice textures only.
+/// The default changes nothing. Level, colour and bytes apply only to lattice textures.
 struct Edits {
-  /// The faces that are kept, one entry a face, 0 for those that go; empty: all. At least one
-  /// stays.
+  /// The kept faces: one entry a face, 0 for removed ones; empty: all. At least one face is kept.
   std::vector<std::uint8_t> keeps_face = {};
-  /// No face has a lattice above this level, 0..lattice::max_level: finer ones are projected
+  /// Largest lattice level of any face, 0..lattice::max_level. Finer lattices are projected
   /// (scene/edit/lattice_levels.hpp).
   int lattice_level = lattice::max_level;
-  /// The way from texels to colour (scene/edit/baked_color.hpp).
+  /// The mapping from texels to colour (scene/edit/baked_color.hpp).
   enum class Color { network, baked, base } color = Color::network;
-  /// Texels become bytes where they are floats (scene/edit/lattice_bytes.hpp).
+  /// Whether float texels become bytes (scene/edit/lattice_bytes.hpp).
   bool byte_texels = false;
 
   bool operator==(const Edits&) const = default;
 };
 
-/// The edits that are not at their defaults, in words: "12 of 40 triangles, lattice level at most
+/// The edits that differ from their defaults, in words: "12 of 40 triangles, lattice level at most
 /// 3, baked colour, 8 bits a texel channel"; "none".
 std::string describe(const Edits& edits);
 
-/// The members that are not at their defaults: "keeps_face", "lattice_level", "color",
+/// The members that differ from their defaults: "keeps_face", "lattice_level", "color",
 /// "byte_texels".
 std::vector<std::string> names_of(const Edits& edits);
 
-/// Why these edits make no sense for this soup (a level outside of its range, another number of
-/// faces, none kept), or nothing.
+/// The reason why these edits do not apply to this soup (a level out of range, a wrong number of
+/// faces, all faces removed), or nullopt.
 std::optional<std::string> defect(const Edits& edits, const TriangleSoup& soup);
 
-/// The edits that would change something of this soup.
+/// The subset of the edits that changes this soup.
 Edits effective(const Edits& edits, const TriangleSoup& soup);
 
-/// The soup with its edits, in the order in which they are declared. Neither has a defect().
-/// `progress` is called now and then with the fraction of one edit done, 0..1, and may throw to
-/// abandon the work. Memory beside the result: one more soup.
+/// The edited soup; edits run in the order of their declaration. Requires that neither has a
+/// defect(). `progress` is called with the fraction of one edit done, 0..1; it may throw to cancel.
+/// Memory in addition to the result: one more soup.
 TriangleSoup edited(TriangleSoup soup, const Edits& edits,
                     const std::function<void(double)>& progress = {});
 

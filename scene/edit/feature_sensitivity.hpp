@@ -1,5 +1,5 @@
-// How much colour moves when the features of a lattice texture do, seen from where the scene is
-// looked at: central differences through the color MLP.
+// Sensitivity of the colour to the features of a lattice texture, seen from the scene's cameras, by
+// central differences through the color MLP.
 #pragma once
 
 #include <array>
@@ -12,26 +12,27 @@
 
 namespace tureen {
 
-/// Symmetric, of features.
+/// A symmetric matrix over the features.
 using FeatureMatrix =
     std::array<std::array<double, LatticeTexture::features>, LatticeTexture::features>;
 
-/// The mean of J^T J, where J (3 x 7) is how the colour follows the features: both in [0, 1]. A
-/// small change x of the features of all texels makes a mean squared error of x^T S x, summed over
-/// the three channels of colour.
+/// The mean S of J^T J, where J (3 x 7) is the derivative of the colour by the features, both in
+/// [0, 1]. A small change x of the features of all texels causes a mean squared error of x^T S x,
+/// summed over the three colour channels.
 ///
-/// The mean is over `samples` of visible texels (alpha at least alpha_threshold), each seen from
-/// one of `eyes` (relative to the soup's origin, at least one), chosen by a fixed seed: the same
-/// soup gives the same matrix. Faces are chosen in proportion to `shown`, how many pixels show each
-/// say (at least 0, with a finite sum above 0), and all alike where it is empty. A texture without
-/// a color MLP shows features 0..2 as they are. All zeros where no sample is visible. The soup has
+/// The mean is over `samples` visible texels (alpha at least alpha_threshold). Each is seen from
+/// one of `eyes` (relative to the soup's origin, at least one). The seed is fixed, so the same soup
+/// gives the same matrix. Faces are chosen in proportion to `shown`, the number of pixels that show
+/// each face (at least 0, with a finite sum above 0); if it is empty, uniformly. Without a color
+/// MLP features 0..2 are the colour. The result is zero if no sample is visible. The soup must have
 /// a lattice texture and no defect().
 FeatureMatrix mean_sensitivity(const TriangleSoup& soup, std::span<const glm::dvec3> eyes,
                                std::span<const double> shown = {}, int samples = 60000);
 
-/// The squared movement of colour, summed over its channels and over the `steps` (each a change of
-/// all features, made half to either side), in the mean over a few texels of each face and a few
-/// eyes: how much the same loss shows on each face. As above.
+/// The squared change of colour for each face: the visibility of the same loss on each face. It is
+/// summed over the colour channels and over the `steps`, and averaged over a few texels of the face
+/// and a few eyes. Each step is a change of all features, applied half to either side. The other
+/// parameters are as above.
 std::vector<double> face_sensitivity(
     const TriangleSoup& soup, std::span<const glm::dvec3> eyes,
     std::span<const std::array<double, LatticeTexture::features>> steps);

@@ -8,9 +8,9 @@
 
 namespace tureen {
 
-/// The faces whose entry of `keeps`, one a face, is not 0, in their order. Vertices and lattice
-/// texels that nothing uses any longer are left out with all that belongs to them; materials and
-/// images stay. Texels that faces share stay shared.
+/// The faces with a nonzero entry in `keeps` (one a face), in their order. Unused vertices and
+/// lattice texels are removed with their data; materials and images stay. Shared texels stay
+/// shared.
 TriangleSoup keep_faces(const TriangleSoup& soup, std::span<const std::uint8_t> keeps);
 
 }  // namespace tureen

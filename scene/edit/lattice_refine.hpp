@@ -1,6 +1,6 @@
-// The texture of one face at a finer lattice level: every finer texel takes the value that the
-// coarser lattice interpolates there. A finer lattice contains the cells of the coarser one, so
-// the piecewise-linear function on the face stays the same one.
+// The texture of one face at a finer lattice level: each finer texel takes the interpolated value
+// of the coarser lattice. The cells of the finer lattice subdivide those of the coarser one, so the
+// piecewise-linear function on the face is unchanged.
 #pragma once
 
 #include <span>
@@ -9,8 +9,8 @@
 
 namespace tureen {
 
-/// `coarse` holds texel_count(from) texels of `channels` values, `fine` has room for
-/// texel_count(to); from <= to. Weights are powers of two: at most the sum is rounded.
+/// `coarse` holds texel_count(from) texels of `channels` values; `fine` has room for
+/// texel_count(to); from <= to. Weights are powers of two, so only the sum is rounded.
 void refine_lattice(int from, int to, int channels, std::span<const float> coarse,
                     std::span<float> fine);
 

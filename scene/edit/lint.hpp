@@ -1,5 +1,5 @@
-// What is odd about a soup that can nevertheless be drawn: it costs, or shows nothing, or hints at
-// a trainer's or an exporter's mistake. O(data).
+// Suspicious properties of a drawable soup: wasted cost, invisible content, or signs of a mistake
+// of a trainer or exporter. O(data).
 #pragma once
 
 #include <array>
@@ -14,41 +14,41 @@ namespace tureen {
 
 struct LintFinding {
   enum class Id {
-    /// Vertices with a coordinate that is NaN or infinite. Faces that use one are not drawn and
-    /// counted in none of the other findings.
+    /// Vertices with a NaN or infinite coordinate. Faces with such a vertex are not drawn and not
+    /// counted in the other findings.
     non_finite_vertices,
     /// No area: the cross product of two edges is below 1e-12 of the longest edge squared.
     degenerate_faces,
-    /// The same three corners, bit by bit and in any order, as a face before: one of the two can
-    /// never show (in the same order the lower index wins every pixel). The degenerate are not
-    /// counted again.
+    /// Faces with the same three corners, bit by bit and in any order, as an earlier face. One of
+    /// the two never shows (in the same order the lower index wins every pixel). Degenerate faces
+    /// are not counted here.
     duplicate_faces,
-    /// Alpha below alpha_threshold (or the material's own) everywhere on the face. Sufficient, for
-    /// UV textures not necessary: there the bound is that of the whole image.
+    /// Faces with alpha below alpha_threshold (or the material's own threshold) everywhere. For UV
+    /// textures the bound uses the whole image, so some invisible faces are not found.
     never_visible_faces,
-    /// Vertices that no face names.
+    /// Vertices without a face.
     unused_vertices,
-    /// Lint::extent_over_offset is below 2e-4, where the steps of a 32 bit float become visible:
-    /// use Scene::origin.
+    /// Lint::extent_over_offset is below 2e-4, where steps of 32-bit floats become visible. The
+    /// remedy is Scene::origin.
     far_from_origin
   };
-  /// Those that count faces or vertices.
+  /// The ids that count faces or vertices.
   static constexpr std::array counted{Id::non_finite_vertices, Id::degenerate_faces,
                                       Id::duplicate_faces, Id::never_visible_faces,
                                       Id::unused_vertices};
   static constexpr std::size_t shown = 5;
 
   Id id{};
-  std::size_t count = 0;                  // of faces or vertices
-  std::size_t of = 0;                     // how many the soup has
-  std::vector<std::uint32_t> first = {};  // the lowest few of their indices, `shown` at most
-  double extent_over_offset = 0;          // of far_from_origin
+  std::size_t count = 0;                  // number of faces or vertices found
+  std::size_t of = 0;                     // number in the soup
+  std::vector<std::uint32_t> first = {};  // the lowest indices found, at most `shown`
+  double extent_over_offset = 0;          // for far_from_origin
 };
 
-/// As JSON spells it: "duplicate_faces".
+/// The id's name in JSON: "duplicate_faces".
 const char* name_of(LintFinding::Id id);
 
-/// A sentence for people.
+/// A sentence in English.
 std::string describe(const LintFinding& finding);
 
 struct Lint {

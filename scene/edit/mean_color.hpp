@@ -1,17 +1,17 @@
-// One colour a face: what the face looks like in the mean, for formats and viewers that know no
-// more than that. Deterministic; the same soup gives the same bytes on every run.
+// One mean colour a face, for formats and viewers without other appearances. Deterministic: the
+// same soup gives the same bytes on every run.
 //
-// What is averaged:
-// - directions: the 26 points of Lebedev's quadrature of order 7 with its weights, so that
-//   harmonics up to degree 4 that never clamp are averaged exactly; it holds d and -d alike, so
-//   the view convention does not matter. Faces are seen from both sides.
-// - a face's own area: a lattice texel counts by the area of its hat function, and only if it is
-//   visible (alpha >= alpha_threshold); UV textures and cut-out vertex colours are sampled at the
+// The mean is over:
+// - directions: the 26 points of Lebedev's quadrature of order 7 with its weights, exact for
+//   harmonics up to degree 4 that never clamp. The rule is symmetric in d and -d, so the view
+//   convention does not matter. Faces are seen from both sides.
+// - the face's area: a lattice texel is weighted by the area of its hat function, and only if it is
+//   visible (alpha >= alpha_threshold). UV textures and cut-out vertex colours are sampled at the
 //   centroids of a regular 16-fold subdivision, images by their nearest texel.
-// A face of which nothing is visible gets the mean of all of it.
+// A face without visible points gets the mean over all of it.
 //
-// Where a color MLP shades, at most `mlp_samples` of a face's visible texels are evaluated, evenly
-// spread over their order: 15,000 faces at level 5 take about two seconds on one core.
+// With a color MLP at most `mlp_samples` visible texels of a face are evaluated, evenly spaced in
+// their order: 15,000 faces at level 5 take about 2 s on one core.
 #pragma once
 
 #include <glm/vec3.hpp>

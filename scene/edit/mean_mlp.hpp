@@ -1,4 +1,4 @@
-// The mean colour of a color MLP over all directions from which a point may be seen.
+// The mean colour of a color MLP over all directions in which a point is visible.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ class MeanMlp {
   /// The network must outlive this.
   explicit MeanMlp(const ColorMlp& mlp);
 
-  /// Blended with the features as the network says; not clamped.
+  /// Blended with the features as the network defines; not clamped.
   glm::vec3 operator()(const std::array<float, 8>& features) const;
 
  private:

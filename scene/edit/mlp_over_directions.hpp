@@ -1,6 +1,6 @@
-// The color MLP of one point for a fixed list of directions, in float: for whoever needs the colour
-// from everywhere and not from one eye. The direction's share of the first layer is the same for
-// every point and the features' share the same for every direction, so each is computed once.
+// The color MLP of one point for a fixed list of directions, in float, for colours from many
+// directions at once. The directions' part of the first layer is the same for every point, and the
+// features' part is the same for every direction, so each is computed once.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace tureen {
 
 class MlpOverDirections {
  public:
-  /// More are not taken.
+  /// Largest number of directions.
   static constexpr int max_directions = 32;
 
   /// `to_eye` are unit directions from the surface to the eye. The network must outlive this.
@@ -22,7 +22,7 @@ class MlpOverDirections {
 
   int count() const { return count_; }
 
-  /// What the network says, one colour a direction, not blended with the features. `features` holds
+  /// The network's output, one colour a direction, not blended with the features. `features` holds
   /// at least mlp.feature_count() values.
   void predict(std::span<const float> features, std::span<glm::vec3> colors) const;
 
@@ -31,7 +31,7 @@ class MlpOverDirections {
 
   const ColorMlp& mlp_;
   int count_;
-  /// The first layer without its features, a row an output.
+  /// The first layer without its features, one row an output.
   std::vector<OfDirections> direction_part_;
 };
 
