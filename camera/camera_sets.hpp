@@ -1,5 +1,5 @@
-// Sets of views to measure with: evenly from above, and those that hurt. Plain maths beside
-// camera/navigation.hpp, the same for the same scene on every machine.
+// Sets of views for measurements: evenly distributed ones and worst cases. Pure mathematics as in
+// camera/navigation.hpp; the same scene gives the same views on every machine.
 #pragma once
 
 #include <array>
@@ -11,32 +11,32 @@
 namespace tureen {
 
 /// `count` cameras spread evenly over the upper half of a sphere around the box (the Fibonacci
-/// lattice: equal steps of height, azimuth by the golden angle), all at the distance at which each
-/// shows the whole box. The first are the lowest. Names are "hemisphere 0", ..
+/// lattice: equal steps of height, azimuth by the golden angle). All have the distance at which
+/// each shows the whole box. The first are the lowest. Names are "hemisphere 0", ..
 std::vector<Camera> hemisphere(const Subject& subject, int count, const Lens& lens);
 
-/// How much a view would draw, roughly: in units of the whole picture, the area of all triangles
-/// that lie before the eye, cut to the picture and counted one over the other. 1 is a picture
-/// covered once. Small triangles count where their centre falls; large ones by the cells of a grid
-/// of 64 x 36 that their centres cover. `origin` is the soup's (Scene::origin).
+/// Approximate overdraw of a view: the sum of the projected areas of all triangles in front of the
+/// eye, clipped to the image, in units of the image area. 1 means that the image is covered once.
+/// Small triangles count at their centre; large ones by the covered centres of a grid of 64 x 36
+/// cells. `origin` is the soup's (Scene::origin).
 double estimated_overdraw(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera);
 
-/// How the faces are turned to the eye: the mean of |cos| between normal and line of sight over the
-/// faces, weighted by area. 0: all edge-on.
+/// Mean orientation of the faces towards the eye: |cos| between normal and line of sight, weighted
+/// by area. 0: all edge-on.
 double facing(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera);
 
-/// What the four adversarial_views() are called, in their order.
+/// Names of the four adversarial_views(), in their order.
 inline constexpr std::array adversarial_names = {"inside", "far", "grazing", "most overdraw"};
 
-/// Four views that a renderer may fear:
-///   "inside"         the eye in the middle of the geometry (the centre of mass of the triangles),
-///                    looking along that of eight level directions which draws most
+/// Four worst-case views for a renderer:
+///   "inside"         the eye at the centre of mass of the triangles, looking along the one of
+///                    eight horizontal directions with the largest overdraw
 ///   "far"            the whole box at a twentieth of its framed size: triangles below a pixel
-///   "grazing"        of 64 views around the box, the one with the least facing()
+///   "grazing"        of 64 views around the box, the one with the smallest facing()
 ///   "most overdraw"  of 24 directions at the framing distance, half and a quarter of it, the view
 ///                    with the largest estimated_overdraw()
-/// Of scenes with more than 200,000 faces every n-th is looked at. Asserts a soup without defect();
-/// one without triangles gives four framed views.
+/// Scenes with more than 200,000 faces are sampled at every n-th face. Asserts a soup without
+/// defect(); a soup without triangles gives four framed views.
 std::vector<Camera> adversarial_views(const TriangleSoup& soup, glm::dvec3 origin,
                                       const Subject& subject, const Lens& lens);
 

@@ -1,5 +1,5 @@
-// Where to look from: views that frame a scene, and orbits around it. Plain maths, shared by the
-// program, the window and the page.
+// Viewpoints: views that frame a scene, and orbits around it. Pure mathematics, shared by the
+// program, the viewer and the page.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -11,7 +11,7 @@
 
 namespace tureen {
 
-/// What a view is to show: a box in world coordinates and the direction that is up.
+/// The subject of a view: a box in world coordinates and the up direction.
 struct Subject {
   glm::dvec3 low{-1.0};
   glm::dvec3 high{1.0};
@@ -30,25 +30,25 @@ struct Lens {
   double fov_y = 0.69813170079773183;  // the full vertical angle in radians: 40 degrees
 };
 
-/// Where the eye stands as seen from the subject, in radians. Azimuth 0 is the front: +z where y
-/// is up (glTF), -y where z is up (Blender); it grows to the right as seen from the front, counter-
-/// clockwise seen from above. Elevation is above the horizon.
+/// Direction of the eye as seen from the subject, in radians. Azimuth 0 is the front: +z if y is up
+/// (glTF), -y if z is up (Blender). It increases to the right as seen from the front,
+/// counter-clockwise seen from above. Elevation is above the horizon.
 struct Bearing {
   double azimuth = 0;
   double elevation = 0;
 };
 
-/// From the front, a little to the right and from above: shows three sides of a box.
+/// From the front, slightly from the right and above: shows three sides of a box.
 inline constexpr Bearing three_quarter_view{0.6108652381980153, 0.3490658503988659};  // 35°, 20°
 
-/// Elevation of an orbit: enough to see that the top is not the front.
+/// Elevation of an orbit, high enough to distinguish the top from the front.
 inline constexpr double orbit_elevation = 0.3490658503988659;  // 20 degrees
 
 /// The unit vector from the subject to the eye.
 glm::dvec3 direction_of(const glm::dvec3& up, const Bearing& bearing);
 
-/// How far from the box's centre the eye must be in this direction for the whole box to lie
-/// inside the picture with a margin of 5 % at the tightest side. At least 1e-6, even for a point.
+/// Distance from the box's centre at which the whole box fits into the image in this direction,
+/// with a margin of 5 % at the tightest side. At least 1e-6, even for a point.
 double framing_distance(const Subject& subject, const Bearing& bearing, const Lens& lens);
 /// The same for a camera with these axes (Camera::world_from_view_rotation); 0 for a point.
 double framing_distance(const Subject& subject, const glm::dmat3& world_from_view,
@@ -57,8 +57,8 @@ double framing_distance(const Subject& subject, const glm::dmat3& world_from_vie
 /// A camera that looks at the centre of the box and shows all of it.
 Camera frame(const Subject& subject, const Bearing& bearing, const Lens& lens);
 
-/// `count` cameras evenly around the up axis, from `start` on, all at the distance at which each
-/// shows the whole box, so that the subject does not breathe.
+/// `count` cameras evenly around the up axis, beginning at `start`. All have the distance at which
+/// each shows the whole box, so that its apparent size stays constant.
 std::vector<Camera> orbit(const Subject& subject, int count, const Bearing& start,
                           const Lens& lens);
 
