@@ -1,6 +1,6 @@
-// The oracle: the slow, obvious renderer that every other path is measured against. Double
-// precision, no GL. It draws the nearest visible hit along each pixel's ray; hits at exactly the
-// same depth are won by the lower face, as GL_LESS has it for faces drawn in order.
+// The oracle: the slow, simple reference renderer for all other paths, in double precision, without
+// GL. It draws the nearest visible hit along each pixel's ray. At equal depth the lower face wins,
+// as with GL_LESS and faces drawn in order.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,15 @@
 namespace tureen {
 
 struct OracleOptions {
-  /// For holding GL against it, Coverage::snapped; for reports of error, Coverage::exact.
+  /// Coverage::snapped for comparisons with GL; Coverage::exact for error reports.
   oracle::RayOptions rays = {};
-  /// Rays a pixel and axis: the pixel is the mean of supersampling^2 rays on a regular grid.
+  /// Rays per pixel along each axis, default 1: the pixel is the mean of supersampling^2 rays on a
+  /// regular grid.
   int supersampling = 1;
-  /// Shows where nothing is hit. Without one such pixels are transparent: the colour is that of the
-  /// covered part alone and alpha is the coverage.
+  /// The colour of pixels without a hit. If absent, such pixels are transparent: the colour is that
+  /// of the covered part alone, and alpha is the coverage.
   std::optional<glm::vec3> background = glm::vec3(0.0f);
-  /// Called with the fraction done, 0..1; may throw to abandon the image.
+  /// Called with the fraction done, 0..1; may throw to cancel.
   std::function<void(double)> progress = {};
 };
 
@@ -32,9 +33,9 @@ struct OracleImage {
   static constexpr std::uint32_t no_face = tureen::no_face;
 
   ImageF color;
-  /// One a ray, (width * supersampling) a row, from the top: which face won, and how deep.
+  /// The visible face and its depth, one entry a ray, (width * supersampling) a row, from the top.
   std::vector<std::uint32_t> face;
-  std::vector<double> depth;  // infinity where no face
+  std::vector<double> depth;  // infinity without a face
 };
 
 /// `soup` has no defect(); `origin` is Scene::origin. The near plane is that of clip_range() for

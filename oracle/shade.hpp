@@ -1,5 +1,5 @@
-// What a point of a face looks like, in double precision: whether a fragment exists there and its
-// colour, for every appearance of scene/triangle_soup.hpp.
+// The appearance of a point on a face, in double precision, for every kind in
+// scene/triangle_soup.hpp: the existence of a fragment and its colour.
 #pragma once
 
 #include <cstdint>
@@ -9,21 +9,21 @@
 
 namespace tureen::oracle {
 
-/// A point of a face. The barycentrics may leave [0, 1] a little: lattices are then sampled at the
-/// point of the face that simplex.glsl has for them, everything else is extrapolated as GL's
-/// interpolators do.
+/// A point on a face. The barycentrics may leave [0, 1] slightly. Lattices are then sampled at the
+/// point on the face that simplex.glsl uses; other values are extrapolated as GL's interpolators
+/// do.
 struct SurfacePoint {
   std::uint32_t face = 0;
   double b0 = 0, b1 = 0;  // weights of vertices 0 and 1
 };
 
-/// Whether a fragment exists: the appearance's alpha rule. NaN is no fragment.
+/// Whether a fragment exists, by the alpha rule of the appearance. NaN gives no fragment.
 bool is_visible(const TriangleSoup& soup, const SurfacePoint& point);
 
-/// The display-referred colour, clamped to [0, 1] as any image holds it; NaN becomes 0. `to_eye`
-/// is the unit direction from the point to the eye, which color MLPs see; `eye` is the eye relative
-/// to the soup's origin, from which harmonics take the directions of centroids and vertices. A
-/// centroid or vertex at the eye itself is seen along (0, 0, 1) (docs/numerics.md, V5).
+/// The display-referred colour, clamped to [0, 1]; NaN becomes 0. `to_eye` is the unit direction
+/// from the point to the eye, for color MLPs. `eye` is the eye relative to the soup's origin, for
+/// the harmonics at centroids and vertices. A centroid or vertex exactly at the eye uses the
+/// direction (0, 0, 1) (docs/numerics.md, V5).
 glm::dvec3 color(const TriangleSoup& soup, const SurfacePoint& point, glm::dvec3 to_eye,
                  glm::dvec3 eye);
 
