@@ -1,4 +1,4 @@
-// The one door to scene files: told by content, not only by name.
+// Reads and writes scene files of every format, detected by content rather than name.
 #pragma once
 
 #include <filesystem>
@@ -10,46 +10,46 @@
 
 namespace tureen {
 
-/// What COLOR_0 of a foreign glTF holds. The specification says linear; common Python tools write
-/// display-referred values. `automatic` decides by the file's generator and adds a remark.
+/// The colour space of COLOR_0 in a foreign glTF. The specification says linear, but common Python
+/// tools write display-referred values. `automatic` decides by the file's generator and adds a
+/// remark.
 enum class VertexColorSpace { automatic, srgb, linear };
 
 struct ReadOptions {
   VertexColorSpace vertex_colors = VertexColorSpace::automatic;
-  /// Called now and then with the fraction done, 0..1; may throw to abandon the read.
+  /// Called with the fraction done, 0..1; may throw to cancel.
   std::function<void(double)> progress;
 };
 
-/// Whether a reader recognises what lies there by its content. Throws InputError where it cannot be
-/// opened.
+/// Whether a reader recognises the content. Throws InputError if the path cannot be opened.
 bool is_scene(const std::filesystem::path& path);
 
-/// Reads any scene that we know: .glb/.gltf (ours and foreign), .off, .ply, a DiffSoup export
-/// folder, a MobileNeRF folder (or its .obj), a .pt checkpoint. The scene has no defect(), and
-/// triangles. Throws InputError.
+/// Reads any supported scene: .glb/.gltf (ours and foreign), .off, .ply, a DiffSoup export folder,
+/// a MobileNeRF folder (or its .obj), a .pt checkpoint. The scene has triangles and no defect().
+/// Throws InputError.
 Scene read_scene(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// Throws UsageError where write_scene would for the name alone.
+/// Throws UsageError if write_scene would reject the name.
 void require_written_format(const std::filesystem::path& path);
 
-/// Writes by the extension of `path` (.glb, .off, .ply; a DiffSoup export folder where there is no
-/// extension), whole or not at all. Returns what the format cannot hold, a sentence each. Throws
-/// UsageError when the format cannot hold this scene at all or the extension is unknown, and
+/// Writes by the extension of `path`: .glb, .off, .ply, or a DiffSoup export folder if there is
+/// none. The output is complete or absent. Returns one sentence for each loss of the format. Throws
+/// UsageError if the format cannot store this scene or the extension is unknown; throws
 /// OutputError.
 std::vector<std::string> write_scene(const Scene& scene, const std::filesystem::path& path);
 
-/// One line of the table of formats, for help texts.
+/// One row of the table of formats, for help texts.
 struct FormatInfo {
   std::string name;         // "OFF"
-  std::string description;  // what it holds, in a few words
-  /// With the point; the first is the usual one. None where it cannot be read, or not be written.
+  std::string description;  // its contents, in a few words
+  /// With the dot; the usual one first. Empty if reading or writing is not supported.
   std::vector<std::string> read_extensions, written_extensions;
-  bool is_folder = false;  // a folder, beside any extensions
+  bool is_folder = false;  // a folder, in addition to any extensions
   bool can_read = false;
   bool can_write = false;
 };
 
-/// Every format that read_scene and write_scene know.
+/// Every format that read_scene or write_scene supports.
 std::vector<FormatInfo> known_formats();
 
 }  // namespace tureen

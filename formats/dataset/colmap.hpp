@@ -1,5 +1,5 @@
-// A reconstruction by COLMAP: https://colmap.github.io/format.html, text or binary. World
-// coordinates are the reconstruction's own; poses are converted to the OpenGL convention.
+// A COLMAP reconstruction (https://colmap.github.io/format.html), text or binary. World coordinates
+// are those of the reconstruction; poses are converted to the OpenGL convention.
 #pragma once
 
 #include <cstdint>
@@ -16,46 +16,46 @@
 
 namespace tureen {
 
-/// Intrinsics that several images may share. `pinhole` has no name and no pose; its principal
-/// point, as COLMAP's, is measured from the corner of the image.
+/// Intrinsics, possibly shared by several images. `pinhole` has neither name nor pose. Its
+/// principal point is measured from the corner of the image, as in COLMAP.
 struct ColmapCamera {
   Camera pinhole;
   Lens lens;
 };
 
 struct ColmapImage {
-  std::string name;  // below the folder of images, as the file spells it
+  std::string name;  // relative to the folder of images, as spelled in the file
   std::uint32_t camera = 0;
   glm::dmat4 view_from_world{1.0};
 };
 
-using ColmapCameras = std::map<std::uint32_t, ColmapCamera>;  // by COLMAP's number
+using ColmapCameras = std::map<std::uint32_t, ColmapCamera>;  // by COLMAP's id
 
 struct ColmapModel {
   ColmapCameras cameras;
-  std::vector<ColmapImage> images;   // in the file's order; each one's camera is in `cameras`
-  std::vector<DatasetPoint> points;  // in the file's order; empty where the file is missing
+  std::vector<ColmapImage> images;   // in file order; each image's camera is in `cameras`
+  std::vector<DatasetPoint> points;  // in file order; empty if the file is missing
 };
 
-/// The folder of the model of a dataset: sparse/0, sparse or colmap/sparse/0 of `dataset`, or
-/// nothing where none of them holds a file of cameras.
+/// The folder of a dataset's model: sparse/0, sparse or colmap/sparse/0 in `dataset`, or nullopt if
+/// no such folder has a file of cameras.
 std::optional<std::filesystem::path> colmap_folder(const std::filesystem::path& dataset);
 
-/// Whether `folder` itself holds a model: files of cameras and of images.
+/// Whether `folder` itself contains a model: files of cameras and of images.
 bool is_colmap_model(const std::filesystem::path& folder);
 
-/// Reads cameras, images and points3D from `folder`, binary where there are both. Throws InputError
-/// with the file and the byte or line: a camera model that is none of SIMPLE_PINHOLE, PINHOLE,
-/// SIMPLE_RADIAL, RADIAL and OPENCV, by its name; a pose that is no rotation; counts that do not
-/// fit the bytes; an image of a camera that is not there.
+/// Reads cameras, images and points3D from `folder`, binary if both variants exist. Throws
+/// InputError with the file and the byte or line: an unsupported camera model, by its name
+/// (supported: SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV), a pose that is not a
+/// rotation, counts that do not match the bytes, or an image with a missing camera.
 ColmapModel read_colmap(const std::filesystem::path& folder,
                         const MemoryBudget& budget = MemoryBudget());
 
-/// The same without the points, of which there may be millions.
+/// The same without the points, which may number millions.
 ColmapModel read_colmap_poses(const std::filesystem::path& folder,
                               const MemoryBudget& budget = MemoryBudget());
 
-// The files one by one, from untrusted bytes.
+// The individual files, from untrusted bytes.
 
 ColmapCameras read_colmap_cameras_binary(Input& input);
 ColmapCameras read_colmap_cameras_text(Input& input);

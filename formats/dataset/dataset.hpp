@@ -12,31 +12,31 @@
 
 namespace tureen {
 
-/// Which photographs to read; the others cost nothing.
+/// The photographs to read; others are not opened.
 enum class DatasetPart { train, test, all };
 
 struct DatasetOptions {
-  /// Of the width and height of the pictures that are there: 0.5 halves both, by area filtering
-  /// that weighs colour by alpha. In (0, 1]. Intrinsics follow exactly.
+  /// Scale of the width and height of the stored images, in (0, 1], default 1. 0.5 halves both, by
+  /// area filtering weighted by alpha. Intrinsics are scaled exactly.
   double scale = 1.0;
-  /// Reads images_N (a folder that 360_v2 has beside images) instead of images; 1 is images.
+  /// Reads images_N (a folder beside images in 360_v2) instead of images; 1 means images.
   int images_folder = 1;
-  /// Where the dataset has no split of its own, every n-th photograph in name order, beginning
-  /// with the first, is a test view.
+  /// For datasets without a split: every n-th photograph in name order, beginning with the first,
+  /// is a test view.
   int test_every = 8;
   DatasetPart part = DatasetPart::all;
-  /// Called now and then with the fraction done, 0..1; may throw to abandon the read.
+  /// Called with the fraction done, 0..1; may throw to cancel.
   std::function<void(double)> progress = nullptr;
 };
 
-/// Reads a folder, or a transforms.json. Photographs come in name order, which is that of the
-/// bytes: r_10 stands before r_2. No file outside of the dataset's folder is opened. JPEG's EXIF
-/// orientation is not applied: cameras speak of pixels as they are stored.
+/// Reads a folder, or a transforms.json. Photographs are sorted by the bytes of their names: r_10
+/// precedes r_2. No file outside the dataset's folder is opened. JPEG's EXIF orientation is not
+/// applied, since cameras refer to the stored pixels.
 ///
-/// Throws InputError with the file and the reason: images that are missing (all of them are named,
-/// up to a dozen) or whose size is not the camera's, a camera model that cannot be undone, a pose
-/// that is no rotation to three digits, a split that would leave nothing to train on or to test,
-/// photographs that take more memory together than reading may (base/memory_budget.hpp).
+/// Throws InputError with the file and the reason: missing images (all are named, up to a dozen),
+/// an image size that differs from the camera's, a camera model that cannot be undone, a pose that
+/// is not a rotation to three digits, a split without training or test views, or photographs that
+/// exceed the memory budget (base/memory_budget.hpp).
 Dataset read_dataset(const std::filesystem::path& path, const DatasetOptions& options = {});
 
 }  // namespace tureen

@@ -1,4 +1,4 @@
-// A photograph of a dataset before it is read: what every kind of dataset says of one.
+// A photograph of a dataset before it is read, in a form shared by all kinds of dataset.
 #pragma once
 
 #include <filesystem>
@@ -14,12 +14,12 @@
 namespace tureen {
 
 struct DatasetFrame {
-  std::string name;              // in the dataset, as its file spells it: what frames are sorted by
-  std::filesystem::path folder;  // nothing outside of it is opened
+  std::string name;              // in the dataset, as spelled in its file; the sort key
+  std::filesystem::path folder;  // no file outside of it is opened
   std::string file;              // below `folder`; may lack its extension
-  /// Of the picture in the folder of full-sized images, where the dataset says it.
+  /// Size of the image in the folder of full-sized images, if the dataset stores it.
   std::optional<glm::ivec2> size;
-  /// The camera where the full-sized picture has this width and height: `size` where it is known.
+  /// The camera for a full-sized image with this width and height (`size` if known).
   std::function<Camera(int width, int height)> camera;
   Lens lens;
   glm::dmat4 view_from_world{1.0};  // the camera's

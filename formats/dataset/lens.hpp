@@ -1,8 +1,8 @@
-// What a lens does to a pinhole's picture, and how that is undone.
+// Lens distortion of a pinhole image, and its removal.
 //
 // The model is D. C. Brown's, "Close-range camera calibration", Photogrammetric Engineering 1971,
-// with the letters that OpenCV, COLMAP and instant-ngp give it. In the camera's plane at depth 1,
-// x to the right and y down, with r^2 = x^2 + y^2, the point (x, y) of the scene appears at
+// with the letters of OpenCV, COLMAP and instant-ngp. Let (x, y) be a scene point in the camera's
+// plane at depth 1, x to the right and y down, and r^2 = x^2 + y^2. It appears at
 //   x' = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2)
 //   y' = y (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p2 x y + p1 (r^2 + 2 y^2)
 // and in the photograph at (fx x' + cx, fy y' + cy).
@@ -22,36 +22,35 @@ struct Lens {
   bool operator==(const Lens&) const = default;
   bool is_pinhole() const { return *this == Lens{}; }
 
-  /// Where the scene's point (x, y) appears.
+  /// The image position of the scene point (x, y).
   glm::dvec2 distorted(glm::dvec2 point) const;
 
-  /// Whether `point` can be seen at all: on the way to it from the axis the picture must not fold
-  /// back. Polynomials that were fitted to the middle of a picture do so outside of it, and what
-  /// they say there is no photograph of anything.
+  /// Whether `point` is visible: the mapping from the axis to it must not fold back. Polynomials
+  /// fitted to the middle of an image fold outside of it, where they are meaningless.
   bool sees(glm::dvec2 point) const;
 };
 
-/// Columns and rows [left, right) x [top, bottom) of a picture.
+/// Columns and rows [left, right) x [top, bottom) of an image.
 struct PixelRectangle {
   int left = 0, top = 0, right = 0, bottom = 0;
 };
 
 struct Undistorted {
-  /// As large as the photograph, and its camera's focal lengths and principal point are those of
-  /// a pinhole now. Where the photograph shows nothing alpha is 0, and the colour is that of the
-  /// photograph's edge nearby.
+  /// As large as the photograph; focal lengths and principal point of its camera are now those of a
+  /// pinhole. Pixels without a source have alpha 0 and the colour of the nearby edge of the
+  /// photograph.
   Image8 image;
-  /// Pixels that all have a source in the photograph: empty where the lens leaves less than half
-  /// of the picture.
+  /// A rectangle of pixels that all have a source in the photograph; empty if the lens leaves less
+  /// than half of the image.
   PixelRectangle known;
 };
 
-/// Resamples a photograph, whose size is the camera's, by Catmull-Rom's cubic, colours weighted by
-/// alpha. The cubic keeps the sharpness that interpolating linearly between four pixels would take
-/// away. Nothing is averaged: undoing a barrel magnifies, and a pincushion shrinks by a few per
-/// cent.
+/// Resamples a photograph, whose size is the camera's, by Catmull-Rom's cubic, weighted by alpha.
+/// The cubic preserves sharpness that bilinear interpolation would lose. There is no area
+/// averaging: undoing barrel distortion magnifies, and undoing pincushion distortion shrinks by
+/// only a few per cent.
 ///
-/// About 0.1 s for 1080 x 1920 on one core.
+/// Time: about 0.1 s for 1080 x 1920 on one core.
 Undistorted undistorted(const Image8& photograph, const Camera& camera, const Lens& lens);
 
 }  // namespace tureen

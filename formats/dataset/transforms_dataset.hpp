@@ -1,4 +1,4 @@
-// The photographs that a transforms.json names, in its own folder or below.
+// The photographs listed in a transforms.json, in its own folder or below.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@
 
 namespace tureen {
 
-/// In the file's order. `images_folder` as in DatasetOptions: "images/" at the beginning of a name
-/// becomes "images_4/". Throws InputError with the frame and the reason: no file_path, a lens that
-/// cannot be undone by its name, a name outside of images/ where another folder is asked for.
+/// In the file's order. `images_folder` as in DatasetOptions: a leading "images/" in a name becomes
+/// "images_4/". Throws InputError with the frame and the reason: no file_path, a lens that cannot
+/// be undone (with its name), or a name outside of images/ if another folder is requested.
 std::vector<DatasetFrame> read_transforms_dataset(const std::filesystem::path& path,
                                                   int images_folder,
                                                   const MemoryBudget& budget = MemoryBudget());

@@ -15,32 +15,33 @@
 
 namespace tureen {
 
-/// Whether `folder` is one that holds mesh.ply and lut0.png.
+/// Whether `folder` contains mesh.ply and lut0.png.
 bool is_diffsoup_export(const std::filesystem::path& folder);
 
-/// The name of something in `folder` that is no part of an export and would be lost with it; ""
-/// where there is none.
+/// The name of an entry of `folder` that is not part of an export and would be lost by replacing
+/// it; "" if there is none.
 std::string foreign_to_diffsoup_export(const std::filesystem::path& folder);
 
-/// Levels 0..7; any width of the two images as long as their height is ceil(texels / width).
-/// Without meta.json the web viewer's defaults hold: level 5, up -y, background black.
+/// Levels 0..7. The two images may have any width with height ceil(texels / width). Without
+/// meta.json the web viewer's defaults apply: level 5, up -y, black background.
 ///
-/// The half that truncation lost: the published exporter writes floor(255 x). Texels that training
-/// never touched have an alpha of exactly 1/2, are drawn by the trainer, and arrive as 127, which
-/// is not. Where more texels stand at 127 than at 126 and 128 together, which truncation of a
-/// pile at 1/2 does and no smooth distribution, those at 127 are read as 128, and a note counts
-/// them. Files with "writer": "tureen" in meta.json are rounded well and never changed.
+/// Alpha 1/2 is restored after truncation: the published exporter writes floor(255 x). Texels that
+/// training never updated have an alpha of exactly 1/2. The trainer draws them, but they are stored
+/// as 127, below the threshold. If more texels have 127 than 126 and 128 together, those with 127
+/// are read as 128. Truncated values of 1/2 satisfy this condition, smooth distributions do not. A
+/// remark counts the changed texels. Files with "writer": "tureen" in meta.json are rounded
+/// correctly and never changed.
 ///
 /// Throws InputError.
 Scene read_diffsoup_export(const std::filesystem::path& folder, const ReadOptions& options = {});
 
-/// Writes the folder whole or not at all; one that is there is replaced if it is an export, and
-/// nothing but that, or empty. Bytes are written as they are, floats rounded, alpha on its side of
-/// 1/2 (image/quantise.hpp). Face and vertex colours become level 0. Faces of lower levels are
-/// refined to the highest. Without a color MLP an inert one is written (f3 = 0). Returns what was
-/// lost or added, a sentence each. Throws UsageError for other appearances, other networks than
-/// 16-16-16-3 of seven features, no triangles at all, or more texels than an image may hold; and
-/// OutputError.
+/// Writes the complete folder or nothing. An existing folder is replaced only if it is empty or an
+/// export without other entries. Bytes are written unchanged; floats are rounded, with alpha on its
+/// side of 1/2 (image/quantise.hpp). Face and vertex colours become level 0. Faces of lower levels
+/// are refined to the highest level. Without a color MLP an inert one is written (f3 = 0). Returns
+/// one sentence for each loss or addition. Throws UsageError for other appearances, networks other
+/// than 16-16-16-3 with seven features, scenes without triangles, or more texels than an image can
+/// have; throws OutputError.
 std::vector<std::string> write_diffsoup_export(const Scene& scene,
                                                const std::filesystem::path& folder);
 

@@ -1,5 +1,5 @@
-// mesh.ply of a DiffSoup export: positions and triangles, binary. Face t owns the t-th stretch of
-// texels, so every face must come through, in order: this is no general PLY reader.
+// mesh.ply of a DiffSoup export: positions and triangles, binary. Face t owns the t-th block of
+// texels, so the reader keeps every face in order. It is not a general PLY reader.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -13,12 +13,12 @@ namespace tureen {
 
 struct DiffSoupMesh {
   std::vector<glm::vec3> positions;
-  std::vector<glm::uvec3> triangles;  // every index is that of a position
+  std::vector<glm::uvec3> triangles;  // valid indices into positions
 };
 
-/// Reads a binary little-endian PLY of the elements vertex and face. Comments, line ends of either
-/// kind, further properties of fixed size and any integer type are read past; x, y, z are floats or
-/// doubles. Throws InputError, also for a face that is no triangle.
+/// Reads a binary little-endian PLY with the elements vertex and face. Comments, both line endings,
+/// further properties of fixed size and any integer type are accepted; x, y, z are floats or
+/// doubles. Throws InputError, also for faces that are not triangles.
 DiffSoupMesh read_diffsoup_mesh(Input& input);
 
 /// Writes the exact layout of the published exporter: float x y z, then "uchar int" lists.

@@ -1,8 +1,8 @@
-// The arrays of a GLB of ours: tightly packed in the binary chunk, found by accessor or by buffer
-// view, checked against the bytes that there are before anything is allocated, and read from where
-// they lie. Include it in sources only.
+// The arrays of our GLB files, tightly packed in the binary chunk. They are located by accessor or
+// by buffer view, checked against the available bytes before any allocation, and read in place.
+// Include it only in sources.
 //
-// What it does not do: foreign files, which are strided, sparse and of other types
+// Not supported: foreign files, whose arrays may be strided, sparse or of other types
 // (formats/gltf/gltf_accessor.hpp).
 #pragma once
 
@@ -22,48 +22,47 @@ namespace tureen {
 
 class GlbArrays {
  public:
-  /// No index and no count of ours passes this: vertices are named by 32 bits.
+  /// Largest index and count in our files: vertices have 32-bit indices.
   static constexpr std::uint64_t max_count = std::numeric_limits<std::uint32_t>::max();
 
-  /// Both must outlive this. `progress`, where there is one, is called after each array with the
-  /// fraction of the input that lies behind it.
+  /// Both must outlive this object. `progress` may be empty; it is called after each array with the
+  /// fraction of the input already passed.
   GlbArrays(Input& input, const GlbContainer& glb, std::function<void(double)> progress = {});
 
   const JsonView& root() const { return root_; }
   const std::string& file() const { return input_.name(); }
 
-  /// Where elements or bytes lie in the file.
+  /// Position of elements or bytes in the file.
   struct Location {
     std::uint64_t offset = 0;
     std::uint64_t size = 0;  // in bytes
     std::uint64_t end() const { return offset + size; }
   };
 
-  /// glTF's name of the type, how many components it has, and glTF's number of their type.
+  /// glTF's name of the type, its number of components, and glTF's number of the component type.
   struct Format {
     const char* type;
     std::size_t components;
     int component_type;
   };
 
-  /// Of the accessor that `holder` names by `key`: exactly `elements` of exactly this format. Of no
-  /// bytes where an array of none is not named; any other must be there.
+  /// Location of the accessor under `key` of `holder`: exactly `elements` of exactly this format.
+  /// If `elements` is 0 the key may be missing and the location is empty; otherwise it is required.
   Location location(const JsonView& holder, const char* key, std::uint64_t elements,
                     const Format& format) const;
-  /// Of bufferViews[reference].
+  /// Location of bufferViews[reference].
   Location view_location(const JsonView& reference) const;
 
-  /// accessors[reference] itself.
   JsonView accessor(const JsonView& reference) const;
 
-  /// The array at location(..): as many T as there are bytes for.
+  /// The array at location(..), as many T as fit in its bytes.
   template <class T>
   std::vector<T> read(const JsonView& holder, const char* key, std::uint64_t elements,
                       const Format& format) {
     return read_at<T>(location(holder, key, elements, format), key);
   }
 
-  /// The same of a location that is known. `what` names it in errors.
+  /// The same for a known location. `what` is its name in errors.
   template <class T>
   std::vector<T> read_at(const Location& location, const char* what) {
     if (location.size == 0) return {};
@@ -75,7 +74,7 @@ class GlbArrays {
 
   void tell_progress() const;
 
-  /// Counts what is about to be allocated (base/input.hpp).
+  /// Counts memory before its allocation (base/input.hpp).
   void take_memory(std::uint64_t elements, std::size_t each, const char* what) {
     input_.take_memory(elements, each, what);
   }
@@ -93,7 +92,7 @@ class GlbArrays {
   JsonView root_;
 };
 
-/// The formats that the extension has.
+/// The formats in the extension.
 namespace glb_formats {
 inline constexpr GlbArrays::Format scalar_u8{"SCALAR", 1, glb_layout::unsigned_byte};
 inline constexpr GlbArrays::Format scalar_u32{"SCALAR", 1, glb_layout::unsigned_int};

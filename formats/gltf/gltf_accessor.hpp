@@ -11,20 +11,20 @@
 
 namespace tureen {
 
-/// How many elements accessors[index] has, once it is certain that its bytes are there (or, for one
-/// without bytes, that the document's vertex_budget() allows it). Throws InputError otherwise.
+/// The number of elements of accessors[index], after a check that its bytes exist. An accessor
+/// without bytes must fit in the document's vertex_budget(). Throws InputError otherwise.
 std::size_t accessor_count(GltfDocument& document, int index);
 
-/// Some elements of an accessor.
+/// A selection of an accessor's elements.
 struct FloatElements {
   int components = 0;
-  std::vector<float> values;  // `components` for each element asked for, in that order
+  std::vector<float> values;  // `components` for each requested element, in that order
 };
 
-/// The elements `wanted`, ascending and without repetition, each below accessor_count(). Normalised
-/// integers become [0, 1] or [-1, 1] (glTF 2.0, section 3.6.2.2); others keep their value.
-/// `components` lists how many an element may have. Takes the time of what is wanted, and of the
-/// sparse part, not of the accessor: exporters let thousands of primitives draw on one large one.
+/// The elements `wanted`: ascending, unique, each below accessor_count(). Normalised integers
+/// become [0, 1] or [-1, 1] (glTF 2.0, section 3.6.2.2); others keep their value. `components`
+/// lists the allowed numbers of components. Time is proportional to the requested elements and the
+/// sparse part, not to the accessor: exporters let thousands of primitives share a large one.
 FloatElements read_float_elements(GltfDocument& document, int index,
                                   std::initializer_list<int> components,
                                   const std::vector<std::uint32_t>& wanted);

@@ -1,8 +1,8 @@
 // A foreign glTF file: its JSON as tinygltf's model, and checked access to its bytes.
 //
-// tinygltf is given the JSON without buffers and images and has no file system: it can neither open
-// a file nor touch a byte of binary data. Both are ours: buffers and images are loaded here, on
-// demand, from the binary chunk, from data URIs, or from files in the scene's folder.
+// tinygltf receives the JSON without buffers and images and has no file system. It can therefore
+// neither open files nor read binary data. This class loads buffers and images on demand from the
+// binary chunk, from data URIs, or from files in the scene's folder.
 #pragma once
 
 #include <cstdint>
@@ -22,14 +22,14 @@ namespace tureen {
 
 class GltfDocument {
  public:
-  /// `glb` is the container of `input`, or the whole of a .gltf as its JSON. Throws InputError for
-  /// what is no glTF 2.0 and for required extensions that we lack. The input must outlive it.
+  /// `glb` is the container in `input`, or the JSON of a whole .gltf. Throws InputError if it is
+  /// not glTF 2.0 or requires an unsupported extension. The input must outlive this object.
   GltfDocument(Input& input, GlbContainer glb, std::filesystem::path folder);
 
   const tinygltf::Model& model() const { return model_; }
 
   /// `count` elements of a buffer view, `stride` bytes apart (0: the view's own, or tight), each
-  /// `each` bytes long, from `offset` within the view. `where` begins the reason of failure.
+  /// `each` bytes long, from `offset` within the view. `where` begins the reason of an error.
   struct Elements {
     const std::byte* first = nullptr;
     std::size_t stride = 0;
@@ -37,12 +37,11 @@ class GltfDocument {
   Elements elements(int view, std::uint64_t offset, std::uint64_t count, std::size_t each,
                     const std::string& where);
 
-  /// Decodes images[index].
   Image8 image(int index);
 
-  /// Counts what is about to be allocated; fails at `where` where that is too much.
+  /// Counts memory before its allocation; fails at `where` beyond the budget.
   void take_memory(std::uint64_t elements, std::size_t each, const std::string& where) const;
-  /// make_room (base/memory_budget.hpp), or failure at `where`.
+  /// Calls make_room (base/memory_budget.hpp); fails at `where`.
   template <class T>
   void make_room_in(std::vector<T>& values, std::size_t more, const std::string& where) {
     MemoryBudget budget = input_.budget();
@@ -51,8 +50,8 @@ class GltfDocument {
   }
   MemoryBudget budget() const { return input_.budget(); }
 
-  /// How many vertices (and elements without bytes of their own) this file may make: 2^24, or as
-  /// many as bytes were loaded. A vertex takes three bytes at the least, so only instances and
+  /// Largest number of vertices, and of elements without bytes, for this file: 2^24, or the number
+  /// of loaded bytes if larger. A vertex takes at least three bytes, so only instances and
   /// accessors without a buffer view can reach it.
   std::uint64_t vertex_budget() const;
 

@@ -1,4 +1,4 @@
-// Materials of a foreign glTF file, as far as a trained soup needs them: the base colour and the
+// Materials of a foreign glTF file, limited to the needs of a trained soup: base colour and
 // cut-out.
 #pragma once
 
@@ -23,11 +23,11 @@ struct GltfMaterial {
   UvMaterial::Wrap wrap_v = UvMaterial::Wrap::repeat;
   UvMaterial::Filter filter = UvMaterial::Filter::linear;
   bool masked = false;
-  float cutoff = 0.0f;  // a fragment exists where alpha is at least this, if masked
+  float cutoff = 0.0f;  // smallest alpha of an existing fragment, if masked
 };
 
-/// materials[index], or glTF's default material for -1. Appends to `remarks` what is drawn
-/// otherwise than the file says. Throws InputError.
+/// materials[index], or glTF's default material for -1. Appends to `remarks` each deviation of the
+/// rendering from the file. Throws InputError.
 GltfMaterial read_gltf_material(const GltfDocument& document, int index,
                                 std::vector<Remark>& remarks);
 

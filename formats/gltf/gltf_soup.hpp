@@ -1,4 +1,4 @@
-// Gathers the primitives of a foreign glTF file into one soup.
+// Collects the primitives of a foreign glTF file in one soup.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -16,22 +16,22 @@ namespace tureen {
 
 class GltfSoupBuilder {
  public:
-  /// `colors` is srgb or linear, decided already.
+  /// `colors` is srgb or linear, not automatic.
   GltfSoupBuilder(GltfDocument& document, VertexColorSpace colors)
       : document_(document), color_space_(colors) {}
 
-  /// meshes[index], placed by `world_from_mesh`.
+  /// Adds meshes[index], placed by `world_from_mesh`.
   void add_mesh(int index, const glm::dmat4& world_from_mesh);
 
-  /// VertexColors where no material has a texture, UvTextures otherwise.
+  /// VertexColors if no material has a texture, otherwise UvTextures.
   TriangleSoup finish();
 
   bool has_vertex_colors() const { return !vertex_colors_.empty(); }
-  /// Differences between the file and what is drawn; a remark may occur repeatedly.
+  /// Differences between the file and the rendering; remarks may repeat.
   std::vector<Remark> remarks;
 
  private:
-  /// The vertices and faces that one primitive gave.
+  /// The vertices and faces of one primitive.
   struct Part {
     std::size_t first_vertex, vertices, first_face, faces;
     std::size_t material;  // in materials_
@@ -56,11 +56,11 @@ class GltfSoupBuilder {
   TriangleSoup soup_;
   std::vector<Part> parts_;
   std::vector<GltfMaterial> materials_;
-  std::map<int, std::size_t> material_index_;  // of the file's, -1 among them
+  std::map<int, std::size_t> material_index_;  // from the file's indices, including -1
   std::vector<glm::vec4> vertex_colors_;       // as stored; empty until the first
   std::vector<glm::vec2> uv_;                  // empty until the first
-  /// From an accessor's vertices to the soup's while one primitive is added, `unused` in between:
-  /// kept, because a fresh one would cost every primitive the length of the accessor.
+  /// Map from an accessor's vertices to the soup's for the current primitive; other entries are
+  /// `unused`. It is kept because a new one would cost each primitive the length of the accessor.
   std::vector<std::uint32_t> renamed_;
 };
 

@@ -1,4 +1,4 @@
-// tinygltf as we use it: every source that includes it must see the same switches.
+// tinygltf with our configuration: every source that includes it must use the same switches.
 #pragma once
 
 #define TINYGLTF_NO_STB_IMAGE

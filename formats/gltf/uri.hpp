@@ -1,6 +1,5 @@
-// What a scene file may name by URI: data within the URI itself, or a file in the scene's own
-// folder and nowhere else; and the same for files that name others plainly. The file is untrusted;
-// so are the names in it.
+// Resolves the URIs in a scene file: data in the URI itself, or a file in the scene's own folder.
+// Also resolves plain file names. The file and the names in it are untrusted.
 #pragma once
 
 #include <cstddef>
@@ -14,27 +13,28 @@
 
 namespace tureen {
 
-/// Why a URI is refused; the caller knows which file and which place in it to name.
+/// The reason why a URI is rejected; the caller adds the file and the place in it.
 struct UriError {
   std::string reason;
 };
 
-/// The bytes of a data: URI in base64 of any media type, or nothing where `uri` is no data: URI.
-/// Throws UriError where it is one but cannot be decoded.
+/// The bytes of a base64 data: URI with any media type, or nullopt if `uri` is not a data: URI.
+/// Throws UriError if it cannot be decoded.
 std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri);
 
-/// The file of the relative path `name`, as it is, in `folder` or below it. Refused as below.
+/// The file with the relative path `name`, taken literally, in or below `folder`. Rejects names as
+/// resolve_in_folder does.
 std::filesystem::path resolve_name_in_folder(const std::filesystem::path& folder,
                                              const std::string& name);
 
-/// The file of a name that the format fixes, opened; refused likewise, as an InputError: a folder
-/// from untrusted hands may hold links.
+/// Opens a file whose name the format fixes. Rejects it as above, with an InputError: an untrusted
+/// folder may contain links.
 Input open_in_folder(const std::filesystem::path& folder, const std::string& name,
                      MemoryBudget budget);
 
-/// The file that the relative reference `uri` names, percent-decoded, in `folder` or below it. An
-/// absolute path, a scheme, a "..", and a link that leads out of the folder are refused with a
-/// UriError, before anything is opened. The file need not exist.
+/// The file with the relative reference `uri`, percent-decoded, in or below `folder`. Throws
+/// UriError for an absolute path, a scheme, a "..", or a link that leads out of the folder, before
+/// anything is opened. The file may be missing.
 std::filesystem::path resolve_in_folder(const std::filesystem::path& folder, std::string_view uri);
 
 }  // namespace tureen

@@ -4,8 +4,8 @@
 //   shape{i}.pngfeat0.png       four features a texel; a red byte of 0 is a hole
 //   shape{i}.pngfeat1.png       four more
 //
-// Does not draw the sphere-mapped background of the unbounded scenes or undo the normalised device
-// coordinates of the forward-facing ones: nothing in the folder tells them apart.
+// Not supported: the sphere-mapped background of the unbounded scenes and the normalised device
+// coordinates of the forward-facing ones. Files in the folder do not distinguish them.
 #pragma once
 
 #include <filesystem>
@@ -18,13 +18,13 @@ namespace tureen {
 /// Whether `path` is such a folder, its mlp.json or one of its .obj files.
 bool is_mobilenerf(const std::filesystem::path& path);
 
-/// All shapes of the folder as one soup of UvTextures, a material a shape, nearest texels; white
-/// background, y up, and the camera of the published pages. Shapes that are missing are named in
-/// info.remarks, and it is an error when all are. Throws InputError.
+/// All shapes in the folder as one soup of UvTextures: one material a shape, nearest texels, white
+/// background, y up, and the camera of the published pages. Missing shapes are listed in
+/// info.remarks. Throws InputError, also if all shapes are missing.
 ///
-/// The network is rewritten to take bytes / 255 and the plain direction from the eye: the published
-/// one takes 2 a - 1 for the two alpha features and (x, -z, y) for the direction. Both changes are
-/// linear and go into its first layer.
+/// The network is converted to inputs of bytes / 255 and the plain direction from the eye. The
+/// published one takes 2 a - 1 for the two alpha features and (x, -z, y) for the direction. Both
+/// changes are linear and are folded into its first layer.
 Scene read_mobilenerf(const std::filesystem::path& path, const ReadOptions& options = {});
 
 }  // namespace tureen

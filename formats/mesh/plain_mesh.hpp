@@ -1,5 +1,6 @@
-// What the plain mesh formats (OFF, PLY) have in common: polygons become triangles, colours become
-// one appearance; and the way back, from any scene to coloured triangles, with what that loses.
+// Code shared by the plain mesh formats (OFF, PLY). Reading converts polygons to triangles and
+// colours to one appearance. Writing converts any scene to coloured triangles and reports the
+// losses.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +17,14 @@
 
 namespace tureen {
 
-/// Collects vertices and polygons in file order. A reader fills `positions` and, where the file has
-/// them, `vertex_rgba`, and reports polygons corner by corner, so that none is ever held whole.
-/// What it allocates counts against the input's budget.
+/// Collects vertices and polygons in file order. A reader fills `positions` and, if the file has
+/// them, `vertex_rgba`. It passes polygons corner by corner, so that no polygon is stored whole.
+/// Allocations count against the input's budget.
 class MeshBuilder {
  public:
   explicit MeshBuilder(Input& input) : input_(input) {}
 
-  /// Faces without a colour of their own, and whole meshes without any.
+  /// The colour of faces without their own, and of meshes without any.
   static constexpr glm::vec4 no_color{0.8f, 0.8f, 0.8f, 1.0f};
 
   std::vector<glm::vec3> positions;
@@ -34,21 +35,23 @@ class MeshBuilder {
   void reserve_faces(std::uint64_t count);
 
   void begin_face() { corners_ = 0; }
-  /// The next corner; the caller has checked that the vertex will exist.
+  /// Adds a corner; the caller has checked that the vertex will exist.
   void add_corner(std::uint32_t vertex);
-  /// Ends the polygon: a fan around its first corner. Fewer than three corners draw nothing.
+  /// Ends the polygon: a fan around its first corner. Polygons with fewer than three corners are
+  /// dropped.
   void end_face();
-  /// Ends the polygon and gives all its triangles this colour.
+  /// Ends the polygon and assigns this colour to all its triangles.
   void end_face(const glm::vec4& rgba);
   /// One triangle of a strip, without a colour.
   void add_triangle(glm::uvec3 triangle);
 
   std::size_t triangle_count() const { return triangles_.size(); }
-  /// The colours of the triangles so far; empty where no face had one. Not to be made longer.
+  /// The colours of the triangles so far; empty if no face had one. The caller must not append to
+  /// it.
   std::vector<glm::vec4>& face_rgba() { return face_rgba_; }
 
-  /// Clamps every colour to [0, 1] (NaN becomes 0), chooses the appearance (vertex colours before
-  /// face colours before grey) and writes a note for whatever that changed or left out.
+  /// Clamps every colour to [0, 1] (NaN becomes 0). Chooses the appearance: vertex colours, else
+  /// face colours, else grey. Adds a remark for each change or loss.
   Scene finish(std::string name, std::string source);
 
  private:
@@ -64,9 +67,9 @@ class MeshBuilder {
   std::uint64_t corners_ = 0;
   std::size_t first_triangle_ = 0;  // of the current face
   glm::uvec3 fan_{0};               // first corner, previous corner, unused
-  std::uint64_t polygons_ = 0;      // of more than three corners
-  std::uint64_t too_small_ = 0;     // of fewer than three
-  std::uint64_t uncolored_ = 0;     // triangles among colored ones
+  std::uint64_t polygons_ = 0;      // with more than three corners
+  std::uint64_t too_small_ = 0;     // with fewer than three
+  std::uint64_t uncolored_ = 0;     // uncoloured triangles in a coloured mesh
 };
 
 /// Calls `progress` with the fraction done, once every 65,536 calls.
@@ -83,22 +86,22 @@ class ProgressMeter {
   std::uint64_t steps_ = 0;
 };
 
-/// A scene as coloured triangles: its own soup where that has FaceColors or VertexColors, otherwise
-/// a copy of its triangles with the mean colour of each face (scene/edit/mean_color.hpp), and a
-/// sentence.
+/// A scene as coloured triangles: its own soup if that has FaceColors or VertexColors. Otherwise a
+/// copy of its triangles with the mean colour of each face (scene/edit/mean_color.hpp), and a
+/// sentence in `lost`.
 class PlainMesh {
  public:
-  /// `format` names the format in the sentences. Keeps a reference to the scene where it can.
+  /// `format` is the format's name in the sentences. Keeps a reference to the scene if possible.
   PlainMesh(const Scene& scene, const std::string& format);
   PlainMesh(Scene&&, const std::string&) = delete;
   PlainMesh(const PlainMesh&) = delete;
   PlainMesh& operator=(const PlainMesh&) = delete;
 
   const TriangleSoup& soup() const { return *soup_; }
-  /// Null where the other one is there.
+  /// Null if the other one exists.
   const std::vector<glm::vec4>* face_rgba() const;
   const std::vector<glm::vec4>* vertex_rgba() const;
-  /// What the format cannot hold, a sentence each.
+  /// One sentence for each loss of the format.
   std::vector<std::string> lost;
 
  private:
@@ -108,7 +111,7 @@ class PlainMesh {
   const TriangleSoup* soup_ = nullptr;  // the scene's, or own_
 };
 
-/// The up axis of files that know none.
+/// The up axis of files that do not store one.
 inline constexpr glm::vec3 assumed_up{0.0f, 0.0f, 1.0f};
 
 /// Whether every component of every colour is byte / 255 for some byte.

@@ -1,13 +1,14 @@
 // PLY polygon files: ascii and binary of both byte orders, read and written.
 //
-// Read: vertices x y z of any type; faces as a list vertex_indices or vertex_index of any polygon
-// size (fans), or a tristrips element (-1 begins a new strip); colours red green blue [alpha] of
-// vertices or faces as uchar (0..255), ushort (0..65535), float or double (0..1), where
-// diffuse_red .. stand for red ..; everything else in the file is passed over exactly. Elements may
-// come in any order. Positions that are not finite are kept; bytes after the last element are
-// noted. A face that names a vertex which is not there refuses the file (SECURITY.md says why).
+// Supported for vertices: x y z of any type. Supported for faces: a list vertex_indices or
+// vertex_index with any polygon size (fans), or a tristrips element (-1 begins a new strip).
+// Colours of vertices or faces are red green blue [alpha] as uchar (0..255), ushort (0..65535),
+// float or double (0..1); diffuse_red .. are aliases of red .. Other elements and properties are
+// skipped exactly. Elements may come in any order. Non-finite positions are kept. Bytes after the
+// last element give a remark. A face with a missing vertex is an error (SECURITY.md has the
+// reason).
 //
-// Not read: Gaussian splats and point clouds, which have no faces; both are told what they are.
+// Not supported: Gaussian splats and point clouds, which have no faces; the error names them.
 #pragma once
 
 #include <filesystem>
@@ -21,14 +22,14 @@
 
 namespace tureen {
 
-/// A soup with VertexColors or FaceColors, up (0, 0, 1). Throws InputError with the byte (binary)
-/// or the line (header and ascii).
+/// A soup with VertexColors or FaceColors and up (0, 0, 1). Throws InputError with the byte
+/// (binary) or the line (header and ascii).
 Scene read_ply(Input& input, const ReadOptions& options = {});
 Scene read_ply(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// Binary, little endian; reads back bit for bit. Colours are uchar where that is exact, float
-/// where it is not; alpha is always there. Returns what is lost. Other
-/// appearances become a mean colour a face. Throws OutputError.
+/// Binary, little endian; reads back bit for bit. Colours are uchar if that is exact, otherwise
+/// float, always with alpha. Other appearances become a mean colour a face. Returns the losses.
+/// Throws OutputError.
 std::vector<std::string> write_ply(const Scene& scene, const std::filesystem::path& path);
 
 }  // namespace tureen

@@ -1,5 +1,5 @@
-// The text at the head of a PLY file: which elements follow, with which properties, in which
-// encoding (G. Turk, "The PLY Polygon File Format", 1994).
+// The text header of a PLY file: the elements with their properties, and the encoding (G. Turk,
+// "The PLY Polygon File Format", 1994).
 #pragma once
 
 #include <cstdint>
@@ -24,20 +24,20 @@ constexpr bool is_integer(PlyType type) { return type <= PlyType::uint32; }
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::float32;    // of the value, or of each in the list
-  std::optional<PlyType> count_type;  // of a list's length; an integer
+  PlyType type = PlyType::float32;    // of the value, or of each list element
+  std::optional<PlyType> count_type;  // of the list length; an integer type
 };
 
 struct PlyElement {
   std::string name;
   std::uint64_t count = 0;
-  std::uint64_t line = 0;  // of the header, for messages
+  std::uint64_t line = 0;  // in the header, for messages
   std::vector<PlyProperty> properties;
 
-  /// The index of the property of this name, or nothing.
+  /// The index of the property with this name, or nullopt.
   std::optional<std::size_t> find(std::string_view property) const;
-  /// The fewest bytes that one row takes in the body: lists empty, and, in a text, one character
-  /// and a separator a value.
+  /// Smallest size of one row in the body, in bytes: lists are empty; in ascii each value needs one
+  /// character and a separator.
   std::uint64_t least_bytes(bool ascii) const;
 };
 
@@ -46,20 +46,20 @@ struct PlyHeader {
 
   Encoding encoding = Encoding::ascii;
   std::vector<PlyElement> elements;
-  std::uint64_t body = 0;       // byte at which the values begin
-  std::uint64_t body_line = 1;  // and the line, for a text
+  std::uint64_t body = 0;       // first byte of the values
+  std::uint64_t body_line = 1;  // and their line, for ascii
 
-  /// The element of this name, or null.
+  /// The element with this name, or null.
   const PlyElement* find(std::string_view element) const;
 };
 
-/// Whether a file begins like a PLY: "ply" and a line break.
+/// Whether the file begins with "ply" and a line break.
 bool is_ply(std::span<const std::byte> head);
 
-/// Reads from the start of `input`. Lines may end with LF, CR or CR LF, as the first one does;
-/// comment and obj_info lines are passed over; all aliases of the scalar types are known. Throws
-/// InputError with the line: an unknown keyword, encoding or type, a number that is none, words
-/// left over, a header that does not end within 1 MiB, or elements that do not fit into the file.
+/// Reads from the start of `input`. Lines end with LF, CR or CR LF, as the first one does; comment
+/// and obj_info lines are skipped; all aliases of the scalar types are supported. Throws InputError
+/// with the line: an unknown keyword, encoding or type, an invalid number, extra words, a header
+/// longer than 1 MiB, or elements that exceed the file.
 PlyHeader read_ply_header(Input& input);
 
 }  // namespace tureen

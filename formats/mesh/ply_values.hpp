@@ -1,4 +1,4 @@
-// The values of a PLY body in file order, whatever their encoding.
+// The values of a PLY body in file order, for every encoding.
 #pragma once
 
 #include <cstdint>
@@ -13,29 +13,29 @@
 
 namespace tureen {
 
-/// A double holds every value of every PLY type exactly; floats in a text are rounded to float.
+/// A double represents every value of every PLY type exactly; floats in ascii are rounded to float.
 class PlyValues {
  public:
-  /// Reads the body that `header` announces. `input` must outlive this.
+  /// Reads the body described by `header`. `input` must outlive this object.
   PlyValues(Input& input, const PlyHeader& header);
 
-  /// Goes to the next row of an element of the name `what`: in a text, to its line.
+  /// Advances to the next row of an element named `what`; in ascii, to its line.
   void begin_row(const char* what);
-  /// Ends a row: in a text, nothing may be left on its line.
+  /// Ends a row. In ascii the rest of the line must be empty.
   void end_row();
 
-  /// The next value. Whole numbers in a text are checked against the range of their type.
+  /// The next value. Integers in ascii are checked against the range of their type.
   double read(PlyType type) { return scanner_ ? read_text(type) : read_binary(type); }
-  /// The length of a list, checked against the bytes that remain.
+  /// The length of a list, checked against the remaining bytes.
   std::uint64_t read_count(const PlyProperty& list);
-  /// Passes over one property, a list with all its values.
+  /// Skips one property; a list with all its values.
   void skip(const PlyProperty& property);
 
   std::uint64_t position() const {
     return scanner_ ? scanner_->position() : input_.position() - (end_ - next_);
   }
   std::uint64_t remaining() const { return input_.size() - position(); }
-  /// Whether something follows the last value (in a text, something that is no blank).
+  /// Whether data follow the last value; in ascii, other than blanks.
   bool anything_left();
 
   /// Throws an InputError at the current line or byte.
@@ -78,12 +78,12 @@ class PlyValues {
     std::memcpy(&value, bytes, sizeof value);
     return static_cast<double>(value);
   }
-  /// Moves what is left to the front and fills up; fails where fewer than `wanted` bytes remain.
+  /// Moves the rest to the front and refills the buffer. Fails if fewer than `wanted` bytes remain.
   void refill(std::size_t wanted);
 
   Input& input_;
-  std::optional<TextScanner> scanner_;  // of a text
-  bool swap_ = false;                   // the file's byte order is not the machine's
+  std::optional<TextScanner> scanner_;  // for ascii
+  bool swap_ = false;                   // the byte order of the file differs from the machine's
   std::vector<unsigned char> buffer_;
   std::size_t next_ = 0, end_ = 0;
   const char* element_ = "";  // of the current row, for messages

@@ -1,4 +1,4 @@
-// Files that stand where a scene was expected, and are something else altogether.
+// Recognises common files that are not scenes.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,9 @@ struct StrayContent {
   const char* hint;
 };
 
-/// The reason and the hint for an error about a file that no format recognises: a page that a
-/// server sent in place of the file, a pointer of Git LFS, a picture. `head` is its first bytes, as
-/// many as there are. Nothing where nothing is known of it.
+/// The reason and the hint of the error for a file that no format recognises: an HTML page that a
+/// server sent instead of the file, a Git LFS pointer, an image. `head` is its first bytes, as many
+/// as exist. Returns nullopt for unknown content.
 std::optional<StrayContent> stray_content(std::span<const std::byte> head);
 
 }  // namespace tureen

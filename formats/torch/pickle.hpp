@@ -1,6 +1,5 @@
-// Reads the pickles that torch.save writes, as data: nothing is imported, called or executed, ever.
-// A list of allowed opcodes and of allowed globals decides; whatever is not on it is refused by
-// name and byte, whether it would have done harm or not.
+// Reads the pickles of torch.save as data: nothing is imported, called or executed. Opcodes and
+// globals must be on a list; any other is rejected with its name and byte.
 //
 // Opcodes (protocol 2, pickletools): PROTO STOP MARK; NONE NEWTRUE NEWFALSE; BININT BININT1
 // BININT2 LONG1 BINFLOAT; BINUNICODE; EMPTY_LIST APPEND APPENDS; EMPTY_TUPLE TUPLE TUPLE1..3;
@@ -20,7 +19,7 @@ namespace tureen {
 
 class Pickle {
  public:
-  /// A value by its number; values may be shared and may even contain themselves.
+  /// Index of a value; values may be shared and may contain themselves.
   using Ref = std::uint32_t;
 
   enum class Kind {
@@ -33,8 +32,8 @@ class Pickle {
     tuple,        // items
     dict,         // items: key, value, key, value, ..; collections.OrderedDict too
     global,       // text: "module.name", on the list of allowed globals
-    persistent,   // items[0]: the id that BINPERSID was given
-    constructed,  // items: the global and the tuple of arguments that REDUCE was given
+    persistent,   // items[0]: the id passed to BINPERSID
+    constructed,  // items: the global and the argument tuple of REDUCE
   };
 
   struct Value {
@@ -43,17 +42,17 @@ class Pickle {
     double real = 0;
     std::string text{};
     std::vector<Ref> items{};
-    std::uint64_t byte = 0;  // of the opcode that made it
+    std::uint64_t byte = 0;  // of the opcode that created it
   };
 
-  /// Pickles of more bytes are refused: names and shapes take a few kilobytes, a training log of
-  /// a million losses nine megabytes.
+  /// Largest size in bytes; larger pickles are rejected. Names and shapes take a few kilobytes, a
+  /// training log of a million losses 9 MB.
   static constexpr std::uint64_t max_bytes = 16u << 20;
   static constexpr std::size_t max_values = 1u << 21;
 
-  /// Reads one pickle from the start of `bytes`. `name` stands for the file in error messages.
-  /// `globals` are the allowed ones, "module.name"; collections.OrderedDict is always allowed.
-  /// BUILD, which sets attributes, is read and its state ignored. Throws InputError.
+  /// Reads one pickle from the start of `bytes`. Errors print `name` as the file. `globals` are the
+  /// allowed ones, "module.name"; collections.OrderedDict is always allowed. BUILD, which sets
+  /// attributes, is accepted and its state ignored. Throws InputError.
   Pickle(std::string name, std::span<const std::byte> bytes,
          std::span<const std::string_view> globals, MemoryBudget budget = MemoryBudget());
 
@@ -61,10 +60,10 @@ class Pickle {
   Ref root() const { return root_; }
   const Value& operator[](Ref ref) const { return values_[ref]; }
 
-  /// The value under a text key of a dict, or null; the last one where a key was set twice.
+  /// The value under a text key of a dict, or null. If a key occurs twice the last value counts.
   const Value* find(const Value& dict, std::string_view key) const;
 
-  /// Throws an InputError at the byte where `value` was made.
+  /// Throws an InputError at the byte that created `value`.
   [[noreturn]] void fail(const Value& value, const std::string& reason,
                          const std::string& hint = {}) const;
 
@@ -74,7 +73,7 @@ class Pickle {
   Ref root_ = 0;
 };
 
-/// What a kind is called in messages: "a list", "a number", ..
+/// A kind's name in messages: "a list", "a number", ..
 const char* kind_name(Pickle::Kind kind);
 
 }  // namespace tureen

@@ -1,9 +1,9 @@
-// What torch.save wrote, read as data and without Python: a zip archive of one pickle and one file
-// of plain numbers a storage (torch 1.6 and later). A tensor is a view into a storage: offset,
-// shape and strides, in elements.
+// Files of torch.save (torch 1.6 and later), read as data without Python: a zip archive with one
+// pickle and one file of plain numbers a storage. A tensor is a view into a storage: offset, shape
+// and strides, in elements.
 //
-// Does not read torch's older format, sparse or quantised tensors, or storages saved by big-endian
-// machines; they are refused with a sentence.
+// Not supported: torch's older format, sparse or quantised tensors, and storages from big-endian
+// machines. The error names the reason.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace tureen {
 struct TorchTensor {
   enum class Type { f16, bf16, f32, f64, u8, i8, i16, i32, i64 };
 
-  std::string name;  // the key it was found under, for messages
+  std::string name;  // its key in the file, for messages
   Type type = Type::f32;
   const ZipEntry* storage = nullptr;
   std::uint64_t offset = 0;
@@ -28,7 +28,7 @@ struct TorchTensor {
   std::vector<std::uint64_t> strides;
   const Pickle::Value* origin = nullptr;  // for messages
 
-  /// The product of the shape; no more than the storage holds.
+  /// The product of the shape; at most the elements of the storage.
   std::uint64_t elements() const;
 };
 
@@ -37,30 +37,31 @@ std::string shape_text(const std::vector<std::uint64_t>& shape);
 
 class TorchArchive {
  public:
-  /// Throws InputError, also for a pickle with anything that is not on the list (formats/pickle).
+  /// Throws InputError, also for a pickle with an opcode or global that is not allowed
+  /// (formats/torch/pickle.hpp).
   explicit TorchArchive(Input input);
 
   const Pickle& pickle() const { return *pickle_; }
-  /// The value under `key` of the dict that the file holds, or null.
+  /// The value under `key` of the file's dict, or null.
   const Pickle::Value* find(std::string_view key) const;
-  /// The same, but throws an InputError when there is none.
+  /// The same, but throws InputError if it is missing.
   const Pickle::Value& at(std::string_view key) const;
 
-  /// Shape, strides and place of the tensor `value`, checked against its storage.
+  /// Shape, strides and offset of the tensor `value`, checked against its storage.
   TorchTensor tensor(const Pickle::Value& value, std::string name) const;
   TorchTensor tensor(std::string_view key) const { return tensor(at(key), std::string(key)); }
-  /// Throws an InputError unless the shape is this one; 0 stands for any size.
+  /// Throws InputError if the shape differs; 0 matches any size.
   void expect_shape(const TorchTensor& tensor, const std::vector<std::uint64_t>& wanted) const;
 
-  /// All elements in row-major order; of any type.
+  /// All elements in row-major order, converted from any type.
   std::vector<float> read_floats(const TorchTensor& tensor);
-  /// The same for indices; refuses tensors of a floating type.
+  /// The same for indices; rejects tensors of a floating-point type.
   std::vector<std::int64_t> read_integers(const TorchTensor& tensor);
 
-  /// An integer (or boolean) value; throws an InputError for any other kind.
+  /// An integer (or boolean) value. Throws InputError for any other kind.
   std::int64_t integer(std::string_view key) const;
 
-  /// Counts what is about to be made of a tensor. Throws InputError where that is too much.
+  /// Counts the memory for a tensor's values. Throws InputError beyond the budget.
   void take_memory(const TorchTensor& tensor, std::uint64_t elements, std::size_t each) const;
   MemoryBudget budget() const { return zip_.budget(); }
 
@@ -71,7 +72,7 @@ class TorchArchive {
   std::vector<T> read(const TorchTensor& tensor);
 
   ZipArchive zip_;
-  std::string prefix_;  // of every entry's name, with the slash
+  std::string prefix_;  // of all entry names, with the slash
   std::unique_ptr<Pickle> pickle_;
 };
 

@@ -1,8 +1,8 @@
-// Zip archives from untrusted hands, read by way of their central directory (PKWARE APPNOTE 6.3):
-// stored and deflated entries, zip64. Torch checkpoints are such archives.
+// Untrusted zip archives, read through their central directory (PKWARE APPNOTE 6.3): stored and
+// deflated entries, zip64. Torch checkpoints are such archives.
 //
-// Does not: write, decrypt, read archives in several parts, repair, or compare checksums (torch can
-// be told to save without them, and reads such files back).
+// Not supported: writing, decryption, multi-part archives, repair, and checksums. Checksums are
+// ignored because torch can save without them and reads such files.
 #pragma once
 
 #include <cstddef>
@@ -21,32 +21,32 @@ struct ZipEntry {
   std::string name;
   Method method = Method::stored;
   std::uint64_t size = 0;             // of the content
-  std::uint64_t compressed_size = 0;  // of the bytes in the archive, all within the file
-  std::uint64_t header = 0;           // byte of the local header
+  std::uint64_t compressed_size = 0;  // in the archive; inside the file
+  std::uint64_t header = 0;           // offset of the local header
 };
 
 class ZipArchive {
  public:
-  /// A deflated entry that claims to hold more is refused, so that a small file cannot ask for all
-  /// memory there is. A stored entry is bounded by the file itself.
+  /// Largest size of a deflated entry; larger ones are rejected, so that a small file cannot
+  /// request all memory. The file itself limits a stored entry.
   static constexpr std::uint64_t max_inflated_bytes = std::uint64_t(1) << 31;
 
-  /// Reads the central directory. Throws InputError when it is damaged, when an entry does not lie
-  /// within the file, when two have the same name, or when one is encrypted or packed in a way
-  /// other than the two above.
+  /// Reads the central directory. Throws InputError if it is damaged, an entry lies outside the
+  /// file, two entries have the same name, or an entry is encrypted or uses another compression
+  /// method.
   explicit ZipArchive(Input input);
 
   const std::string& name() const { return input_.name(); }
   const MemoryBudget& budget() const { return input_.budget(); }
   const std::vector<ZipEntry>& entries() const { return entries_; }
-  /// Null when there is none.
+  /// Null if there is none.
   const ZipEntry* find(std::string_view name) const;
 
-  /// Fills `out` with the content from byte `offset` on; offset + out.size() <= entry.size. A
-  /// stored entry is read there and nowhere else, a deflated one from its beginning.
+  /// Fills `out` with the content from byte `offset` on; offset + out.size() <= entry.size. Only
+  /// the requested part of a stored entry is read; a deflated one is read from its beginning.
   void read(const ZipEntry& entry, std::uint64_t offset, std::span<std::byte> out);
 
-  /// The whole content; throws InputError when that is over `limit` bytes.
+  /// The whole content. Throws InputError if it exceeds `limit` bytes.
   std::vector<std::byte> read_all(const ZipEntry& entry, std::uint64_t limit);
 
   [[noreturn]] void fail_in(const ZipEntry& entry, const std::string& reason) const;

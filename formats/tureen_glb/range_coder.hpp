@@ -1,10 +1,10 @@
-// A binary range coder with adaptive probabilities: each yes or no takes as much of the file as it
-// is surprising (G. N. N. Martin, Range encoding, 1979; the carry is handled as 7-Zip's LZMA does).
+// A binary range coder with adaptive probabilities: a bit of probability p costs -log2(p) bits in
+// the file (G. N. N. Martin, Range encoding, 1979; carries are handled as in 7-Zip's LZMA).
 //
-// Encoder and decoder have the same `bit`: the encoder is told the bit, the decoder ignores what it
-// is told; both return it. So one walk over the data serves for both directions and cannot
-// disagree with itself. The decoder takes any bytes: past their end it reads zeros, and exhausted()
-// says so.
+// Encoder and decoder have the same `bit` function. The encoder codes its argument; the decoder
+// ignores the argument; both return the bit. One traversal of the data therefore serves both
+// directions. The decoder accepts any bytes: past their end it reads zeros, and exhausted() returns
+// true.
 #pragma once
 
 #include <array>
@@ -17,15 +17,15 @@
 
 namespace tureen {
 
-/// How likely the next bit is 0: the mean of a quick and a slow estimate, 16 bits each. The quick
-/// one follows what changes, the slow one is right in the long run. Both begin as the mean of the
-/// bits so far and of half a bit that is either, so that a model that is seldom asked learns, too.
+/// Probability that the next bit is 0: the mean of a fast and a slow estimate, 16 bits each. The
+/// fast one follows changes, the slow one is accurate in the long run. Both begin as the mean of
+/// the bits so far plus half a bit of either value, so that rarely used models adapt quickly.
 class BitModel {
  public:
-  // No constant expression: compilers would work out arrays of thousands of them one by one.
+  // Not constexpr: compilers would evaluate arrays of thousands of models one by one.
   BitModel() : quick_(32768), slow_(32768) {}
 
-  /// In 1..4095 of 4096: no bit is ever impossible.
+  /// In 1..4095 of 4096, so that both bits are always possible.
   std::uint32_t probability_of_zero() const {
     const std::uint32_t mean = (std::uint32_t(quick_) + slow_) >> 5;
     return mean < 1 ? 1 : mean > 4095 ? 4095 : mean;
@@ -39,8 +39,8 @@ class BitModel {
  private:
   static constexpr int slow_pace = 128;
 
-  /// The estimate after a bit that counts one in `pace`, or in the bits so far and one and a half,
-  /// if those are fewer. Quotients are cut off towards zero: decoders everywhere must agree.
+  /// The estimate after a bit with weight 1/`pace`, or 1 / (bits so far + 1.5) if that is larger.
+  /// Quotients are truncated towards zero: all decoders must agree.
   std::uint16_t moved(int estimate, int bit, int pace) const {
     const int by = (bit ? 0 : 65535) - estimate, halves = 2 * bits_ + 3;
     return static_cast<std::uint16_t>(estimate + (halves < 2 * pace ? 2 * by / halves : by / pace));
@@ -68,7 +68,7 @@ class RangeEncoder {
     return bit;
   }
 
-  /// The bytes; the encoder is spent afterwards.
+  /// The bytes; the encoder must not be used afterwards.
   std::vector<std::byte> finish() {
     for (int i = 0; i < 5; ++i) shift();
     return std::move(bytes_);
@@ -95,8 +95,7 @@ class RangeEncoder {
   std::vector<std::byte> bytes_;
 };
 
-/// What bits would take, for an encoder that has a choice: it codes nothing, and models learn
-/// nothing.
+/// The cost of bits, for an encoder that has a choice. It codes nothing and does not update models.
 class BitPrice {
  public:
   int bit(const BitModel& model, int bit) {
@@ -107,7 +106,7 @@ class BitPrice {
   double bits() const { return bits_; }
 
  private:
-  /// Of something with a probability of `of_4096`, 1..4095.
+  /// Cost of an event with probability `of_4096` / 4096; `of_4096` is in 1..4095.
   static double of(std::uint32_t of_4096) {
     static const auto table = [] {
       std::array<double, 4096> result{};
@@ -144,7 +143,7 @@ class RangeDecoder {
     return bit;
   }
 
-  /// More was read than there is: the bytes are cut short or damaged.
+  /// Whether reading passed the end: the bytes are truncated or damaged.
   bool exhausted() const { return past_end_ > 0; }
 
  private:
@@ -161,12 +160,13 @@ class RangeDecoder {
   std::uint32_t code_ = 0;
 };
 
-/// Whole numbers by their length in bits, then the bits below the leading one. Lengths and the two
-/// leading bits adapt; what is below them is noise and is taken as it comes.
+/// Codes non-negative integers: their length in bits, then the bits below the leading one. The
+/// length and the next two bits have adaptive models by context; the remaining bits share one model
+/// a length.
 template <int max_length>
 class NumberModel {
  public:
-  /// `value` in 0..2^max_length - 2; so is what comes back, whatever a decoder's bytes are.
+  /// `value` in 0..2^max_length - 2. The decoded value is in the same range for any bytes.
   template <class Coder>
   std::uint32_t code(Coder& coder, std::uint32_t value) {
     const std::uint32_t wanted = value + 1;
@@ -194,7 +194,7 @@ class NumberModel {
   BitModel rest_[max_length + 1];
 };
 
-/// The same with a sign, which adapts, too.
+/// The same for signed integers; the sign is adaptive as well.
 template <int max_length>
 class SignedModel {
  public:

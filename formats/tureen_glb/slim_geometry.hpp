@@ -1,9 +1,9 @@
-// Triangles in few bytes, with a loss that the caller sets: the geometry of a slim file
+// Lossy compression of triangles with an adjustable error: the geometry of a compressed file
 // (docs/format.md, version 3).
 //
-// Positions lie on a grid from the corner of the soup's box. A face's first corner is told from the
-// face before it, the other two from the first; a corner that was there already is named by how
-// long ago. So faces that follow each other in space take the fewest bytes.
+// Positions lie on a grid from the corner of the soup's box. A face's first corner is predicted
+// from the previous face, the other two from the first. A repeated corner is coded by its distance
+// back. Faces that are adjacent in space therefore take the fewest bytes.
 #pragma once
 
 #include <cstddef>
@@ -23,21 +23,20 @@ struct SlimGeometry {
   std::vector<glm::uvec3> triangles;
 };
 
-/// How many different vertices the triangles use: a slim file holds no others.
+/// Number of distinct vertices in the triangles; a compressed file stores only these.
 std::size_t used_vertices(std::span<const glm::uvec3> triangles);
 
-/// Bits of the longest side of the box that a grid may have.
+/// Largest number of grid bits along the longest side of the box.
 inline constexpr int max_slim_bits = 23;
 
-/// The triangles, with positions rounded to a grid of 2^bits steps along the longest side of their
-/// box, 1..max_slim_bits: off by half a step at most in each coordinate. Vertices come back in the
-/// order in which triangles first use them, those that none uses not at all. Throws UsageError
-/// where a position that is used is not finite.
+/// Encodes the triangles with positions rounded to a grid of 2^bits steps along the longest side of
+/// their box, 1..max_slim_bits. The error is at most half a step in each coordinate. Vertices are
+/// decoded in the order of their first use; unused ones are dropped. Throws UsageError if a used
+/// position is not finite.
 std::vector<std::byte> encode_slim_geometry(const SlimGeometry& geometry, int bits);
 
-/// Throws InputError, which names `file`, for bytes that were cut short or hold other than so many
-/// faces and vertices, or take more memory than the budget has left. At most 4,096 bytes are
-/// allocated for each one that is there.
+/// Throws InputError, which names `file`, if the bytes are truncated, have other numbers of faces
+/// or vertices, or exceed the budget. Allocates at most 4,096 bytes per input byte.
 SlimGeometry decode_slim_geometry(std::span<const std::byte> bytes, std::size_t vertices,
                                   std::size_t faces, const std::string& file,
                                   MemoryBudget budget = MemoryBudget());

@@ -1,4 +1,5 @@
-// What lies before the coded texels of a slim file, byte for byte. Internal to slim_texels_*.cpp.
+// The header before the coded texels of a compressed file, byte for byte. Internal to
+// slim_texels_*.cpp.
 #pragma once
 
 #include <array>

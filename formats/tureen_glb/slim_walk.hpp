@@ -1,5 +1,5 @@
-// The walk over a slim file's texels that encoder and decoder share; what the range coder is told
-// in which order, with which probability. Internal to slim_texels_*.cpp.
+// The traversal of a compressed file's texels, shared by encoder and decoder: the order of the
+// coded values and their probability models. Internal to slim_texels_*.cpp.
 #pragma once
 
 #include <algorithm>
@@ -17,32 +17,33 @@ namespace tureen::slim {
 
 inline constexpr int channels = LatticeTexture::channels;
 inline constexpr int alpha = LatticeTexture::features;
-/// Texels and faces a stored byte: the 60 bytes that one needs meanwhile at most stay within 4,096.
-/// The encoder pads what is smaller, so that a small file cannot ask for much memory.
+/// Largest number of texels and faces per stored byte. Each needs at most 60 bytes of temporary
+/// memory, so the total stays within 4,096 bytes per byte. The encoder pads smaller data, so a
+/// small file cannot request much memory.
 inline constexpr std::uint64_t max_per_byte = 64;
 
-/// A texel that a level adds to the one below it, in that level's coordinates, and the two texels
-/// that it lies between.
+/// A texel that a level adds to the level below, in that level's coordinates, and the two texels
+/// around it.
 struct Middle {
   lattice::Coordinates at, a, b;
 };
 
-/// Those of a level, 1..lattice::max_level, diagonal by diagonal.
+/// The middles of a level, 1..lattice::max_level, diagonal by diagonal.
 const std::vector<Middle>& middles(int level);
 
-/// Where a texel of a coarser level, `shift` levels below the patch's own, lies in it.
+/// Index in the patch of a texel on a level that is `shift` levels coarser.
 inline std::uint32_t index_of(lattice::Coordinates c, int shift) {
   return lattice::texel_index(c.x << shift, c.y << shift);
 }
 
-/// What is known of a patch before its texels.
+/// Properties of a patch that precede its texels.
 struct Patch {
   std::uint32_t first_texel = 0;
   std::uint8_t level = 0;
   std::uint8_t coarseness = one_step;
 };
 
-/// The patches of a stream, and which one each face has.
+/// The patches of a stream, and the patch index of each face.
 struct Faces {
   std::vector<Patch> patches;
   std::vector<std::uint32_t> patch_of_face;
@@ -54,11 +55,11 @@ struct Steps {
   int alpha = 1;
 };
 
-/// The probabilities of everything in the stream.
+/// The probability models of the whole stream.
 struct Models {
   static constexpr int nearby = 12, others = 4;
-  /// How much is missed, by what was missed nearby and in other channels of the texel, and, of what
-  /// is, the sign by that of another channel.
+  /// Models of the residual: its size by nearby residuals and those of the texel's other channels,
+  /// and its sign by that of another channel.
   struct Miss {
     BitModel zero[nearby][others];
     BitModel negative[nearby][3];
@@ -71,7 +72,7 @@ struct Models {
   NumberModel<25> distance;
 };
 
-/// Three bits, each with a probability that depends on those before it and on the last value.
+/// Three bits. Each probability depends on the preceding bits and on the last value.
 template <class Coder>
 std::uint8_t three_bits(Coder& coder, BitModel (&models)[8][8], unsigned last, unsigned value) {
   unsigned node = 1;
@@ -80,8 +81,8 @@ std::uint8_t three_bits(Coder& coder, BitModel (&models)[8][8], unsigned last, u
   return static_cast<std::uint8_t>(node & 7u);
 }
 
-/// The level and coarseness of each patch, and the patch of each of `count` faces. A decoder's
-/// `given` is empty. False where the bytes name a patch that is not there, or hold more texels than
+/// Codes the level and coarseness of each patch, and the patch of each of `count` faces. A decoder
+/// passes an empty `given`. Returns false if the bytes name a missing patch or exceed
 /// `texel_limit`.
 template <class Coder>
 bool code_faces(Coder& coder, Models& models, std::size_t count, const Faces& given,
@@ -111,24 +112,24 @@ bool code_faces(Coder& coder, Models& models, std::size_t count, const Faces& gi
   return true;
 }
 
-/// A value that an encoder has to code.
+/// A value to be coded.
 struct Question {
   std::size_t texel;
   int channel;
-  int finer_levels;  // of the patch, that are predicted from this one
+  int finer_levels;  // of the patch, predicted from this value
   int prediction;
   int step;
 };
 
-/// All values of all patches. `choose(question, price)` gives the steps to take from the
-/// prediction, of which price(steps) tells the bits; a decoder's is not asked.
+/// Codes all values of all patches. `choose(question, price)` returns the residual in steps;
+/// price(steps) is its cost in bits. A decoder ignores the result.
 template <class Coder, class Choose>
 class Walk {
  public:
   Walk(Coder& coder, Models& models, Steps steps, const Choose& choose)
       : coder_(coder), models_(models), steps_(steps), choose_(choose) {}
 
-  /// `channels` a texel.
+  /// Returns `channels` values a texel.
   std::vector<std::int16_t> operator()(const Faces& faces) {
     values_.resize(std::size_t(faces.texels) * channels);
     missed_.resize(values_.size());
@@ -146,7 +147,7 @@ class Walk {
  private:
   using Values = std::array<int, channels>;
 
-  /// How much a patch has missed so far, channel by channel.
+  /// Sum of the residual magnitudes in a patch so far, channel by channel.
   struct Activity {
     std::array<std::int32_t, channels> missed{};
     std::int32_t texels = 0;
@@ -197,12 +198,12 @@ class Walk {
     std::size_t texel;
   };
 
-  /// `parents`: what the two texels that it lies between missed; `before`: the texels before it on
-  /// this level, newer ones counting more.
+  /// `parents`: residuals of the two neighbours; `before`: weighted residuals of the preceding
+  /// texels on this level, with more weight on recent ones.
   void texel(const Place& place, const Values& predictions, const Values& parents, Values& before) {
     Activity& activity = place.activity;
     int others = 0, sign = 0;
-    // Alpha first: where nothing shows, the features have nothing to say.
+    // Alpha first: it determines the visibility of the features.
     for (int k = 0; k < channels; ++k) {
       const int c = k == 0 ? alpha : k - 1;
       const auto i = std::size_t(c);

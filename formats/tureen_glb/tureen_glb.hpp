@@ -1,8 +1,9 @@
-// Tureen's own file: a GLB that any glTF viewer opens, with the vendor extension
-// TUREEN_triangle_soup, which holds the scene exactly. docs/format.md specifies every byte.
+// Tureen's own file format: a GLB that any glTF viewer opens, with the vendor extension
+// TUREEN_triangle_soup. The extension stores the scene exactly. docs/format.md specifies every
+// byte.
 //
-// What it does not do: it does not read foreign glTF (formats/gltf/gltf.hpp does, and is the door
-// to both), and it keeps no bytes beyond 4 GiB, which is as much as a GLB can hold.
+// Not supported: foreign glTF, which formats/gltf/gltf.hpp reads (it is the entry point for both),
+// and files above 4 GiB, the limit of GLB.
 #pragma once
 
 #include <filesystem>
@@ -19,30 +20,28 @@ struct GlbContainer;
 
 inline constexpr char tureen_extension[] = "TUREEN_triangle_soup";
 inline constexpr int tureen_extension_version = 1;
-/// Of files whose soup is coded with a loss (formats/tureen_glb/tureen_glb_slim.hpp). Version 2 was
-/// coded in another way, before any release.
+/// Version of compressed files (formats/tureen_glb/tureen_glb_slim.hpp). Version 2 used another
+/// coding and was never released.
 inline constexpr int tureen_slim_version = 3;
 
-/// Reads the binary chunk in the order in which it lies, straight into the scene's vectors: beyond
-/// them it holds one strip of texels at a time. Every count is checked against the bytes that are
-/// there before anything is allocated. The scene is what was written, bit by bit, and has no
-/// defect(). Throws InputError.
+/// Reads the binary chunk in file order, directly into the scene's vectors. Additional memory: one
+/// strip of texels. Every count is checked against the available bytes before any allocation. The
+/// scene equals the written one bit by bit and has no defect(). Throws InputError.
 Scene read_tureen_glb(Input& input, const ReadOptions& options = {});
 
-/// The same for a container that has been read already.
+/// The same for a container that has already been read.
 Scene read_tureen_glb(Input& input, const GlbContainer& glb, const ReadOptions& options);
 
-/// Whether this is one of our files.
 bool is_tureen_glb(const GlbContainer& glb);
 
-/// Writes every kind of scene, soft triangles too, and its quality. Returns what is lost, a
-/// sentence each: nothing, unless a text is not UTF-8. Throws UsageError for a scene that has a
-/// defect(), has no up axis, holds a camera without pixels or with more than 65,536 in a row or
-/// column, holds a camera or a material with numbers that are not finite, does not fit into 4 GiB,
-/// or whose quality has a defect(); OutputError where the file cannot be written.
+/// Writes every kind of scene, including soft triangles, and its quality. Returns one sentence for
+/// each loss; the only possible loss is a text that is not UTF-8. Throws UsageError for a scene
+/// that has a defect(), no up axis, or a quality with a defect(). It also throws UsageError for a
+/// camera without pixels or with a side above 65,536, for non-finite numbers in a camera or
+/// material, and above 4 GiB. Throws OutputError if the file cannot be written.
 ///
-/// Memory beside the scene: the final colours (8 bytes a vertex of the drawn mesh) and the encoded
-/// images. Arrays of the scene are written from where they lie.
+/// Memory in addition to the scene: the final colours (8 bytes a vertex of the drawn mesh) and the
+/// encoded images. The scene's arrays are written without a copy.
 std::vector<std::string> write_tureen_glb(const Scene& scene, const std::filesystem::path& path);
 
 }  // namespace tureen

@@ -1,5 +1,5 @@
-// What the extension says before any appearance: its version, what is known of the scene, positions
-// and triangles. The reader of whole files and the preview share it. Include it in sources only.
+// The part of the extension that is independent of the appearance: version, scene info, positions
+// and triangles. The full reader and the preview share it. Include it only in sources.
 #pragma once
 
 #include "formats/gltf/glb_arrays.hpp"
@@ -7,22 +7,22 @@
 
 namespace tureen {
 
-/// The root's TUREEN_triangle_soup. Throws InputError where there is none, or one of a version that
-/// is not read.
+/// The root's TUREEN_triangle_soup. Throws InputError if it is missing or of an unsupported
+/// version.
 JsonView tureen_extension_of(const GlbArrays& arrays);
 
 /// Name, source, notes, up, background, origin and cameras.
 void read_info(const JsonView& extension, Scene& scene);
 
-/// Where the soup's own vertices and triangles lie in a file that is not slim.
+/// Locations of the soup's vertices and triangles in an uncompressed file.
 struct GeometryLayout {
   std::uint64_t vertices = 0, faces = 0;
   GlbArrays::Location positions;
-  GlbArrays::Location triangles;  // of no bytes: face t is (3t, 3t + 1, 3t + 2)
+  GlbArrays::Location triangles;  // empty: face t is (3t, 3t + 1, 3t + 2)
 };
 GeometryLayout geometry_layout(const GlbArrays& arrays, const JsonView& extension);
 
-/// Positions and triangles; that the triangles name vertices that exist, defect() must say.
+/// Reads positions and triangles. Indices are not checked; defect() does that.
 void read_geometry(GlbArrays& arrays, const GeometryLayout& layout, TriangleSoup& soup);
 
 }  // namespace tureen

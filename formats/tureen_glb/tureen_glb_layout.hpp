@@ -1,5 +1,5 @@
-// What the writer and the reader of TUREEN_triangle_soup share: the names of enumerations and the
-// bounds of a strip. docs/format.md is the specification.
+// Constants shared by the writer and the reader of TUREEN_triangle_soup: names of enumerators and
+// the size of a strip. docs/format.md is the specification.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@ inline constexpr int unsigned_short = 5123;
 inline constexpr int unsigned_int = 5125;
 inline constexpr int float32 = 5126;
 
-// A strip of lattice texels is two images of the same size, filled row by row, at most this large:
-// 8 MiB decoded. A reader that streams holds no more than that.
+// A strip of lattice texels is two images of the same size, filled row by row. Its maximum size is
+// 8 MiB decoded; a streaming reader holds at most one strip.
 inline constexpr std::uint32_t strip_width = 1024;
 inline constexpr std::uint32_t strip_rows = 1024;
 inline constexpr std::uint32_t strip_texels = strip_width * strip_rows;

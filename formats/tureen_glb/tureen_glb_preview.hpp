@@ -1,10 +1,9 @@
-// A scene of ours before all of it has arrived: the mesh that any glTF viewer sees, in the mean
-// colours that our writer puts before network and texels (docs/format.md), for a page that shows a
-// first picture while the rest is on its way.
+// A preview of a partially loaded file of ours: the mesh for other glTF viewers with its mean
+// colours. Our writer stores them before network and texels (docs/format.md). A page thus shows a
+// first image while the rest loads.
 //
-// What it does not do: it knows no other files than our GLB, and of those not the slim ones, which
-// have no mesh; it keeps nothing between two calls, so ask for the size until it is known, and for
-// the scene once as many bytes are there.
+// Not supported: other formats, and compressed files, which have no mesh. No state is kept between
+// calls: call for the size until it is known, and for the scene once as many bytes are available.
 #pragma once
 
 #include <cstddef>
@@ -17,19 +16,19 @@
 
 namespace tureen {
 
-/// How many of the file's first bytes a preview takes, told by the first bytes that there are,
-/// `prefix`: nothing until they hold the JSON chunk and the header behind it, some kilobytes in
-/// most files; 0 where there will be no preview: another kind of file, a slim one, a soup without
-/// faces. `name` stands for the file in errors. Throws InputError where the beginning of the file
-/// is wrong already. Safe for untrusted bytes.
+/// Number of leading bytes that a preview needs, from the available first bytes `prefix`. Returns
+/// nullopt until they contain the JSON chunk and the next chunk's header, a few kilobytes in most
+/// files. Returns 0 if there is no preview: another format, a compressed file, a soup without
+/// faces. Errors print `name` as the file. Throws InputError if the available bytes are invalid.
+/// Safe for untrusted bytes.
 std::optional<std::uint64_t> tureen_glb_preview_size(std::span<const std::byte> prefix,
                                                      const std::string& name);
 
-/// The scene as far as it can be shown: what read_tureen_glb will say of it (origin, cameras, info)
-/// with its positions and triangles, but FaceColors, each face's final colour in the mean, or, of a
-/// soup of vertex colours, VertexColors; rounded to 16 bits linear, opaque, cut-outs as whole
-/// triangles, soft triangles as hard ones. Its quality is the default, and it has no defect().
-/// Nothing where the size above is not known, 0, or more than `prefix` has. Throws InputError.
+/// The previewed scene: origin, cameras, info, positions and triangles as read_tureen_glb returns
+/// them. The appearance is FaceColors, each face's mean final colour, or VertexColors for a soup of
+/// vertex colours. Colours are rounded to 16 bits linear and opaque; cut-outs become whole
+/// triangles, soft triangles hard ones. Its quality is the default, and it has no defect(). Returns
+/// nullopt if the size above is unknown, 0, or larger than `prefix`. Throws InputError.
 std::optional<Scene> read_tureen_glb_preview(std::span<const std::byte> prefix,
                                              const std::string& name);
 

@@ -1,5 +1,5 @@
-// The member "preset" of TUREEN_triangle_soup: how finely a scene is sampled, and in files of
-// earlier versions also how its data are to be reduced. Include it in sources only.
+// The member "preset" of TUREEN_triangle_soup: the sampling quality, and in files of earlier
+// versions also edits of the data. Include it only in sources.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -12,19 +12,19 @@
 
 namespace tureen {
 
-/// The values that are not at their defaults.
+/// The values that differ from their defaults.
 nlohmann::json quality_json(const Quality& quality);
 
 struct StoredPreset {
   Quality quality;
-  /// Only in files of earlier versions; without keeps_face, which lies in the binary chunk.
+  /// Only in files of earlier versions; without keeps_face, which is in the binary chunk.
   Edits edits;
   /// Keys of settings that no longer exist.
   std::vector<std::string> ignored;
 };
 
-/// Keys that no version ever had are ignored without a trace. A value of the wrong kind or out of
-/// its range throws InputError with its path.
+/// Unknown keys that no version had are ignored without a remark. A value of the wrong kind or out
+/// of range throws InputError with its path.
 StoredPreset read_preset(const JsonView& view);
 
 }  // namespace tureen

@@ -1,6 +1,6 @@
-// The slim file: TUREEN_triangle_soup, version 3, in which geometry and texels are coded with a
-// loss that the caller sets (docs/format.md). Read by read_tureen_glb like any file of ours, also
-// in the browser; other glTF viewers refuse it, as it has no mesh for them.
+// The compressed file: TUREEN_triangle_soup, version 3, with lossy geometry and texels of
+// adjustable error (docs/format.md). read_tureen_glb reads it, also in the browser. Other glTF
+// viewers reject it, since it has no mesh for them.
 #pragma once
 
 #include <filesystem>
@@ -18,23 +18,23 @@ struct SlimOptions {
   SlimTexelOptions texels = {};
 };
 
-/// The arrays of a slim file.
+/// The arrays of a compressed file.
 struct SlimSoup {
   std::vector<std::byte> geometry;
   std::vector<std::byte> texels;
 };
 
-/// The soup has a lattice texture and no defect(). Throws UsageError for a vertex that is not
-/// finite or more than 2^32 texels.
+/// Compresses a soup with a lattice texture and no defect(). Throws UsageError for a non-finite
+/// vertex or more than 2^32 texels.
 SlimSoup encode_slim(const TriangleSoup& soup, const SlimOptions& options);
 
-/// What a reader of these makes of them, to look at before it is written: the soup that was encoded
-/// but for the loss, with its color MLP and its faces in their order.
+/// The decoded result before writing: the encoded soup with its losses, its color MLP and its face
+/// order.
 TriangleSoup decode_slim(const SlimSoup& slim, const TriangleSoup& encoded);
 
-/// Writes them as a GLB with everything else of the scene; `scene` holds the soup that was encoded.
-/// Returns what is lost beside: a sentence each. Throws UsageError where the scene has no lattice
-/// texture or what write_tureen_glb refuses, OutputError where the file cannot be written.
+/// Writes a GLB with the arrays and all other data of the scene; `scene` holds the encoded soup.
+/// Returns one sentence for each further loss. Throws UsageError if the scene has no lattice
+/// texture or write_tureen_glb would reject it. Throws OutputError if the file cannot be written.
 std::vector<std::string> write_slim_glb(const Scene& scene, const SlimSoup& slim,
                                         const std::filesystem::path& path);
 

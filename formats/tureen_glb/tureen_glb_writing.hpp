@@ -1,5 +1,5 @@
-// What the writers of TUREEN_triangle_soup share: the binary chunk as a list of pieces, the JSON of
-// what every scene has, and the file around both. Internal to tureen_glb_*.cpp.
+// Code shared by the writers of TUREEN_triangle_soup: the binary chunk as a list of pieces, the
+// JSON of the scene, and the file. Internal to tureen_glb_*.cpp.
 #pragma once
 
 #include <cstddef>
@@ -26,14 +26,14 @@ std::span<const std::byte> bytes_of(const std::vector<T>& values) {
   return std::as_bytes(std::span(values));
 }
 
-/// The binary chunk as pieces, and the glTF arrays that describe it.
+/// The binary chunk as a list of pieces, with the glTF arrays that describe it.
 class BinaryPlan {
  public:
   /// The bytes must outlive the plan. Returns the buffer view's index.
   std::size_t view(std::span<const std::byte> bytes) {
     buffer_views.push_back({{"buffer", 0}, {"byteOffset", size_}, {"byteLength", bytes.size()}});
     pieces_.push_back(bytes);
-    // Every piece begins at a multiple of 4, as glTF asks of accessors.
+    // Every piece begins at a multiple of 4, as glTF requires for accessors.
     size_ += (bytes.size() + 3) / 4 * 4;
     return buffer_views.size() - 1;
   }
@@ -50,7 +50,7 @@ class BinaryPlan {
     bool normalized = false;
   };
 
-  /// glTF allows no accessor without elements: an empty array gets none, and its key is left out.
+  /// glTF allows no accessor without elements: an empty array adds no accessor and no key.
   void accessor(json& holder, const char* key, std::span<const std::byte> bytes,
                 const Format& format) {
     if (bytes.empty()) return;
@@ -99,15 +99,15 @@ class BinaryPlan {
   std::deque<std::vector<std::byte>> owned_;  // a deque: its elements never move
 };
 
-/// Everything but geometry and appearance. Adds to `losses` what JSON cannot hold. Throws
-/// UsageError as write_tureen_glb does.
+/// The JSON of everything except geometry and appearance. Appends to `losses` what JSON cannot
+/// store. Throws UsageError as write_tureen_glb does.
 json info_json(const Scene& scene, std::vector<std::string>& losses);
 
-/// Its weights go into the plan.
+/// The JSON of a color MLP; its weights are added to the plan.
 json mlp_json(BinaryPlan& plan, const ColorMlp& mlp);
 
-/// The arrays of the plan join the document, and both the file. Throws UsageError for more than
-/// 4 GiB, OutputError where it cannot be written.
+/// Adds the plan's arrays to the document and writes the file. Throws UsageError above 4 GiB,
+/// OutputError if the file cannot be written.
 void write_glb(json document, const BinaryPlan& plan, const std::filesystem::path& path);
 
 }  // namespace tureen::glb_writing
