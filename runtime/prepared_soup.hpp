@@ -1,7 +1,7 @@
-// All that a renderer wants to know of a soup, found without a device: what is drawn, and the bytes
-// that go to the device, block by block when they are asked for. A program makes it where it will,
-// on a thread or in another process (web/engine/prepared_archive.hpp), and a Renderer of it where
-// the context is.
+// The data that a renderer needs from a soup, prepared without a device: the plan, and functions
+// that produce the device's data block by block. Preparation may run on another thread or in
+// another process (web/engine/prepared_archive.hpp). The Renderer is then created where the context
+// is current.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -23,13 +23,12 @@ struct PreparedSoup {
   GeometrySource geometry;
 };
 
-/// Plans for the device's limits, or for options.limits.
-/// The sources read the soup, which must stay where it is until they have been used. The soup must
-/// have no defect(); the pipeline must be ours. Throws UsageError and DeviceLimitError as Renderer
-/// does.
+/// Plans for the device's limits, or for options.limits. The sources read the soup, which must not
+/// move until they have been used. The soup must have no defect(); the pipeline must be ours.
+/// Throws UsageError and DeviceLimitError as Renderer does.
 PreparedSoup prepare_soup(const TriangleSoup& soup, glm::dvec3 origin, const DeviceLimits& device,
                           const RenderOptions& options);
-/// The same with a plan that make_plan made of this soup for such limits.
+/// The same with a plan from make_plan for this soup and these limits.
 PreparedSoup prepare_soup(const TriangleSoup& soup, glm::dvec3 origin, const DeviceLimits& limits,
                           RenderPlan plan);
 

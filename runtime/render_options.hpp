@@ -1,4 +1,4 @@
-// What a caller may ask of a renderer beside the soup.
+// Options of a renderer.
 #pragma once
 
 #include <glm/vec4.hpp>
@@ -10,9 +10,9 @@ namespace tureen {
 
 struct RenderOptions {
   PlanPreferences plan = {};
-  /// What pixels without a face become: display-referred colour, and alpha (0 for transparent).
+  /// Display-referred colour and alpha (0: transparent) of pixels without a face.
   glm::vec4 background{0.0f, 0.0f, 0.0f, 1.0f};
-  /// Pretend that the device can do no more than this (tests, forecasts).
+  /// Limits that replace those of the device (tests, forecasts).
   std::optional<DeviceLimits> limits = {};
 };
 

@@ -1,8 +1,8 @@
-// Draws what runtime/debug_views/inspection.hpp names of a soup, frame by frame, as Renderer draws
-// its colours: the same faces in the same pixels, but for what says otherwise.
+// Draws the debug views of runtime/debug_views/inspection.hpp for a soup, frame by frame. As in
+// Renderer, the same faces cover the same pixels, with the exceptions below.
 //
-// It has buffers and textures of its own, of the soup as it is stored: nothing is specialised,
-// and ordinary frames know nothing of it. GL state is treated as Renderer treats it.
+// It has its own buffers and textures of the stored soup: no specialisation is applied, and
+// ordinary frames are independent of it. GL state is treated as in Renderer.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -20,14 +20,14 @@
 namespace tureen {
 
 struct InspectorOptions {
-  bool reversed_depth = true;  // where the device can, as PlanPreferences has it
-  /// What pixels become of which nothing is shown.
+  bool reversed_depth = true;  // if the device supports it, as in PlanPreferences
+  /// Colour and alpha of pixels without content.
   glm::vec4 background{0.0f, 0.0f, 0.0f, 1.0f};
 };
 
 class Inspector {
  public:
-  /// The soup is not needed afterwards. It must have no defect(). Throws DeviceLimitError when it
+  /// The soup is not needed afterwards. It must have no defect(). Throws DeviceLimitError if it
   /// does not fit.
   Inspector(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
             const InspectorOptions& options = {});
@@ -35,16 +35,16 @@ class Inspector {
   Inspector(Inspector&&) noexcept;
   Inspector& operator=(Inspector&&) noexcept;
 
-  /// What the next frames show: Inspection::color before the first call. Throws UsageError with
-  /// why_not()'s sentence.
+  /// Selects the debug view of the next frames, default Inspection::color. Throws UsageError with
+  /// the sentence of why_not().
   void show(Inspection what, const FeatureChoice& features = {});
 
   void set_background(glm::vec4 background);
 
-  /// As Renderer::draw. A pixel shows the face that an ordinary frame shows, and the background
-  /// where that has none, but for what the alpha test throws away: Inspection::alpha shows the
-  /// nearest face whether it exists there or not, overdraw counts every fragment, and the
-  /// wireframe's lines outline whole triangles where nothing is before them.
+  /// As Renderer::draw. A pixel shows the face or background of an ordinary frame, with three
+  /// exceptions for fragments that the alpha test rejects. Inspection::alpha shows the nearest face
+  /// even if it is rejected, overdraw counts every fragment, and the wireframe outlines whole
+  /// triangles if nothing is in front of them.
   void draw(const Camera& camera);
 
   /// Waits for the device.
@@ -53,18 +53,18 @@ class Inspector {
   /// The last frame. Row 0 is the top row. Waits for the device. Asserts that there was a frame.
   Image8 read_color() const;
 
-  /// The face that each pixel of the last frame shows, row 0 on top, no_face where none does; empty
-  /// for overdraw.
+  /// The visible face of each pixel of the last frame, row 0 on top, no_face for the background;
+  /// empty for overdraw.
   std::vector<std::uint32_t> read_faces() const;
 
-  /// How many fragments of overdraw each pixel of the last frame has, row 0 on top, at most
-  /// most_counted_fragments; empty where something else was shown.
+  /// The fragment count of each pixel of the last overdraw frame, row 0 on top, at most
+  /// most_counted_fragments; empty for other debug views.
   std::vector<std::uint8_t> read_fragment_counts() const;
 
-  /// Copies the last frame into a framebuffer of the same size (0 is the window).
+  /// Copies the last frame to a framebuffer of the same size (0 is the window).
   void blit_to(unsigned framebuffer) const;
 
-  /// What the colours of the last frame mean.
+  /// Legend of the last frame's colours.
   Legend legend() const;
 
   /// As Renderer::leave_context.

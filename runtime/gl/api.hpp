@@ -1,5 +1,5 @@
-// The GL functions that we call: the common subset of OpenGL 3.3 core and OpenGL ES 3.0, and what
-// newer contexts add. Loaded at run time; there is no link against any GL library.
+// The GL functions that we call: the common subset of OpenGL 3.3 core and OpenGL ES 3.0, and
+// additions of newer contexts. They are loaded at run time; no GL library is linked.
 #pragma once
 
 #ifdef __EMSCRIPTEN__
@@ -10,8 +10,8 @@
 
 namespace tureen::gl {
 
-/// Throws std::logic_error when GL reports an error. Debug builds only: glGetError waits for the
-/// driver, which a frame cannot afford.
+/// Throws std::logic_error if GL reports an error. Debug builds only, since glGetError waits for
+/// the driver, which is too slow for a frame.
 #ifndef NDEBUG
 void check(const char* where);
 #else

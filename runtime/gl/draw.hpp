@@ -1,4 +1,4 @@
-// Many runs of vertices in one call, where the context has such a call.
+// Many runs of vertices in one call, if the context supports it.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace tureen::gl {
 
-/// Triangles from the bound vertex array: counts[i] vertices from first[i] on, run by run.
+/// Triangles from the bound vertex array: counts[i] vertices beginning at first[i], run by run.
 void draw_runs(const Capabilities& capabilities, std::span<const std::int32_t> first,
                std::span<const std::int32_t> counts);
 

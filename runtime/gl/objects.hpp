@@ -1,5 +1,5 @@
-// Move-only ownership of GL objects. Nothing here binds on construction beyond what it must, and
-// nothing keeps GL state but what its name says. The context must be current, also on destruction.
+// Move-only ownership of GL objects. Construction binds only if it must, and no function keeps GL
+// state except as its name says. The context must be current, also on destruction.
 #pragma once
 
 #include <utility>
@@ -8,7 +8,7 @@
 
 namespace tureen::gl {
 
-/// One GL name; `Traits` says how it is made and deleted. Move assignment swaps.
+/// One GL name; `Traits` creates and deletes it. Move assignment swaps.
 template <class Traits>
 class Object {
  public:
@@ -76,11 +76,11 @@ using Texture = Object<TextureTraits>;
 using Framebuffer = Object<FramebufferTraits>;
 using VertexArray = Object<VertexArrayTraits>;
 
-/// A vertex array that the first bind() makes, in the context that is current then: contexts that
-/// share buffers and textures do not share these.
+/// A vertex array created by the first bind() in the current context. Contexts that share buffers
+/// and textures do not share vertex arrays.
 class LocalVertexArray {
  public:
-  /// Whether it has just been made, and lacks its attributes.
+  /// Returns whether it was just created and needs its attributes.
   bool bind() {
     const bool made = !array_;
     if (made) array_ = VertexArray::create();

@@ -1,4 +1,4 @@
-// Internal to runtime/gl: the libraries that can make a context without a window.
+// Internal to runtime/gl: libraries that create contexts without a window.
 #pragma once
 
 #include <memory>
@@ -11,12 +11,12 @@ namespace tureen::gl {
 std::unique_ptr<Context::Platform> create_egl(const ContextRequest& request);
 std::unique_ptr<Context::Platform> create_osmesa(const ContextRequest& request);
 
-/// A library opened with dlopen and kept open: GL drivers do not survive being unloaded.
+/// A library opened with dlopen and never closed, since GL drivers fail after unloading.
 class SharedLibrary {
  public:
-  /// Throws ContextError when the library cannot be opened.
+  /// Throws ContextError if the library cannot be opened.
   explicit SharedLibrary(const char* name);
-  /// Throws ContextError when the symbol is missing.
+  /// Throws ContextError if the symbol is missing.
   void* symbol(const char* name) const;
   template <class Function>
   void load(Function& function, const char* name) const {

@@ -15,11 +15,11 @@ namespace tureen::gl {
 class Program {
  public:
   Program() = default;
-  /// Compiles and links complete sources (with their version line). A failure is our own bug or a
-  /// driver's: throws ContextError with the driver's log and the numbered source.
+  /// Compiles and links complete sources (with their version line). A failure is a bug of ours or
+  /// of a driver: throws ContextError with the driver's log and the numbered source.
   Program(const std::string& vertex_source, const std::string& fragment_source);
 
-  /// A compute program, for contexts with Capabilities::compute_shaders; throws as the other.
+  /// A compute program, for contexts with Capabilities::compute_shaders; throws the same errors.
   static Program compute(const std::string& source);
 
   void use() const { glUseProgram(object_.id()); }

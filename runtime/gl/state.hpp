@@ -1,27 +1,27 @@
-// The GL state that we depend on and that somebody who shares the context may have changed.
+// GL state that we depend on and that other users of the context may have changed.
 #pragma once
 
 #include "runtime/gl/context.hpp"
 
 namespace tureen::gl {
 
-/// Every fragment is written where it falls: the whole of a width x height target, no blending,
-/// culling, stencil, scissor, dithering, coverage tricks or masked channels. Depth is tested and
-/// written; the comparison is the caller's.
+/// Every fragment is written: the whole of a width x height target, without blending, culling,
+/// stencil, scissor, dithering, sample coverage or masked channels. Depth is tested and written;
+/// the caller sets the comparison.
 void use_plain_rasterisation(int width, int height);
 
-/// Pixels move to and from memory in rows without gaps, and no pixel buffer stands in for memory.
+/// Pixel transfers use main memory, rows without gaps and no pixel buffer.
 void use_plain_pixel_transfer();
 
-/// No sampler object overrides the filters of the texture on this unit.
+/// No sampler object overrides the texture's filters on this unit.
 void use_texture_sampling(unsigned unit);
 
-/// Clip space's z from 0 to 1 becomes depth, as reversed depth wants it; or from -1 to 1, which is
-/// GL's own. Only where there is clip control.
+/// Maps clip space's z to depth from [0, 1], for reversed depth, or from [-1, 1], GL's default. Has
+/// an effect only with clip control.
 void use_zero_to_one_depth(Api api, bool zero_to_one);
 
-/// Returns when the device has drawn all that it was asked for into this framebuffer. Browsers have
-/// a glFinish that does not wait; there a pixel is read.
+/// Returns when the device has finished drawing into this framebuffer. In a browser glFinish does
+/// not wait, so a pixel is read instead.
 void wait_for_device(unsigned framebuffer);
 
 }  // namespace tureen::gl

@@ -1,6 +1,6 @@
-// How long the passes of a frame take by the device's own clock: timestamps before and after each,
-// read when the device is done, so that nothing waits for them while it draws. Desktop OpenGL has
-// them since 3.3; ES where EXT_disjoint_timer_query is (Capabilities::timer_queries).
+// Times of a frame's passes on the device's clock: timestamps before and after each pass. They are
+// read after the frame, so that drawing never waits for them. Desktop OpenGL has them since 3.3, ES
+// with EXT_disjoint_timer_query (Capabilities::timer_queries).
 #pragma once
 
 #include <optional>
@@ -22,28 +22,27 @@ struct QueryTraits {
 };
 using Query = Object<QueryTraits>;
 
-/// Why the device's timestamps say nothing about its work, as a sentence; nothing where they do.
-/// Software renderers gather triangles and draw them when a tile is flushed, whatever pass that
-/// falls into.
+/// The reason why the device's timestamps are misleading, as a sentence, or nullopt. Software
+/// renderers queue triangles and draw them when a tile is flushed, possibly during another pass.
 std::optional<std::string> timers_mislead(const Capabilities& capabilities);
 
-/// Passes between two collect()s. They may not be nested. The context must be current.
+/// Passes between two calls of collect(). They may not be nested. The context must be current.
 class PassTimer {
  public:
   /// Asserts Capabilities::timer_queries.
   explicit PassTimer(const Context& context);
 
-  /// `pass` is a literal: it is kept.
+  /// `pass` must be a literal, since the pointer is kept.
   void begin(const char* pass);
   void end();
 
   struct PassTime {
     std::string pass;
-    double ms = 0;  // all its turns together
+    double ms = 0;  // all occurrences together
     int turns = 0;
   };
-  /// Waits for the device. The passes since the last time, in the order of their first turns; empty
-  /// where the device says that its clock was disturbed meanwhile (ES).
+  /// The passes since the last call, in the order of their first occurrence. Empty if the device
+  /// reports that its clock was disturbed (ES). Waits for the device.
   std::vector<PassTime> collect();
 
  private:
@@ -51,7 +50,7 @@ class PassTimer {
     const char* pass;
     Query begin, end;
   };
-  /// One of those that collect() has read, or a new one.
+  /// A query that collect() has read, or a new one.
   Query take_query();
   void stamp(const Query& query) const;
   double milliseconds(const Turn& turn) const;
@@ -66,7 +65,7 @@ class PassTimer {
   std::vector<Query> spare_;
 };
 
-/// Times its scope; nothing without a timer.
+/// Times its scope; does nothing without a timer.
 class TimedPass {
  public:
   TimedPass(PassTimer* timer, const char* pass) : timer_(timer) {

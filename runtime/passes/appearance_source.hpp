@@ -1,5 +1,5 @@
-// An appearance before there is a device: what its texel stores will hold, in slot order, and the
-// shader text that reads them. runtime/passes/device_appearance.hpp puts it on a device.
+// An appearance before a device exists: the contents of its texel stores, in slot order, and the
+// shader text that reads them. runtime/passes/device_appearance.hpp uploads it.
 #pragma once
 
 #include <map>
@@ -18,21 +18,21 @@ struct AppearanceSource {
     TexelSource source;
   };
 
-  /// Stands for #include "appearance.glsl": fragment_exists() and fragment_color().
+  /// Replaces #include "appearance.glsl": fragment_exists() and fragment_color().
   std::string glsl;
-  /// What that text wants defined.
+  /// Constants that the text needs.
   std::map<std::string, std::string> constants;
   std::vector<Sampler> samplers;
   ColorMlpSource mlp;  // its uniforms
-  TexelLayout layout;  // of all stores
+  TexelLayout layout;  // shared by all stores
 
-  /// Takes the layers that fit the stores, of those that the device has; at last, when all stores
-  /// are there.
+  /// Reduces the layers of the device's layout to fit the stores. Called last, after all stores are
+  /// complete.
   void fit_layout(const TexelLayout& device);
 };
 
-/// The sources read the soup and the elements of plan.faces, which must outlive them where they
-/// are; the plan itself may be moved. Throws DeviceLimitError.
+/// The sources read the soup and the elements of plan.faces. Both must outlive them without moving;
+/// the plan object itself may be moved. Throws DeviceLimitError.
 AppearanceSource prepare_appearance(const TriangleSoup& soup, const RenderPlan& plan,
                                     const TexelLayout& layout);
 

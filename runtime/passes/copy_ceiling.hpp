@@ -1,5 +1,5 @@
-// A picture copied by a full-screen triangle: the ceiling of every pass that touches all pixels.
-// The ceiling of the triangles is the runtime's own pipeline with ShadingSite::nowhere.
+// An image copied by a full-screen triangle: the upper limit of speed of every pass over all
+// pixels. The limit for triangles is the runtime's own pipeline with ShadingSite::nowhere.
 #pragma once
 
 #include <memory>
@@ -17,14 +17,14 @@ class CopyCeiling {
   CopyCeiling(CopyCeiling&&) noexcept;
   CopyCeiling& operator=(CopyCeiling&&) noexcept;
 
-  /// Copies width x height RGBA8 pixels from one texture into another of that size. Returns before
-  /// the device has finished. Throws DeviceLimitError for a size that the device lacks memory for.
+  /// Copies width x height RGBA8 pixels from one texture to another of that size. Returns before
+  /// the device has finished. Throws DeviceLimitError if the device lacks the memory.
   void draw(int width, int height);
 
   /// Waits for the device.
   void finish() const;
 
-  /// The last copy, row 0 on top. Waits for the device. Asserts that there was one.
+  /// The last copy, row 0 on top. Waits for the device. Asserts that a copy was drawn.
   Image8 read_copy() const;
 
  private:

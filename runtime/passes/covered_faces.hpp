@@ -1,10 +1,10 @@
-// Which faces of a frame have the centre of a pixel in them: the others leave no trace, however
-// they are rasterised. In a large soup seen as a whole most faces lie between the pixels, and where
-// the processor draws, finding them costs a tenth of what a triangle costs that is sent to the
-// rasteriser and dropped there.
+// Small-triangle culling: finds the faces of a frame that cover a pixel centre. The others do not
+// affect the image. In a large soup seen as a whole most faces lie between pixel centres. On a
+// software renderer the test costs a tenth of the time that the rasteriser needs to reject a
+// triangle.
 //
-// Conservative: a face is dropped only when no rasteriser could find a centre in it that snaps
-// corners to the grid of GL_SUBPIXEL_BITS, with one sample a pixel.
+// Conservative: a face is culled only if no rasteriser could find a centre in it. This assumes
+// corners snapped to the grid of GL_SUBPIXEL_BITS and one sample a pixel.
 #pragma once
 
 #include <array>
@@ -22,27 +22,27 @@ class CoveredFaces {
   /// Keeps a copy of the corners of the source's faces: 36 bytes each.
   explicit CoveredFaces(const GeometrySource& source);
 
-  /// What follows is about this frame. `subpixel_bits`: GL_SUBPIXEL_BITS. False where floats know
-  /// too little of where corners come to lie, in enormous pictures and through the narrowest
-  /// lenses: then all faces have to be drawn.
+  /// Sets the frame for the following calls. `subpixel_bits`: GL_SUBPIXEL_BITS. Returns false if
+  /// floats are too imprecise to locate corners, for enormous images and very narrow lenses; then
+  /// all faces must be drawn.
   [[nodiscard]] bool begin_frame(const FrameCamera& frame, int subpixel_bits);
 
-  /// Appends 3 i, 3 i + 1 and 3 i + 2 to `vertices` for each face i of the run that may show.
+  /// Appends 3 i, 3 i + 1 and 3 i + 2 to `vertices` for each possibly visible face i of the run.
   void append(std::int32_t first_vertex, std::int32_t vertex_count,
               std::vector<std::uint32_t>& vertices) const;
 
-  /// Of the copy.
+  /// Bytes of the copy.
   std::size_t bytes() const { return coordinates_[0].size() * sizeof(float) * 9; }
 
  private:
-  /// The camera in floats, as geometry.vert works with it.
+  /// The camera in floats, as geometry.vert uses it.
   struct View {
     std::array<float, 3> eye_high, eye_low;
     std::array<float, 3> right, up, forward;
     float fx, fy, cx, cy;  // rows counted from the bottom
     float near;
     float width, height;
-    float margin;  // pixels that a corner may lie from where the rasteriser has it
+    float margin;  // largest distance of a corner from its place in the rasteriser, in pixels
   };
   struct Block;
 

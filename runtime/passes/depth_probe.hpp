@@ -1,4 +1,4 @@
-// Reads a depth texture pixel by pixel. OpenGL ES reads colours alone.
+// Reads single pixels of a depth texture. OpenGL ES can read back only colours.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -12,7 +12,8 @@ class DepthProbe {
  public:
   explicit DepthProbe(gl::Api api);
 
-  /// The value in the texture, column and row counted from the bottom left. Waits for the device.
+  /// The value in the texture; column and row are counted from the bottom left. Waits for the
+  /// device.
   float read(GLuint depth_texture, glm::ivec2 pixel);
 
  private:

@@ -17,11 +17,12 @@ struct DeviceAppearance {
   std::vector<Sampler> samplers;
   ColorMlpSource mlp;
 
-  /// The source's texels are read and not needed afterwards. Throws DeviceLimitError.
+  /// Reads the source's texels; they are not needed afterwards. Throws DeviceLimitError.
   explicit DeviceAppearance(AppearanceSource source);
 
   std::size_t device_bytes() const;
-  /// Binds the stores to units 0.. and sets samplers and network weights of `program`, in use.
+  /// Binds the stores to units 0.. and sets samplers and network weights of `program`, which is in
+  /// use.
   void bind(const gl::Program& program) const;
   /// The first texture unit that bind() leaves free.
   int unit_count() const { return static_cast<int>(samplers.size()); }

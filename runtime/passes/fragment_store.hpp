@@ -1,5 +1,5 @@
-// What the geometry pass of a deferred frame leaves a pixel for the shading pass to colour: the
-// winning face and where on it, (slot, barycentrics) as RG32UI.
+// The result of the geometry pass of a deferred frame, input to the shading pass: for each pixel
+// the visible face and the point on it, (slot, barycentrics) as RG32UI.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -11,18 +11,18 @@ namespace tureen {
 
 class FragmentStore {
  public:
-  /// Nothing is stored.
+  /// An empty store.
   FragmentStore() = default;
   /// A target of this size with a depth texture. Throws DeviceLimitError as make_framebuffer.
   FragmentStore(int width, int height, GLuint depth);
 
-  /// Makes it the target that is drawn into, with no face in any pixel.
+  /// Binds it as the render target and clears all pixels to no face.
   void begin() const;
   /// For the shading pass: binds the target to a unit and sets the sampler `visible` of `program`,
-  /// in use.
+  /// which is in use.
   void bind(const gl::Program& program, int unit) const;
 
-  /// Bytes of such a target without the depth texture.
+  /// Bytes of a target of this size, without the depth texture.
   static std::size_t bytes(glm::ivec2 size);
 
   GLuint framebuffer() const { return framebuffer_.id(); }

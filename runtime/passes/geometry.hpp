@@ -18,7 +18,8 @@ class Geometry {
   void leave_context() { vertex_array_.forget(); }
   std::size_t device_bytes() const { return device_bytes_; }
 
-  /// Sets the camera of `program`, in use. `clip_from_view` is one of scene/camera.hpp's.
+  /// Sets the camera of `program`, which is in use. `clip_from_view` is a matrix from
+  /// scene/camera.hpp.
   static void set_camera(const gl::Program& program, const FrameCamera& frame,
                          const glm::dmat4& clip_from_view);
 
@@ -28,11 +29,11 @@ class Geometry {
   std::size_t device_bytes_ = 0;
 };
 
-/// Sets eye_high and eye_low: a double split into two floats, so that position - eye loses nothing
-/// near the eye however far both are from the origin (docs/numerics.md, G3).
+/// Sets eye_high and eye_low: a double split into two floats. Thus position - eye stays exact near
+/// the eye at any distance of both from the origin (docs/numerics.md, G3).
 void set_eye(const gl::Program& program, glm::dvec3 eye);
 
-/// Sets the uniforms of view_direction.glsl: window y runs up, image y down.
+/// Sets the uniforms of view_direction.glsl; window y points up, image y down.
 void set_rays(const gl::Program& program, const Camera& camera);
 
 }  // namespace tureen

@@ -1,4 +1,4 @@
-// A way to turn a planned soup into pixels of a target. Internal to runtime/: users want Renderer.
+// A method of rendering a planned soup to a target. Internal to runtime/: users include Renderer.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -28,32 +28,31 @@ class Pipeline {
  public:
   virtual ~Pipeline() = default;
 
-  /// Makes the targets for this size. Called before the first frame and when the size changes.
+  /// Creates the targets for this size. Called before the first frame and when the size changes.
   virtual void resize(int width, int height) = 0;
   virtual void draw(const FrameCamera& frame, const glm::vec4& background) = 0;
 
-  /// The framebuffer with the finished colours, RGBA8, row 0 at the bottom.
+  /// The framebuffer with the final colours, RGBA8, row 0 at the bottom.
   virtual GLuint color_framebuffer() const = 0;
-  /// What it draws into: a GL_TEXTURE_2D, nearest sampling.
+  /// The colours as a GL_TEXTURE_2D, nearest sampling.
   virtual GLuint color_texture() const = 0;
-  /// The framebuffer with (slot, barycentrics) as RG32UI, or 0 where the pipeline has none; of
-  /// sample_size().
+  /// The framebuffer with (slot, barycentrics) as RG32UI, of sample_size(), or 0 if the pipeline
+  /// has none.
   virtual GLuint visibility_framebuffer() const { return 0; }
-  /// The depth of the last frame, a GL_TEXTURE_2D of sample_size(), or 0 where it cannot be
-  /// sampled.
+  /// The depth of the last frame, a GL_TEXTURE_2D of sample_size(), or 0 if it cannot be sampled.
   virtual GLuint depth_texture() const { return 0; }
-  /// How many samples wide and high the geometry is drawn: the picture's own size but for pipelines
-  /// that resample.
+  /// Width and height of the geometry in samples: the image's own size except for resampling
+  /// pipelines.
   virtual glm::ivec2 sample_size() const = 0;
-  /// Buffers and textures of the scene, not the targets.
+  /// Bytes of the scene's buffers and textures, without the targets.
   virtual std::size_t device_bytes() const = 0;
-  /// The targets that resize() made, by the sizes of their formats.
+  /// Bytes of the targets from resize(), by the sizes of their formats.
   virtual std::size_t target_bytes() const = 0;
 
-  /// See Renderer::leave_context(). resize() comes before the next draw().
+  /// See Renderer::leave_context(). The caller calls resize() before the next draw().
   virtual void leave_context() = 0;
 
-  /// Later frames tell their passes to this timer, or to none. It must outlive them.
+  /// Later frames report their passes to this timer; null disables it. It must outlive them.
   virtual void time_passes(gl::PassTimer* timer) { timer_ = timer; }
 
  protected:

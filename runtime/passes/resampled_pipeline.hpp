@@ -1,8 +1,8 @@
-// Frames drawn at another size than they are shown at: larger and averaged down (supersampling), or
-// smaller and interpolated up (resolution scale). Each wraps any pipeline, also one of these.
+// Frames rendered at another size than displayed: larger and averaged (supersampling), or smaller
+// and interpolated (resolution scale). Each wraps any pipeline, including another of these.
 //
-// Both filter what is seen, not what is stored: colours are weighted with their alpha, so that a
-// transparent background lends no colour to the edges over it.
+// Both filter visible colours, not stored ones: colours are weighted by alpha, so a transparent
+// background does not affect the colour of edges.
 #pragma once
 
 #include <memory>
@@ -11,23 +11,23 @@
 
 namespace tureen {
 
-/// The largest picture that a device draws, in pixels a side.
+/// Largest image that a device draws, in pixels a side.
 struct PictureLimit {
   gl::Api api = gl::Api::desktop;
   int max_side = 0;
 };
 
-/// Draws n x n samples a pixel on a regular grid, as OracleOptions::supersampling does, and shows
-/// their mean (a box filter). resize() throws DeviceLimitError where n times the size is more than
-/// the device draws.
+/// Draws n x n samples a pixel on a regular grid, as OracleOptions::supersampling does, and returns
+/// their mean (a box filter). resize() throws DeviceLimitError if n times the size exceeds the
+/// device's limit.
 std::unique_ptr<Pipeline> make_supersampled(std::unique_ptr<Pipeline> pipeline, int n,
                                             const PictureLimit& limit);
 
-/// The size that `scale`, 0 < scale <= 1, draws a picture of `size` pixels at: rounded, at least 1.
+/// The rendered size for an image of `size` pixels at `scale`, 0 < scale <= 1: rounded, at least 1.
 int scaled_size(int size, double scale);
 
-/// Draws scaled_size() of both sides, edge to edge the same picture, and interpolates linearly
-/// between the centres of its samples. Pixels beyond the outermost centres repeat those samples.
+/// Draws the same image at scaled_size() of both sides, edge to edge, and interpolates bilinearly
+/// between its sample centres. Pixels beyond the outermost centres repeat those samples.
 std::unique_ptr<Pipeline> make_upscaled(std::unique_ptr<Pipeline> pipeline, double scale,
                                         const PictureLimit& limit);
 

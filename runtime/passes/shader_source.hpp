@@ -1,6 +1,6 @@
-// Complete GLSL for a context from the files of shaders/: the version line (the oldest that we draw
-// with, or the oldest with compute shaders for those), precisions, constants
-// from a typed configuration, and #include "file" resolved (each file once).
+// Complete GLSL for a context from the files of shaders/. It adds the version line (the oldest
+// version that we support, or the oldest with compute shaders for those), precisions, and constants
+// from a typed configuration. It resolves #include "file", each file once.
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@ struct ShaderSource {
   std::string_view file;  // such as "shading.frag"; compute shaders end with ".comp"
   /// Becomes `#define NAME VALUE`.
   std::map<std::string, std::string> constants = {};
-  /// Texts that stand for #include files of these names (generated code).
+  /// Texts that replace #include files of these names (generated code).
   std::map<std::string, std::string> generated = {};
 };
 

@@ -1,5 +1,5 @@
 // The second pass of a deferred frame: colours for the covered pixels, by a triangle over the whole
-// window or, where the plan asks for it, by a compute shader.
+// window or, if the plan requests it, by a compute shader.
 #pragma once
 
 #include <string>
@@ -12,31 +12,30 @@
 
 namespace tureen {
 
-/// Complete GLSL; what the plan's shading stage does not need is empty.
+/// Complete GLSL; sources that the plan's shading stage does not need are empty.
 struct ShadingSources {
   std::string vertex, fragment, compute;
 };
 
-/// How many invocations wide and high a work group is: GROUP_SIDE of shading.comp.
+/// Width and height of a work group in invocations: GROUP_SIDE of shading.comp.
 inline constexpr int shading_group_side = 8;
 
 class ShadingPass {
  public:
-  /// `plan` must outlive it.
+  /// `plan` must outlive this object.
   ShadingPass(const RenderPlan& plan, const ShadingSources& sources);
 
-  /// What a frame is made of. The stored fragments, the depth and the colours have the same size.
+  /// The data of a frame. The stored fragments, the depth and the colours have the same size.
   struct Frame {
     const FrameCamera& camera;
     const glm::vec4& background;
     const FragmentStore& store;
     const DeviceAppearance& appearance;
     GLuint color_framebuffer,
-        color_texture;  // of that texture, and the depth the store was made of
+        color_texture;  // the texture of color_framebuffer, which shares the depth of `store`
     int width, height;
   };
 
-  /// Colours `frame`.
   void draw(const Frame& frame, gl::PassTimer* timer);
 
   /// See Renderer::leave_context().

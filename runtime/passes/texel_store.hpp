@@ -1,5 +1,5 @@
-// A linear array of texels on the device, as long as a scene needs: rows in the layers of a 2D
-// array texture. shaders/texel_store.glsl finds a texel by its index.
+// A linear array of texels on the device, of any length that a scene needs: rows in the layers of a
+// 2D array texture. shaders/texel_store.glsl locates a texel by its index.
 #pragma once
 
 #include <algorithm>
@@ -16,20 +16,20 @@
 
 namespace tureen {
 
-/// How the index is cut into column, row and layer. The same for every store of a scene. Layers of
-/// 2^21 texels let 256 of them, the least that any device has, hold 2^29 texels.
+/// The split of the index into column, row and layer, equal for all stores of a scene. With layers
+/// of 2^21 texels, 256 layers (the minimum on every device) hold 2^29 texels.
 struct TexelLayout {
-  int row_bits = 12;   // 4096 columns, 2048 on devices that have no more
+  int row_bits = 12;   // 4096 columns; 2048 on devices with that limit
   int layer_bits = 9;  // rows of a layer
   int max_layers = 256;
 
   static TexelLayout of(const DeviceLimits& limits);
-  /// For a store of so many texels that does not fit into one layer, which is as high as its
-  /// contents: with layers so low that it has 32 to 64 of them and the last one wastes at most a
-  /// thirty-second.
+  /// The layout for stores of at most `most_texels` texels that exceed one layer; a single layer is
+  /// as high as its contents. Layers are low enough that there are 32 to 64 and the last one wastes
+  /// at most 1/32.
   TexelLayout fitted(std::uint64_t most_texels) const;
   std::uint64_t texels_per_layer() const { return std::uint64_t(1) << (row_bits + layer_bits); }
-  /// The most texels that one store can hold: shaders count them in 32 bits.
+  /// Largest number of texels in one store: shaders count them in 32 bits.
   std::uint64_t capacity() const {
     return std::min(texels_per_layer() * std::uint64_t(max_layers), std::uint64_t(1) << 32);
   }
@@ -52,16 +52,16 @@ inline constexpr TexelFormat rg32ui{GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 8
 inline constexpr TexelFormat rgba32ui{GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16};
 }  // namespace texel_formats
 
-/// What a store will hold, before there is a device for it.
+/// The contents of a store before a device exists.
 struct TexelSource {
   TexelFormat format = texel_formats::rgba8;
   std::uint64_t count = 0;
-  std::string what;  // names the contents, for people
-  /// Writes the texels from `first` on, out.size() / format.bytes of them; called with growing
-  /// `first`, so that contents larger than memory can hold twice need never be whole.
+  std::string what;  // name of the contents, for messages
+  /// Writes out.size() / format.bytes texels from `first` on. `first` increases from call to call,
+  /// so the complete contents never need to be in memory twice.
   std::function<void(std::uint64_t first, std::span<std::byte> out)> fill;
 
-  /// Of values that the source keeps: format.bytes of them are a texel.
+  /// A source that owns its values: format.bytes of them are a texel.
   template <class T>
   static TexelSource of(const TexelFormat& format, std::vector<T> values, std::string what) {
     const std::uint64_t count = values.size() * sizeof(T) / format.bytes;
@@ -77,7 +77,7 @@ struct TexelSource {
 class TexelStore {
  public:
   TexelStore() = default;
-  /// Throws DeviceLimitError with what would fit.
+  /// Throws DeviceLimitError with a size that would fit.
   TexelStore(const TexelLayout& layout, const TexelSource& source);
 
   GLuint texture() const { return texture_.id(); }

@@ -1,5 +1,5 @@
-// The order in which faces reach the device: near ones first, so that hidden fragments fail the
-// depth test before they cost a texture read, and coincident ones by their index.
+// The draw order of faces: near ones first, so that hidden fragments fail the depth test before
+// they cost a texture read; coincident ones by their index.
 #pragma once
 
 #include <algorithm>
@@ -12,41 +12,41 @@
 
 namespace tureen {
 
-/// A run of slots drawn together, small in space.
+/// A run of slots drawn together; spatially compact.
 struct Cluster {
   std::uint32_t first_slot = 0;
   std::uint32_t slot_count = 0;
   glm::vec3 centre{0.0f};
 };
 
-/// Faces of a cluster in a soup of this many. From 1 to 256 the size hardly mattered when it was
-/// chosen: small enough to order well, large enough that sorting at most a few thousand clusters a
-/// frame costs nothing.
+/// Faces per cluster in a soup with `faces` faces. Sizes from 1 to 256 made little difference. It
+/// is small enough to order well. It limits a frame to a few thousand clusters, whose sorting time
+/// is negligible.
 constexpr std::uint32_t cluster_size(std::size_t faces) {
   return static_cast<std::uint32_t>(std::max<std::size_t>(64, faces / 4096));
 }
 
-/// Sorts `faces` (indices into soup.triangles) along a space-filling curve. Faces whose corners are
-/// bit-identical, in the same order, end up side by side with the lower index first.
+/// Sorts `faces` (indices into soup.triangles) along a space-filling curve. Faces with
+/// bit-identical corners in the same order become neighbours, the lower index first.
 void sort_spatially(const TriangleSoup& soup, std::vector<std::uint32_t>& faces);
 
-/// True when two faces have bit-identical corners in the same order.
+/// Whether two faces have bit-identical corners in the same order.
 bool coincident(const TriangleSoup& soup, std::uint32_t a, std::uint32_t b);
 
-/// Cuts slots [first, last) into clusters. Coincident faces never lie in different clusters, so
-/// that the lower index is always drawn first.
+/// Splits slots [first, last) into clusters. Coincident faces are always in the same cluster, so
+/// that the lower index is drawn first.
 void append_clusters(const TriangleSoup& soup, std::span<const std::uint32_t> faces,
                      std::uint32_t first, std::uint32_t last, std::uint32_t size,
                      std::vector<Cluster>& clusters);
 
-/// Orders clusters front to back for a frame and hands out the vertex ranges to draw.
+/// Orders clusters front to back for a frame and returns the vertex ranges to draw.
 class FrontToBack {
  public:
   /// Orders clusters [first, last) by the depth of their centres along `forward` from `eye`, both
   /// relative to the soup's origin. Ties keep their order.
   void sort(std::span<const Cluster> clusters, glm::vec3 eye, glm::vec3 forward);
 
-  /// First vertex and number of vertices of each range, as glMultiDrawArrays wants them.
+  /// First vertex and number of vertices of each range, as glMultiDrawArrays needs them.
   std::span<const std::int32_t> first_vertices() const { return first_vertices_; }
   std::span<const std::int32_t> vertex_counts() const { return vertex_counts_; }
 

@@ -1,4 +1,4 @@
-// Which faces need an alpha test, and which can never be seen.
+// Classifies faces by alpha: needing an alpha test, opaque, or never visible.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,16 @@ namespace tureen {
 
 enum class FaceAlpha : std::uint8_t {
   opaque,       // every fragment exists
-  cut_out,      // to be tested
+  cut_out,      // needs the alpha test
   transparent,  // no fragment exists
 };
 
-/// One a face, decided from the data. Interpolated alpha stays between the values that it is
-/// interpolated from, so the smallest and the largest decide, exactly (docs/leaving-out.md,
-/// alpha-test and transparent-faces).
+/// One class a face, computed from the data. Interpolated alpha stays within the range of its
+/// inputs, so the smallest and the largest value decide exactly (docs/leaving-out.md, alpha-test
+/// and transparent-faces).
 std::vector<FaceAlpha> classify_alpha(const TriangleSoup& soup);
 
-/// False for a face that no rasteriser can draw: a corner that is not finite, or an area of nothing
+/// False for a face that no rasteriser draws: a corner is not finite, or the area is 0
 /// (docs/numerics.md, G1).
 bool drawable(const TriangleSoup& soup, std::uint32_t face);
 

@@ -8,7 +8,7 @@
 
 namespace tureen {
 
-/// How the scene is drawn, then a sentence for each quality setting, and one for each
+/// The method of drawing, then one sentence for each quality setting, and one for each
 /// specialisation with its count and margin.
 std::vector<std::string> describe(const RenderPlan& plan);
 

@@ -1,15 +1,15 @@
-// A plan while it is being made: what each appearance's part of make_plan() reads and writes.
-// Internal to runtime/: users want plan.hpp.
+// A plan under construction, shared by the parts of make_plan() for each appearance. Internal to
+// runtime/: users include plan.hpp.
 #pragma once
 
 #include "runtime/plan/plan.hpp"
 
 namespace tureen {
 
-/// Half a step of an 8-bit colour: no specialisation may change a colour by more.
+/// Half a step of an 8-bit colour: the largest change by a specialisation.
 inline constexpr float half_step = 0.5f / 255.0f;
 
-/// A change of a colour in [0, 1] in steps of 8 bits, as AppliedSpecialisation::margin.
+/// Converts a change of a colour in [0, 1] to steps of 8 bits, as in AppliedSpecialisation::margin.
 constexpr double steps_of(double change) { return 255.0 * change; }
 
 struct PlanDraft {
@@ -26,20 +26,20 @@ struct PlanDraft {
   }
 };
 
-/// Which faces are drawn, which of them without an alpha test, and in what runs.
+/// Chooses the drawn faces, those without an alpha test, and the clusters.
 void plan_faces(PlanDraft& draft, const DeviceLimits& limits);
 
-// What is left of an appearance, once the faces are known.
+// The parts of an appearance that remain necessary for the chosen faces.
 void plan_appearance(PlanDraft& draft, const FaceColors& colors);
 void plan_appearance(PlanDraft& draft, const VertexColors& colors);
 void plan_appearance(PlanDraft& draft, const Harmonics& harmonics);
 void plan_appearance(PlanDraft& draft, const LatticeTexture& texture);
 void plan_appearance(PlanDraft& draft, const UvTextures& textures);
 
-/// How the weights of a network that runs reach the shader, and which of them.
+/// Chooses the form of a network's weights in the shader, and the necessary weights.
 void plan_network(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges& ranges);
 
-/// The whole plan of the published pipeline. Throws UsageError when it cannot draw this soup.
+/// The complete plan of the baseline. Throws UsageError if it cannot draw this soup.
 void plan_published(PlanDraft& draft);
 
 }  // namespace tureen

@@ -1,6 +1,6 @@
-// Specialisations: what a plan does not draw or compute because the scene does not need it. Each
-// has a name, so that it can be turned off alone, to measure its gain or to look for a fault.
-// docs/leaving-out.md has the condition, the bound and the gain of each.
+// Specialisations: work that a plan skips because the scene does not need it. Each has a name and
+// can be disabled alone, to measure its gain or to locate a fault. docs/leaving-out.md has the
+// condition, the bound and the gain of each.
 #pragma once
 
 #include <cstddef>
@@ -12,51 +12,51 @@
 namespace tureen {
 
 enum class Specialisation : std::uint8_t {
-  alpha_test,            // no alpha test for faces that are opaque throughout
-  transparent_faces,     // faces that are transparent throughout are not drawn
-  coincident_faces,      // nor faces behind an opaque one with the same corners
-  faces_between_pixels,  // nor, frame by frame, faces that cover no pixel's centre
-  shading_pass,          // colours that cost little are written in the only pass
+  alpha_test,            // no alpha test for fully opaque faces
+  transparent_faces,     // fully transparent faces are not drawn
+  coincident_faces,      // faces behind an opaque one with the same corners are not drawn
+  faces_between_pixels,  // each frame skips faces that cover no pixel centre
+  shading_pass,          // inexpensive colours are computed in the only pass
   background,            // pixels without a face are not shaded
-  interpolation,         // three equal vertex colours become a colour a face
+  interpolation,         // three equal vertex colours become one colour a face
   harmonics_bands,       // bands that change no colour are not evaluated
-  color_mlp,             // a network that never blends in does not run
+  color_mlp,             // a network that is never blended in is not evaluated
   view_direction,        // a network ignores a direction that changes no colour
   weight_uniforms,       // weights are constants of the shader
   dead_neurons,          // neurons that never fire, and weights of zero, are not computed
   latent_features,       // features 4 and above that are constant or have no weight are not read
-  constant_lattices,     // lattices of one colour become a colour a face
+  constant_lattices,     // lattices with one colour become one colour a face
   affine_texels,         // affine faces keep only their corner texels
 };
 
 /// One specialisation, as a plan applied it.
 struct AppliedSpecialisation {
   Specialisation what = {};
-  /// Faces, bands or hidden neurons, by its kind, that are not drawn or computed, and all of them.
-  /// Both are 0 where nothing is counted.
+  /// Skipped faces, bands or hidden neurons, by kind, and their total number. Both are 0 if nothing
+  /// is counted.
   std::size_t count = 0, total = 0;
-  /// The largest change of a colour, in steps of 8 bits: 0 (exact, but for rounding) to 0.5.
+  /// Largest change of a colour, in steps of 8 bits: 0 (exact up to rounding) to 0.5.
   double margin = 0;
 
   bool operator==(const AppliedSpecialisation&) const = default;
 };
 
-/// One of them for people and for the command line.
+/// The names of one specialisation, for messages and for the command line.
 struct SpecialisationName {
   Specialisation what;
   const char* name;   // "alpha-test"
   const char* title;  // "no alpha test for opaque faces"
 };
 
-/// All of them, in the order of the enumeration.
+/// All names, in the order of the enumeration.
 std::span<const SpecialisationName> specialisation_names();
 
 const char* name_of(Specialisation what);
 
-/// By name; nothing when there is none of that name.
+/// The specialisation with this name, or nullopt.
 std::optional<Specialisation> specialisation_named(std::string_view name);
 
-/// Some of them.
+/// A set of specialisations.
 class SpecialisationSet {
  public:
   constexpr SpecialisationSet() = default;

@@ -1,18 +1,18 @@
-// How much of a color MLP's colour hangs on where it is looked at from.
+// Bounds the view dependence of a color MLP's colour.
 #pragma once
 
 #include "scene/color_mlp.hpp"
 
 namespace tureen {
 
-/// An upper bound of how far the predicted colour of any features can lie from what
-/// without_direction(mlp) predicts, in any direction. The part of band l of a neuron's weights is
-/// at most sqrt((2l+1) / 4 pi) |w_l| (Cauchy-Schwarz and the addition theorem), that of the bare
-/// direction |w|; from layer to layer it grows by the absolute weights, and the sigmoid's slope is
-/// at most 1/4. Not yet times the blend channel. 0 without a direction.
+/// Upper bound, over all features and directions, of the difference between the predicted colour
+/// and the prediction of without_direction(mlp). Band l of a neuron's weights contributes at most
+/// sqrt((2l+1) / 4 pi) |w_l| (Cauchy-Schwarz and the addition theorem), the bare direction |w|.
+/// Each layer multiplies the bound by its absolute weights, and the sigmoid's slope is at most 1/4.
+/// The blend channel is not included. 0 without a direction.
 double view_dependence(const ColorMlp& mlp);
 
-/// The network that sees the features alone, as if every direction were the middle of all.
+/// The network of the features alone, with the mean over all directions as its direction.
 ColorMlp without_direction(const ColorMlp& mlp);
 
 }  // namespace tureen
