@@ -1,6 +1,6 @@
-// How coarse a slim file may be: the search for the smallest one whose loss stays within a bound
-// (`tureen convert --compress`). formats/tureen_glb/tureen_glb_slim.hpp writes it; docs/slim.md
-// describes how it works and what it reaches.
+// Searches for the smallest compressed file whose loss stays within a bound (`tureen convert
+// --compress`). formats/tureen_glb/tureen_glb_slim.hpp writes it; docs/slim.md describes the method
+// and its results.
 #pragma once
 
 #include <functional>
@@ -13,51 +13,52 @@
 namespace tureen {
 
 struct SlimRequest {
-  /// In decibels, above 0.
+  /// Largest loss in decibels, above 0, default 0.1.
   double max_loss_db = 0.1;
-  /// Faces that no view sees stay, too.
+  /// Whether faces that no view sees are kept.
   bool keep_unseen = false;
-  /// Empty: the loss is estimated from the scene's own pictures.
+  /// Reference photographs. If empty, the loss is estimated from the scene's own images.
   std::vector<Photograph> photographs = {};
-  /// From where other photographs of the same dataset were taken. Where telling_cameras of them at
-  /// least show any of the scene, which has fewer, those join its recorded ones.
+  /// Cameras of other photographs in the same dataset. They are added to a scene with fewer than
+  /// telling_cameras recorded cameras, if at least telling_cameras of them show any of it.
   std::vector<Camera> training_cameras = {};
   gl::ContextRequest context = {};
-  /// Called now and then with the fraction done, 0..1; may throw to end the search.
+  /// Called with the fraction done, 0..1; may throw to cancel the search.
   std::function<void(double)> progress = {};
 };
 
 struct SlimResult {
-  /// The faces that are kept; other than that the scene's soup.
+  /// The scene's soup with only the kept faces.
   TriangleSoup kept;
-  SlimSoup soup;                 // of them
-  std::size_t unseen = 0;        // faces that are left out
-  std::size_t seeing_views = 0;  // that see none of those, where any may be left out
-  /// Texels of the kept faces of which none of `weighing_views` shows anything: kept, but only
-  /// roughly.
+  SlimSoup soup;                 // the compressed form of `kept`
+  std::size_t unseen = 0;        // number of removed faces
+  std::size_t seeing_views = 0;  // views that see no removed face, if faces may be removed
+  /// Number of texels of the kept faces that no pixel of the `weighing_views` shows. They are
+  /// stored with a larger error.
   std::size_t unseen_texels = 0;
   std::size_t weighing_views = 0;
-  std::size_t lent_cameras = 0;  // training cameras that joined the recorded ones
+  std::size_t lent_cameras = 0;  // training cameras added to the recorded ones
   SlimLoss loss;
-  SlimLoss geometry_loss;  // the part of positions alone
+  SlimLoss geometry_loss;  // the part from positions alone
   int position_bits = 0;
   double color_step = 0;  // slim_basis
-  double model_db = 0;    // of the scene itself: SlimJudge::model_db
-  SlimViews views;        // that it was measured on
+  double model_db = 0;    // of the uncompressed scene: SlimJudge::model_db
+  SlimViews views;        // the views of the measurement
 };
 
-/// Where the scene has telling_cameras, training cameras that join them counted in, faces that
-/// neither they (200 at most) nor views from the upper half of a sphere around it (64) show in any
-/// pixel are left out; of fewer nobody knows where the scene is looked at from, and all faces stay.
-/// Positions may take a twelfth of the loss: they get the fewest bits that keep within it. Faces
-/// that a lower level says to half a step of 8 bits get that level. Then the largest step of colour
-/// that keeps all of it within the bound is found by bisection and a scan, with finer alphas where
-/// the coarse ones alone lose more. Texels of which the recorded views show little, where there are
-/// telling_cameras, or whose features hardly move the colour, may be off further than others
-/// (SlimImportance).
+/// The search. If the scene has telling_cameras, including added training cameras, unseen faces are
+/// removed. Those are faces that no pixel shows in these cameras (at most 200) and in 64 views from
+/// the upper half of a sphere around the scene. With fewer cameras the typical viewpoints are
+/// unknown and all faces stay.
 ///
-/// Throws UsageError where the scene has no lattice texture or nothing keeps within the bound, and
-/// what SlimJudge throws.
+/// Positions may take a twelfth of the loss and get the fewest bits within it. Faces that a lower
+/// level represents to half a step of 8 bits get that level. Bisection and a scan then find the
+/// largest step of colour within the bound, with finer alphas if the coarse ones alone lose more.
+/// Texels get a larger error if they are rarely visible in the recorded views (given
+/// telling_cameras), or if their features hardly change the colour (SlimImportance).
+///
+/// Throws UsageError if the scene has no lattice texture or no result is within the bound; throws
+/// the errors of SlimJudge.
 SlimResult slim(const Scene& scene, const SlimRequest& request);
 
 }  // namespace tureen

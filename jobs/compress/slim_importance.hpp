@@ -1,5 +1,5 @@
-// What errors of a soup's texels show, and the steps that follow from it: the part of the search
-// for a slim file (jobs/compress/slim.hpp) that stays the same while the step of colour changes.
+// The visible effect of errors of a soup's texels, and the steps that follow from it. This part of
+// the search for a compressed file (jobs/compress/slim.hpp) is independent of the step of colour.
 #pragma once
 
 #include <cstdint>
@@ -18,24 +18,24 @@ namespace tureen {
 
 class SlimImportance {
  public:
-  /// Of a soup with a lattice texture, which must outlive it, as these views (at least one) show
-  /// it. Unless `by_texel` the texels of a face weigh alike, whichever of them show. `cancel` is
+  /// Measures a soup with a lattice texture, which must outlive this object, in these views (at
+  /// least one). Unless `by_texel` is set, all texels of a face have the same weight. `cancel` is
   /// called often and may throw.
   SlimImportance(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
                  std::span<const Camera> views, bool by_texel, const std::function<void()>& cancel);
 
-  /// How texels are coded in steps of so many 255ths of colour in the mean (slim_basis). Where bits
-  /// have no price, each value comes as near as its step allows.
+  /// Options for steps of `step` / 255 of colour in the mean (slim_basis). Without a bit price each
+  /// value is rounded to its nearest step.
   SlimTexelOptions options(double step, std::uint8_t alpha_step, bool bits_have_a_price) const;
 
-  /// Texels of which no pixel of the views takes anything, and which weigh less for it.
+  /// Number of texels that no pixel of the views uses; they have a lower weight.
   std::size_t unseen_texels() const { return unseen_texels_; }
 
  private:
   const LatticeTexture& texture_;
   FeatureMatrix sensitivity_{};
-  std::vector<std::uint8_t> coarseness_;  // of faces
-  std::vector<float> weights_;            // of texels
+  std::vector<std::uint8_t> coarseness_;  // of each face
+  std::vector<float> weights_;            // of each texel
   std::size_t unseen_texels_ = 0;
 };
 

@@ -1,5 +1,5 @@
-// What a scene loses when its soup is coded slimly: against photographs, or, where there are none,
-// against its own pictures.
+// The loss of a scene when its soup is compressed: against photographs, or without them against its
+// own images.
 #pragma once
 
 #include <functional>
@@ -14,47 +14,47 @@
 namespace tureen {
 
 struct SlimLoss {
-  /// By how much the scene comes less near to its photographs, mean PSNR over the views: measured
-  /// where there are photographs, else decibels_lost() of a model of assumed_model_db.
+  /// Decrease of the mean PSNR over the views, against photographs. Without photographs
+  /// decibels_lost() for a model of assumed_model_db.
   double db = 0;
-  /// Against the scene's own pictures, all views together.
+  /// PSNR against the scene's own images, all views together.
   double render_psnr_db = 100;
 };
 
-/// What a loss was measured on: photographs alone, or recorded cameras and views around the scene.
+/// The views of a measurement: photographs alone, or recorded cameras and views around the scene.
 struct SlimViews {
   std::size_t photographs = 0;
-  std::size_t cameras = 0;   // of the `recorded` ones
-  std::size_t recorded = 0;  // cameras of the scene
-  std::size_t around = 0;    // where the scene has fewer than telling_cameras
+  std::size_t cameras = 0;   // number of used recorded cameras
+  std::size_t recorded = 0;  // recorded cameras of the scene
+  std::size_t around = 0;    // only if the scene has fewer than telling_cameras
 
   bool operator==(const SlimViews&) const = default;
 };
 
-/// Called often during long work; throws to end it. May be empty where a declaration says so.
+/// Called often during long work; throws to cancel. May be empty only where documented.
 using Cancel = std::function<void()>;
 
 class SlimJudge {
  public:
-  /// Above what trained soups reach: better models lose more by the same error.
+  /// Assumed PSNR of a model against photographs. It exceeds the PSNR of trained soups: the same
+  /// error costs better models more.
   static constexpr double assumed_model_db = 32;
 
-  /// Draws the scene from where the photographs were taken, or, where there are none, from
-  /// slim_views, up to 24. `context` must outlive the judge and be current. The scene holds a soup
-  /// without defect(). Throws UsageError where the scene comes only within hopeless_db of the
-  /// photographs, where the loss means nothing, and what drawing throws.
-  /// `cancel` may be empty.
+  /// Draws the scene from the cameras of the photographs, or without them from up to 24 slim_views.
+  /// `context` must be current and outlive the judge. The scene holds a soup without defect().
+  /// Throws UsageError if the scene's PSNR against the photographs is below hopeless_db, where the
+  /// loss is meaningless. Throws the errors of drawing. `cancel` may be empty.
   SlimJudge(const gl::Context& context, const Scene& scene, std::span<const Photograph> photographs,
             Cancel cancel = {});
 
   SlimLoss loss(const TriangleSoup& soup) const;
 
-  /// Mean PSNR of the scene itself against the photographs; assumed_model_db without them.
+  /// Mean PSNR of the original scene against the photographs; without them assumed_model_db.
   double model_db() const { return model_db_; }
   const SlimViews& views() const { return views_; }
 
  private:
-  /// Calls visit(view, picture) for each.
+  /// Calls visit(view, image) for each view.
   void draw(const TriangleSoup& soup,
             const std::function<void(std::size_t, const ImageF&)>& visit) const;
   double model_db(const std::vector<double>& squared_errors) const;
@@ -64,24 +64,24 @@ class SlimJudge {
   glm::dvec3 origin_;
   glm::vec3 background_;
   std::vector<Camera> cameras_;
-  std::vector<ImageF> photographs_;  // over the background
-  std::vector<ImageF> pictures_;     // of the scene itself
+  std::vector<ImageF> photographs_;  // composited over the background
+  std::vector<ImageF> pictures_;     // of the original scene
   SlimViews views_;
   double model_db_ = assumed_model_db;
 };
 
-/// Fewer recorded cameras do not say where a scene is looked at from: slim files keep one, what
-/// trains takes dozens.
+/// Smallest number of recorded cameras that represents the typical viewpoints of a scene: a
+/// compressed file keeps one camera, a training set has dozens.
 inline constexpr std::size_t telling_cameras = 8;
 
-/// A scene that comes only so near to photographs, SlimJudge::model_db, is most likely not theirs:
-/// soups before those of another scene came to 5 to 8 dB (four pairs of the example, the fox and
-/// lego), soups of 20 steps before their own to 12 and 13.
+/// A scene with a lower SlimJudge::model_db most likely does not belong to the photographs. Soups
+/// against photographs of another scene have 5 to 8 dB (four pairs of the example, the fox and
+/// lego). Soups after 20 training steps have 12 and 13 dB against their own.
 inline constexpr double hopeless_db = 10;
 
-/// Of the cameras from which the scene was recorded, at most `count`, evenly spread over their
-/// order; where they are fewer than telling_cameras also so many, but no more than 64, on the upper
-/// half of a sphere around it. None is larger than 800 pixels a side.
+/// At most `count` of the recorded cameras, evenly spaced in their order. With fewer than
+/// telling_cameras also `count` views, at most 64, on the upper half of a sphere around the scene.
+/// No image side exceeds 800 pixels.
 std::vector<Camera> slim_views(const Scene& scene, std::span<const Camera> recorded,
                                std::size_t count);
 

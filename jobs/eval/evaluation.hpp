@@ -1,10 +1,10 @@
-// How near a scene comes to photographs: what `tureen eval` measures, and `tureen train` at its
-// end. The scene is drawn by the runtime, as everybody sees it, never by the trainer.
+// The error of a scene against photographs, for `tureen eval` and the end of `tureen train`. The
+// runtime draws the scene, never the trainer.
 //
-// Protocol: the rendering as the device writes it, 8 bits a channel, against the photograph over
-// the background, which is not rounded again. PSNR from the mean squared difference of a view, SSIM
-// of the border that is asked for, FLIP at 67 pixels per degree; each is taken view by view, and
-// the mean is that of the views, as papers report it.
+// Protocol: the device's 8-bit rendering is compared with the photograph over the background, which
+// is not rounded again. PSNR comes from the mean squared error of a view, SSIM uses the requested
+// border, FLIP 67 pixels per degree. Each is computed view by view and averaged over the views, as
+// in papers.
 #pragma once
 
 #include <functional>
@@ -24,14 +24,14 @@ namespace tureen {
 struct EvaluationOptions {
   gl::Backend backend = gl::Backend::automatic;
   PlanPreferences plan = {};
-  /// Behind the scene and behind photographs with alpha; display-referred.
+  /// Colour behind the scene and behind photographs with alpha; display-referred.
   glm::vec3 background{0.0f};
   MetricOptions metrics = {.ssim_border = SsimBorder::valid};
-  /// Called with each view's index, its photograph over the background, and its rendering, in any
-  /// order and from several threads; may throw to end the evaluation.
+  /// Called with each view's index, its photograph over the background, and its rendering. Calls
+  /// come in any order and from several threads; they may throw to cancel.
   std::function<void(std::size_t view, const ImageF& photograph, const ImageF& rendering)> on_view =
       {};
-  /// Called now and then with the fraction done, 0..1; may throw to end the evaluation.
+  /// Called with the fraction done, 0..1; may throw to cancel.
   std::function<void(double)> progress = {};
 };
 
@@ -39,21 +39,21 @@ struct ViewMetrics {
   std::string name;  // of the photograph
   double psnr_db = 0;
   double ssim = 0;
-  double flip = 0;  // 0 where MetricOptions leave it out
+  double flip = 0;  // 0 if MetricOptions disable it
 };
 
 struct Evaluation {
   std::vector<ViewMetrics> views;  // in the order of the photographs
-  ViewMetrics mean;                // without a name
-  std::string context;             // how the device was reached, and its name
+  ViewMetrics mean;                // name is empty
+  std::string context;             // the method of access to the device, and its name
   std::string renderer;
   std::vector<std::string> plan;                       // describe()
-  std::vector<AppliedSpecialisation> specialisations;  // of the plan
+  std::vector<AppliedSpecialisation> specialisations;  // in the plan
 };
 
-/// Views are measured on all cores while others are drawn. There is one photograph at least, and
-/// the soup has no defect(). Throws ContextError, DeviceLimitError, UsageError where the window of
-/// the SSIM does not fit into a view, and what the callbacks throw.
+/// Measures views on all cores while others are drawn. Needs at least one photograph; the soup has
+/// no defect(). Throws ContextError, DeviceLimitError, UsageError if the SSIM window does not fit
+/// in a view, and exceptions from the callbacks.
 Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
                     std::span<const Photograph> photographs, const EvaluationOptions& options);
 

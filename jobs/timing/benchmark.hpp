@@ -1,13 +1,13 @@
-// How frames are timed: the one protocol behind every figure of ours.
+// The timing protocol of all our frame times.
 //
-// Cases take turns frame by frame (A B C A B C ..), so that whatever else the machine does hits
-// them alike. Each is warmed up until it is stable. First of all the first case runs against
-// itself: the A/A spread is the difference that means nothing. A sample begins with an idle device
-// and ends when the device has finished; on fast devices it is several frames of one view, so that
-// waiting is not what is measured. The clock is the steady one of the processor.
+// Cases alternate frame by frame (A B C A B C ..), so that disturbances affect all alike. Each is
+// warmed up until it is stable. First the first case runs against itself: the A/A spread is the
+// difference without significance. A sample begins with an idle device and ends when the device has
+// finished. On fast devices it is several frames of one view, so that the wait does not dominate.
+// The clock is the processor's steady clock.
 //
-// What it does not do: GL. Cases are functions, so that a test can drive it with a clock of its
-// own, and a compute path or another renderer can enter.
+// This file is independent of GL. Cases are functions, so that tests can use an artificial clock,
+// and compute paths or other renderers can take part.
 #pragma once
 
 #include <functional>
@@ -20,8 +20,8 @@
 
 namespace tureen {
 
-/// What takes part. Its functions must draw what they always draw: no error queries, no reading
-/// back, no presentation belong in them.
+/// One configuration of a benchmark. Its functions must only draw: no error queries, no read-back,
+/// no presentation.
 struct BenchmarkCase {
   std::string name;
   std::function<void(const Camera&)> draw;  // may return before the device has finished
@@ -29,80 +29,79 @@ struct BenchmarkCase {
 };
 
 struct BenchmarkOptions {
-  /// How often the cameras are gone through. At least 1.
+  /// Number of passes through all cameras, at least 1.
   int rounds = 5;
-  /// No round is begun that would end later than this, counted from the start and warm-up included;
-  /// one round is always made. 0: no limit.
+  /// Time limit in seconds from the start, including warm-up: no round begins that would end later.
+  /// At least one round is run. Default 0: no limit.
   double max_seconds = 0;
 
-  /// A sample lasts at least this long: the fastest case's frames are repeated within it, up to
-  /// `max_frames_per_sample`, and those of the other cases as often. 0: a sample is a
-  /// frame.
+  /// Shortest sample in milliseconds. The fastest case's frames are repeated to reach it, up to
+  /// `max_frames_per_sample`; the other cases use the same number. Default 0: one frame a sample.
   double min_sample_ms = 0;
   int max_frames_per_sample = 100;
 
-  /// Warm-up: frames of the first camera, until the last three times lie within `stable_within` of
-  /// the smallest of them, but at least and at most this many; none is begun after
-  /// `max_warm_up_seconds` but for the least.
+  /// Warm-up: frames of the first camera, until the last three times are within `stable_within` of
+  /// their smallest. The number of frames is limited by the next two settings. After
+  /// `max_warm_up_seconds` only the minimum is completed.
   int min_warm_up_frames = 3;
   int max_warm_up_frames = 100;
   double max_warm_up_seconds = 2;
-  /// Goes on for so long even when it is stable: graphics cards raise their clocks under load.
+  /// Shortest warm-up in seconds, even if stable: graphics cards raise their clocks under load.
   double min_warm_up_seconds = 0;
-  /// 5 %: far above the jitter of an idle machine, far below what compiling shaders costs.
+  /// A fraction. 5 % is far above the jitter of an idle machine and far below the cost of compiling
+  /// shaders.
   double stable_within = 0.05;
 
-  /// Whether the first case is measured against itself first. Without it aa_spread is 0.
+  /// Whether the first case is first measured against itself. Without it aa_spread is 0.
   enum class SelfTest { run, leave_out };
   SelfTest self_test = SelfTest::run;
 
-  /// Called after every sample with the fraction done; may throw to abandon.
+  /// Called after every sample with the fraction done; may throw to cancel.
   std::function<void(double)> progress = nullptr;
-  /// Seconds of a clock that never goes back; the steady clock when empty.
+  /// A monotonic clock in seconds; default: the steady clock.
   std::function<double()> clock = nullptr;
 };
 
 struct CaseResult {
   std::string name;
-  FrameTimes times;  // milliseconds a frame; a sample's mean where it is several frames
+  FrameTimes times;  // milliseconds a frame; the mean of a sample with several frames
   int warm_up_frames = 0;
-  bool stable = false;  // whether the warm-up came to rest
+  bool stable = false;  // whether the warm-up became stable
 };
 
 struct BenchmarkResult {
   std::vector<CaseResult> cases;      // in the order given
   double aa_spread = 0;               // series_spread of the first case against itself
-  std::vector<FrameTimes> self_test;  // the two series that it comes from; empty without it
-  int rounds = 0;                     // those that were made: as asked, or fewer for time
+  std::vector<FrameTimes> self_test;  // its two series; empty without it
+  int rounds = 0;                     // completed rounds: as requested, or fewer for time
   int frames_per_sample = 1;
-  double seconds = 0;  // all of it
+  double seconds = 0;  // total
 };
 
-/// A clock for BenchmarkOptions: seconds of processor time that all threads of this program have
-/// used. Where the processor draws, other programs hardly disturb it, and ratios can be measured on
-/// a busy machine; threads that wait cost nothing, so it is not how long a frame takes. Says
-/// nothing of a GPU, and is the time of the wall on Windows.
+/// A clock for BenchmarkOptions: processor time in seconds over all threads of this program. With a
+/// software renderer other programs hardly affect it, so ratios can be measured on a busy machine.
+/// Waiting threads cost nothing, so it is not the duration of a frame. It does not include GPU
+/// time; on Windows it is wall time.
 double processor_seconds();
 
-/// The protocol sample by sample, for who has to look after other things in between: a page hands
-/// back its thread, or it would be taken for dead.
+/// The protocol step by step, for callers with other work in between: a web page must return its
+/// thread to the browser to stay responsive.
 class BenchmarkRun {
  public:
-  /// Asserts that there are cases, cameras and at least one round. All are kept.
+  /// Asserts cases, cameras and at least one round. Copies all arguments.
   BenchmarkRun(std::span<const BenchmarkCase> cases, std::span<const Camera> cameras,
                const BenchmarkOptions& options = {});
 
-  /// The next part: a warm-up, a sample or what comes between. False when there is none left.
+  /// Runs the next part: a warm-up, a sample or an intermediate step. Returns false after the last.
   bool step();
-  /// Of the samples, 0..1; 0 during warm-up.
+  /// The completed fraction of the samples, 0..1; 0 during warm-up.
   double fraction() const;
-  /// Once step() has said false.
+  /// Valid after step() has returned false.
   BenchmarkResult result() &&;
 
  private:
   enum class Phase { warm_up, self_test, measurement, done };
-  /// Rounds of some cases taking turns, until all are made or their share of the time is used
-  /// up.
+  /// Rounds of alternating cases, until all are complete or their share of the time is used up.
   struct Series {
     std::vector<std::size_t> cases;
     std::vector<FrameTimes> times;  // one a case
@@ -134,8 +133,8 @@ class BenchmarkRun {
   double start_;
   Phase phase_ = Phase::warm_up;
   double warm_up_start_ = 0;
-  std::vector<double> warm_up_ms_;  // of the case that is warmed up
-  std::vector<double> fastest_ms_;  // of each one that was
+  std::vector<double> warm_up_ms_;  // of the current case
+  std::vector<double> fastest_ms_;  // of each warmed-up case
   int frames_per_sample_ = 1;
   int rounds_ = 1;
   std::size_t samples_ = 1, samples_done_ = 0;
@@ -143,8 +142,8 @@ class BenchmarkRun {
   BenchmarkResult result_;
 };
 
-/// Asserts that there are cases, cameras and at least one round. Leaves no frame in flight. The
-/// last sample of each case showed the last camera.
+/// Asserts cases, cameras and at least one round. No frame is in flight on return. The last sample
+/// of each case showed the last camera.
 BenchmarkResult run_benchmark(std::span<const BenchmarkCase> cases, std::span<const Camera> cameras,
                               const BenchmarkOptions& options = {});
 

@@ -1,5 +1,5 @@
-// How a frame's time divides among its passes, by the device's clock, and whether that clock is to
-// be believed: it is held against the wall clock of the same frames.
+// The times of a frame's passes on the device's clock, with a check of that clock against the wall
+// clock of the same frames.
 #pragma once
 
 #include <optional>
@@ -14,23 +14,21 @@
 namespace tureen {
 
 struct PassTimes {
-  /// (pass, milliseconds a frame) in the order of the frame; empty where the device's clock does
-  /// not count.
+  /// (pass, milliseconds a frame) in frame order; empty if the device's clock is unusable.
   std::vector<std::pair<std::string, double>> ms;
-  /// Why there are none, or what is to be said beside them, a sentence; empty where they are all.
+  /// The reason why times are missing or limited, as a sentence; empty if they are complete.
   std::string reason;
-  std::optional<double> gpu_ms;  // all passes of a frame together
+  std::optional<double> gpu_ms;  // all passes of a frame
 };
 
-/// The passes as they are, or a refusal where their sum is nothing, or more than `wall_ms`, the
-/// mean time of such a frame with nothing else in flight, can hold. Less than that is no
-/// contradiction, the frame may wait for the processor; but where it is less than half, the reason
-/// says so.
+/// The passes unchanged, or an empty result with a reason if their sum is 0 or exceeds `wall_ms`,
+/// the mean time of such a frame without others in flight. A smaller sum is valid, since the frame
+/// may wait for the processor. Below half of `wall_ms` the reason reports it.
 PassTimes believed(std::vector<std::pair<std::string, double>> passes, double wall_ms);
 
-/// Draws every camera `repeats` times with timers and once more as often without, for the wall
-/// clock that they are held against. Says why where timers mislead (gl::timers_mislead) and draws
-/// nothing then. The last frame shows the last camera.
+/// Draws every camera `repeats` times with timers and as often without, for the wall clock of the
+/// check. If timers mislead (gl::timers_mislead), returns the reason and draws nothing. The last
+/// frame shows the last camera.
 PassTimes time_passes(const gl::Context& context, Renderer& renderer,
                       std::span<const Camera> cameras, int repeats);
 

@@ -1,4 +1,4 @@
-// Times and compares ways to draw, group by group: the part of `tureen tradeoff` that touches the
+// Times and compares configurations, group by group: the part of `tureen tradeoff` that uses the
 // device.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace tureen::tradeoff {
 
-/// One case: how it draws, and what is known of it before it is measured.
+/// One case: its plan, and its properties known before the measurement.
 struct Job {
   Outcome outcome;
   PlanPreferences plan;
@@ -23,14 +23,14 @@ Job job_of(const std::vector<QualitySetting>& settings, const Configuration& con
 
 class Measurer {
  public:
-  /// Measures against `references` and appends to the panel's outcomes, what cannot be drawn to its
-  /// skipped ones. All must outlive this.
+  /// Measures against `references`. Appends to the panel's outcomes, and cases that cannot be drawn
+  /// to its skipped ones. All arguments must outlive this object.
   Measurer(const StudyScene& scene, const StudyOptions& options, const References& references,
            Panel& panel)
       : scene_(scene), options_(options), references_(references), panel_(panel) {}
 
-  /// The first job ever is the defaults, the control of every later group. Throws what the Renderer
-  /// throws for them; other jobs that a UsageError or a DeviceLimitError refuses are skipped.
+  /// The very first job is the defaults, the control of every later group. Throws the Renderer's
+  /// errors for them. Other jobs that fail with a UsageError or a DeviceLimitError are skipped.
   void measure(std::vector<Job> jobs, const std::string& task);
 
  private:
@@ -51,8 +51,8 @@ class Measurer {
   Panel& panel_;
   std::optional<Job> control_;
   double control_ms_ = 0;
-  std::pair<double, double> share_{0, 1};  // of the progress: where this group begins, and how much
-  double made_ = 0;                        // the part of the group's renderers that are there
+  std::pair<double, double> share_{0, 1};  // of the progress: begin and length of this group
+  double made_ = 0;                        // the fraction of the group's renderers already created
   std::string task_;
 };
 

@@ -1,4 +1,5 @@
-// E_model for `tureen tradeoff`: each way to draw against photographs, as `tureen eval` measures.
+// E_model for `tureen tradeoff`: the error of each configuration against photographs, as in `tureen
+// eval`.
 #pragma once
 
 #include <functional>
@@ -12,24 +13,24 @@
 
 namespace tureen::tradeoff {
 
-/// How near a way to draw comes to photographs.
+/// The error of a configuration against photographs.
 struct ModelError {
-  double psnr_db = 0;  // the mean of the views' decibels, as eval says it
+  double psnr_db = 0;  // mean of the views' PSNR, as in eval
   double ssim = 0;     // border `valid`
-  double flip = 0;     // 0 where it was left out
+  double flip = 0;     // 0 if not computed
 };
 
 struct ModelOptions {
   gl::Backend backend = gl::Backend::automatic;
   glm::vec3 background{0.0f};
   bool with_flip = true;
-  std::function<void(double)> progress = {};  // may throw to end it
+  std::function<void(double)> progress = {};  // may throw to cancel
 };
 
-/// At most `most` of the photographs, evenly spread over their order; all where `most` is 0.
+/// At most `most` of the photographs, evenly spaced in their order; all if `most` is 0.
 std::vector<Photograph> spread_out(std::vector<Photograph> photographs, std::size_t most);
 
-/// One entry for each outcome of the panel, nothing for generic twins, which draw the same.
+/// One entry for each outcome of the panel; nullopt for generic twins, which draw the same images.
 std::vector<std::optional<ModelError>> model_errors(const Panel& panel, const TriangleSoup& soup,
                                                     glm::dvec3 origin,
                                                     std::span<const Photograph> photographs,

@@ -1,5 +1,5 @@
-// Which of many measured ways to draw are worth having: the Pareto front of time and error, one
-// number for it, and the choice. Plain arithmetic; nothing here draws.
+// The Pareto front of time and error over measured configurations, its hypervolume, and the choice.
+// Plain arithmetic, without drawing.
 #pragma once
 
 #include <cstddef>
@@ -9,46 +9,46 @@
 
 namespace tureen::tradeoff {
 
-/// One way to draw, measured.
+/// One measured configuration.
 struct Point {
-  double ms = 0;         // a frame, > 0
-  double spread_ms = 0;  // of repeated measurements: what lies closer than this is equally fast
-  double psnr_db = 0;    // E_render, at most 100
+  double ms = 0;                 // a frame, > 0
+  double spread_ms = 0;          // spread of repeated measurements; smaller differences are ties
+  double psnr_db = 0;            // E_render, at most 100
   double coverage_mismatch = 0;  // fraction of pixels
-  int departures = 0;            // from the defaults: of equals the one with fewer is the simpler
+  int departures = 0;            // settings off their defaults; breaks ties in favour of fewer
 };
 
-/// Errors that differ by no more are the same: a tenth of what anybody has ever seen.
+/// Errors within this difference are ties: a tenth of the smallest visible difference.
 inline constexpr double psnr_tie_db = 0.1;
 
-/// Indices of the points that are worth having, fastest first. Points are taken in groups that are
-/// equally fast (within the spread of either, counted from the fastest of the group, so that no
-/// chain of ties drifts). A group counts if something in it is better than all that is faster, by
-/// more than `tie_db`; of its best, within `tie_db`, the simplest is taken, then the fastest, then
-/// the first. So times and decibels both rise along the front, and every point left out has one on
-/// the front that is as fast and as good, up to the ties.
+/// Indices of the points on the front, fastest first. Points are grouped by equal speed: within the
+/// spread of either, measured from the fastest of the group, so that chains of ties do not drift. A
+/// group contributes a point if its best PSNR exceeds that of all faster points by more than
+/// `tie_db`. Among its best, within `tie_db`, the point with the fewest departures is taken, then
+/// the fastest, then the first. Times and PSNR therefore both increase along the front. For every
+/// other point the front has one that is as fast and as good, up to the ties.
 std::vector<std::size_t> pareto_front(std::span<const Point> points, double tie_db = psnr_tie_db);
 
-/// The corner that nobody wants to be behind: 100 ms and 20 dB.
+/// The reference point of the hypervolume: 100 ms and 20 dB.
 struct Corner {
   double ms = 100;
   double psnr_db = 20;
 };
 
-/// The area between the corner and the points, where the horizontal axis is the logarithm of time
-/// as it is plotted: decades times decibels. Grows when anything gets faster or better; 0 where
-/// every point is slower or worse than the corner. Exact, ties play no part.
+/// The area between the corner and the points, with the logarithm of time on the horizontal axis:
+/// decades times decibels. It grows with any improvement of time or PSNR; 0 if every point is
+/// slower or worse than the corner. Exact, without ties.
 double hypervolume(std::span<const Point> points, const Corner& corner = {});
 
-/// What a way to draw must keep to be taken without asking.
+/// Error limits for an automatic choice.
 struct Limits {
-  /// Costs a model that comes within 27 dB of its photographs 0.02 dB (image/render_error.hpp).
+  /// At 50 dB a model with 27 dB against its photographs loses 0.02 dB (image/render_error.hpp).
   double min_psnr_db = 50;
   double max_coverage_mismatch = 1e-4;
 };
 
-/// The fastest point within the limits; of those equally fast the simplest, then the better, then
-/// the first. None where no point is within them.
+/// The fastest point within the limits. Ties are broken by fewer departures, then PSNR, then order.
+/// Returns nullopt if no point is within the limits.
 std::optional<std::size_t> cheapest_within(std::span<const Point> points,
                                            const Limits& limits = {});
 

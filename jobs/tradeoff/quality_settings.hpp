@@ -1,6 +1,5 @@
-// The quality settings that a soup has: the values of each, and what these change in its data or in
-// how finely it is drawn. The experiment (jobs/tradeoff/experiment.hpp) knows only their
-// numbers.
+// The quality settings of a soup: their values, and the effect of each on its data or its sampling.
+// The experiment (jobs/tradeoff/experiment.hpp) uses only their numbers.
 #pragma once
 
 #include <cstdint>
@@ -16,41 +15,40 @@
 
 namespace tureen::tradeoff {
 
-/// The soup with these edits, drawn at this quality: the meaning of chosen values.
+/// The soup's edits and sampling quality for chosen values.
 struct Applied {
   Edits edits;
   Quality quality;
 };
 
 struct SettingValue {
-  std::string value;  // for programs: "3", "base"
-  std::string words;  // for people: "lattice level 3", "base colour"
+  std::string value;  // name for programs: "3", "base"
+  std::string words;  // description: "lattice level 3", "base colour"
   std::function<void(Applied&)> apply;
 };
 
 struct QualitySetting {
-  std::string key;                   // for programs: "lattice_level"
-  std::string title;                 // for people: "lattice level"
-  std::vector<SettingValue> values;  // the default first, whose apply changes nothing
+  std::string key;                   // name for programs: "lattice_level"
+  std::string title;                 // description: "lattice level"
+  std::vector<SettingValue> values;  // the default first; its apply changes nothing
 };
 
-/// The settings that do not antialias, in the order of docs/tradeoff.md: those that mean anything
-/// for this soup, with the values that change something. `visible_pixels` are
-/// count_visible_pixels() of the views, by which the triangle budget chooses.
+/// The settings other than antialiasing, in the order of docs/tradeoff.md: those that apply to this
+/// soup, with the values that change it. `visible_pixels` is the result of count_visible_pixels()
+/// for the views; the triangle budget uses it.
 std::vector<QualitySetting> drawing_settings(const TriangleSoup& soup,
                                              std::span<const std::uint64_t> visible_pixels);
 
-/// Those that decide how many samples a pixel has, and where: resolution scale, supersampling up to
+/// The settings for the number and place of samples: resolution scale, and supersampling up to
 /// `max_samples` an axis.
 std::vector<QualitySetting> antialiasing_settings(int max_samples);
 
-/// How many values each setting has: what the experiment counts.
+/// The number of values of each setting, for the experiment.
 std::vector<int> value_counts(const std::vector<QualitySetting>& settings);
 
 Applied applied_by(const std::vector<QualitySetting>& settings, const Configuration& configuration);
 
-/// The settings that are not at their defaults, in words, "lattice level 2, base colour";
-/// "defaults" where there are none.
+/// The settings that differ from their defaults, "lattice level 2, base colour", or "defaults".
 std::string describe(const std::vector<QualitySetting>& settings,
                      const Configuration& configuration);
 

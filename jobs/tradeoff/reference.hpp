@@ -1,4 +1,4 @@
-// The pictures that errors of drawing are measured against: one model, drawn by the oracle.
+// Reference images for errors of drawing: one model, drawn by the oracle.
 #pragma once
 
 #include <functional>
@@ -8,37 +8,36 @@
 
 namespace tureen::tradeoff {
 
-/// Where the reference looks. Both see float colours of unquantised texels.
+/// The sample points of the reference. All kinds use float colours of unquantised texels.
 enum class Samples {
-  /// One a pixel, at the very points that the device samples: vertices lie on its subpixel grid
-  /// (oracle::Coverage::snapped). What a device rounds before anybody has changed a setting is not
-  /// the
-  /// setting's fault: on small pictures it costs more than most settings do (docs/tradeoff.md).
+  /// One sample a pixel at the device's sample points: vertices lie on its subpixel grid
+  /// (oracle::Coverage::snapped). The device's rounding is independent of all settings, but on
+  /// small images it costs more than most of them (docs/tradeoff.md).
   device,
-  /// One a pixel, at its centre, of the triangles as they are.
+  /// One sample a pixel, at its centre, of the exact triangles.
   exact,
-  /// antialiased_samples^2 a pixel, on a regular grid, of the triangles as they are.
+  /// antialiased_samples^2 samples a pixel, on a regular grid, of the exact triangles.
   antialiased,
 };
 
-/// Samples a pixel and axis of Samples::antialiased. Supersampling with as many looks at the very
-/// same points: how it differs from the reference is rounding and says nothing of antialiasing.
+/// Samples a pixel and axis of Samples::antialiased. Supersampling with the same number uses the
+/// same points: its difference from the reference is only rounding.
 inline constexpr int antialiased_samples = 8;
 
-/// GL_SUBPIXEL_BITS of the context that is current: how finely its device rounds vertices within a
-/// pixel. 8, which nearly all have, where it tells nothing that the oracle could do (1 .. 16).
+/// GL_SUBPIXEL_BITS of the current context: the precision of vertices within a pixel. Returns 8,
+/// the most common value, if the reported value is outside the oracle's range 1 .. 16.
 int device_subpixel_bits();
 
 struct ReferenceOptions {
   Samples samples = Samples::device;
   int subpixel_bits = 8;  // of the device, for Samples::device: device_subpixel_bits()
   glm::vec3 background{0.0f};
-  /// Called with the fraction done, 0..1; may throw to abandon the picture.
+  /// Called with the fraction done, 0..1; may throw to cancel.
   std::function<void(double)> progress = {};
 };
 
-/// The picture over the background; alpha is coverage: the part of the rays that hit something.
-/// Memory beside the picture: 12 bytes a ray, in strips of at most about 4 million rays.
+/// The image over the background; alpha is coverage, the fraction of rays with a hit. Memory in
+/// addition to the image: 12 bytes a ray, in strips of at most about 4 million rays.
 ImageF reference_picture(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera,
                          const ReferenceOptions& options);
 
