@@ -37,7 +37,6 @@ Integer parse_integer(std::string_view text);
 /// Size of the longest text that format_float writes, including its NUL.
 inline constexpr std::size_t max_float_text = 17;
 
-/// Writes `value` with at most 9 significant digits so that parse_decimal gives back the same bits
 /// Writes `value` and a NUL with the fewest digits of 6, 7, 8 and 9 that parse_decimal reads back
 /// to the same bits (any NaN as "nan"). Returns the position of the NUL.
 char* format_float(char* out, float value);

@@ -4,7 +4,6 @@
 //
 // Counted are allocations whose size depends on the file: arrays, texts, images and temporary
 // memory of decoders. The fixed buffers of readers, a few kilobytes, are not counted.
-// decoders hold meanwhile. The few kilobytes of buffers that every reader has are not.
 #pragma once
 
 #include <algorithm>
