@@ -9,7 +9,7 @@ namespace tureen {
 /// The window and the border. The three variants give different numbers for the same images (0.829,
 /// 0.821 and 0.828 in one example), so every report names the variant.
 enum class SsimBorder {
-  zero_pad,  // Gaussian, 11 x 11, sigma 1.5, zeros around the picture: 3DGS, Triangle Splatting
+  zero_pad,  // Gaussian, 11 x 11, sigma 1.5, zeros around the image: 3DGS, Triangle Splatting
   valid,     // the same window, where it fits: DiffSoup on real scenes
   uniform7,  // box of 7 x 7 where it fits, sample variance (49/48): scikit-image's default
 };
