@@ -17,7 +17,6 @@ namespace tureen {
 /// unchanged. Border rows and columns that the photograph does not fill are cropped, and the
 /// principal point is shifted accordingly. Every pixel is therefore valid without a mask, and alpha
 /// below 255 always comes from the dataset.
-/// what the dataset meant by it.
 struct Photograph {
   Camera camera;
   Image8 image;  // straight alpha; camera.width x camera.height

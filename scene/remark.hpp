@@ -54,9 +54,9 @@ struct Remark {
     blind_cameras_dropped,
     window_parameters_dropped,     // vertex weights and sigma in a checkpoint
     screen_interpolation_dropped,  // for the colours in a checkpoint
-    shapes_missing,                // counts: missing shapes, all shapes
+    shapes_missing,                // counts: indices of missing shapes; last: number of all
     shapes_untextured,             // counts: likewise
-    preset_dropped,                // it selects soft triangles by opacity
+    preset_dropped,                // it selects among soft triangles
     preset_applied,                // from an earlier version, to the data. names: names_of(Edits)
     preset_keys_ignored,           // for settings that no longer exist. names: the keys
     // The files.

@@ -14,7 +14,7 @@ namespace tureen {
 void refine_lattice(int from, int to, int channels, std::span<const float> coarse,
                     std::span<float> fine);
 
-/// The highest level of any face; 0 where there are no faces.
+/// The highest level of any face; 0 without faces.
 int highest_level(const LatticeTexture& texture);
 
 }  // namespace tureen
