@@ -39,8 +39,8 @@ enum class NavigationMode {
   fly,    // from a fixed eye
 };
 
-/// Views of the whole subject, in the order of the keys 1..9. Left and right are those of a person
-/// who faces the front: "left" has its eye on that person's left side.
+/// Views of the whole subject, in the order of the keys 1..9. Left and right are as seen by a
+/// person in front of the subject: the eye of "left" is at that person's left hand.
 enum class NamedView {
   front,
   back,
@@ -50,7 +50,7 @@ enum class NamedView {
   bottom,
   three_quarter,       // from the front, slightly from the right and above
   three_quarter_left,  // slightly from the left
-  three_quarter_back,  // from the back
+  three_quarter_back,  // three_quarter from the back
 };
 inline constexpr std::array named_views{NamedView::front,
                                         NamedView::back,

@@ -41,7 +41,7 @@ struct ViewState {
   glm::dvec3 target{0.0};
   double distance = 1;   // > 0
   Bearing bearing = {};  // of the eye seen from the target; the azimuth may exceed a turn
-  double roll = 0;       // radians; positive turns the camera's head to its left, the picture right
+  double roll = 0;       // radians; positive turns the camera's head to its left, the image right
   ViewLens lens = {};
 };
 
