@@ -16,8 +16,8 @@ void use_plain_pixel_transfer();
 /// No sampler object overrides the texture's filters on this unit.
 void use_texture_sampling(unsigned unit);
 
-/// Maps clip space's z to depth from [0, 1], for reversed depth, or from [-1, 1], GL's default. Has
-/// an effect only with clip control.
+/// Maps clip space's z to depth from [0, 1], for reversed depth, or from [-1, 1], GL's default.
+/// Requires Capabilities::clip_control.
 void use_zero_to_one_depth(Api api, bool zero_to_one);
 
 /// Returns when the device has finished drawing into this framebuffer. In a browser glFinish does
