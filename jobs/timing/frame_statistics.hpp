@@ -68,8 +68,8 @@ std::vector<double> view_medians(const FrameTimes& times);
 double series_spread(const FrameTimes& first, const FrameTimes& second);
 
 /// Smallest number of rounds for a spread. Two normally distributed medians lie within a fifth of
-/// their standard deviation one time in nine by chance, three medians one time in ninety. So small a
-/// spread would make noise look significant.
+/// their standard deviation one time in nine by chance, three medians one time in ninety. So small
+/// a spread would make noise look significant.
 inline constexpr int min_rounds = 3;
 
 /// The difference, as a fraction, at which two series may still be equal: the largest of the A/A

@@ -23,7 +23,7 @@ inline constexpr double psnr_tie_db = 0.1;
 
 /// Indices of the points on the front, fastest first. Points are grouped by equal speed: within the
 /// spread of either, measured from the fastest of the group, so that chains of ties do not drift. A
-/// group contributes a point if its best PSNR exceeds that of all faster points by more than
+/// group contributes a point if its best PSNR exceeds that of the front so far by more than
 /// `tie_db`. Among its best, within `tie_db`, the point with the fewest departures is taken, then
 /// the fastest, then the first. Times and PSNR therefore both increase along the front. For every
 /// other point the front has one that is as fast and as good, up to the ties.
