@@ -1,4 +1,4 @@
-// The extension of a path, for formats that their content does not identify.
+// The extension of a path, for formats that content alone does not identify.
 #pragma once
 
 #include <filesystem>

@@ -26,8 +26,8 @@ struct AppearanceSource {
   ColorMlpSource mlp;  // its uniforms
   TexelLayout layout;  // shared by all stores
 
-  /// Chooses the height of layers for the stores, within the device's layout. Called last, after all
-  /// stores are complete.
+  /// Chooses the height of layers for the stores, within the device's layout. Called last, after
+  /// all stores are complete.
   void fit_layout(const TexelLayout& device);
 };
 
