@@ -46,8 +46,8 @@ Camera resampled(const Camera& camera, int width, int height);
 /// included.
 bool in_picture(const Camera& camera, glm::dvec3 point);
 
-/// Clip from view for the depth range [near, far] mapped to NDC z in [-1, 1] (OpenGL's default),
-/// with the y axis up, so that row 0 of a read-back image is the bottom row.
+/// Clip from view. Maps the depth range [near, far] to NDC z in [-1, 1] (OpenGL's default). The y
+/// axis points up, so row 0 of a read-back image is the bottom row.
 glm::dmat4 clip_from_view(const Camera& camera, double near, double far);
 
 /// Clip from view with reversed depth and an infinite far plane: NDC z = 1 at `near`, 0 at

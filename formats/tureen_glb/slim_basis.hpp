@@ -39,8 +39,8 @@ struct SlimBasis {
 
 /// The basis in which slim_fraction values along any axis move the colour by `step` / 255 in the
 /// root mean square. `sensitivity` is the texture's mean_sensitivity(). Axes with less than a tenth
-/// of the first one's effect are treated as having a tenth, since the network is not linear and
-/// long steps along them would be visible. `weights`: weight of each texel (SlimTexelOptions);
+/// of the first one's effect are treated as having a tenth. The network is not linear, so long
+/// steps along them would be visible. `weights`: weight of each texel (SlimTexelOptions);
 /// empty: equal weights.
 SlimBasis slim_basis(const LatticeTexture& texture, const FeatureMatrix& sensitivity, double step,
                      std::span<const float> weights = {});
