@@ -90,7 +90,7 @@ void TrainingSession::keep_if_it_fails(const std::function<void()>& work) {
 
 void TrainingSession::keep() {
   save_checkpoint();
-  say(fmt::format("wrote {} after step {} of {}; the same command with --resume goes on from it",
+  say(fmt::format("wrote {} after step {} of {}; continue with the same command and --resume",
                   options_.files.checkpoint.string(), counted(trainer_.steps_done()),
                   counted(trainer_.config().steps)));
 }
