@@ -374,7 +374,8 @@ void add_file_options(Command& command, TrainOptions& options) {
       "continue from OUT.checkpoint; the soup is the same as without the interruption");
   command
       .add_option("--preview-every", options.preview_every,
-                  "steps between previews in OUT.previews: a test view beside its photograph")
+                  "steps between previews in OUT.previews, a test view beside its photograph; none "
+                  "by default")
       .check(between(1, 10'000'000))
       .value_name("N");
   command
