@@ -8,8 +8,8 @@
 #include "cli/json_reading.hpp"
 #include "cli/provenance.hpp"
 #include "cli/tradeoff_report.hpp"
-#include "cli/training_log.hpp"
 #include "cli/web_bench.hpp"
+#include "trainer/common/training_log.hpp"
 
 namespace tureen::cli {
 
@@ -51,7 +51,7 @@ void check_measurements(const JsonView& root) {
 
 /// The lines of a log as a list, without an incomplete last one.
 ReportResult training(const std::string& file, const std::string& text) {
-  if (read_training_log(file).empty())
+  if (trainer::read_training_log(file).empty())
     throw UnknownResult({file, {}, {}}, "the log has no records yet");
   std::string lines = text.substr(0, text.rfind('\n'));
   std::replace(lines.begin(), lines.end(), '\n', ',');

@@ -15,26 +15,27 @@
 #include "cli/config_options.hpp"
 #include "cli/dataset_argument.hpp"
 #include "cli/eval_images.hpp"
-#include "cli/held_out.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory_option.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
-#include "cli/run_lock.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/table.hpp"
-#include "cli/training_session.hpp"
+#include "cli/train_files.hpp"
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "formats/scene_file.hpp"
 #include "jobs/eval/evaluation.hpp"
 #include "scene/edit/lattice_bytes.hpp"
 #include "trainer/common/kernels/projection.hpp"
+#include "trainer/common/run_lock.hpp"
 #include "trainer/common/training_views.hpp"
 #include "trainer/diffsoup/config_fields.hpp"
 #include "trainer/diffsoup/config_file.hpp"
 #include "trainer/diffsoup/device.hpp"
+#include "trainer/diffsoup/held_out.hpp"
 #include "trainer/diffsoup/initialise.hpp"
 #include "trainer/diffsoup/near_zone.hpp"
+#include "trainer/diffsoup/session.hpp"
 
 namespace tureen::cli {
 
@@ -121,6 +122,16 @@ double opacity_binary_fraction(const trainer::Model& model) {
     }
   }
   return texels > 0 ? double(binary) / double(texels) : 1.0;
+}
+
+std::string progress_text(const trainer::SessionStatus& now) {
+  std::string text = fmt::format("{}/{}", now.step, now.steps);
+  if (now.loss > 0) text += fmt::format(", loss {:.4f}", now.loss);
+  if (now.test_psnr_db) text += fmt::format(", {:.2f} dB", *now.test_psnr_db);
+  if (now.seconds_per_step > 0)
+    text += fmt::format(", {:.3g} it/s, {} left", 1 / now.seconds_per_step,
+                        duration_text(now.seconds_per_step * (now.steps - now.step)));
+  return text;
 }
 
 struct Result {
@@ -278,7 +289,7 @@ auto before_the_first_step(const TrainOptions& options, Work&& read) {
 ExitCode train(const TrainOptions& options) {
   // Everything that can be wrong with the arguments is said before the photographs are read.
   TrainingFiles files;
-  std::optional<RunLock> lock, log_lock;
+  std::optional<trainer::RunLock> lock, log_lock;
   if (!options.print_config) {
     outlive_readers();  // hours of work are worth more than the lines that nobody reads
     files = files_of(options);
@@ -332,24 +343,46 @@ ExitCode train(const TrainOptions& options) {
   if (!result.visible_at_start)
     say("No training image shows a triangle yet: check that the cameras see the scene.");
 
+  Progress::Output output = Progress::standard_error();
+  output.line_seconds = 10;
+  std::optional<Progress> progress;
+  progress.emplace("training", output);
   const double seconds_before = run.seconds;
-  TrainingSession session(trainer,
-                          {.files = files,
-                           .checkpoint_every = options.checkpoint_every,
-                           .preview_every = options.preview_every,
-                           .test_views = dataset.test,
-                           .seconds_before = seconds_before},
-                          std::move(run));
+  trainer::TrainingSession session(
+      trainer,
+      {.checkpoint = files.checkpoint,
+       .log = files.log,
+       .previews = files.previews,
+       .checkpoint_every = options.checkpoint_every,
+       .preview_every = options.preview_every,
+       .test_views = dataset.test,
+       .seconds_before = seconds_before,
+       .progress =
+           [&](const trainer::SessionStatus& now) {
+             progress->update(double(now.step) / now.steps, progress_text(now));
+           },
+       .interrupted =
+           [&] {
+             progress.reset();
+             say(
+                 fmt::format("wrote {} after step {} of {}; the same command with --resume goes on "
+                             "from it",
+                             files.checkpoint.string(), counted(trainer.steps_done()),
+                             counted(trainer.config().steps)));
+           }},
+      std::move(run));
   session.run();
+  progress.reset();
 
   result.seconds = session.seconds();
   result.state = trainer.state();
   const Scene scene = scene_of(options, dataset, config, result.state);
   session.keep_if_it_fails([&] { write_results(files, scene, result); });
   {
-    Progress progress("measuring");
-    result.trainer_psnr_db = mean_psnr_db(trainer.backend(), dataset.test, config,
-                                          [&](double fraction) { progress.update(fraction); });
+    Progress measuring("measuring");
+    result.trainer_psnr_db =
+        trainer::mean_psnr_db(trainer.backend(), dataset.test, config,
+                              [&](double fraction) { measuring.update(fraction); });
   }
   result.evaluation = evaluation_of(scene, dataset.test);
   say_result(options, dataset, result);

@@ -1,4 +1,4 @@
-#include "cli/training_files.hpp"
+#include "cli/train_files.hpp"
 
 #include <span>
 #include <string>

@@ -1,4 +1,4 @@
-#include "cli/training_log.hpp"
+#include "trainer/common/training_log.hpp"
 
 #include <cerrno>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "base/input.hpp"
 #include "base/json_view.hpp"
 
-namespace tureen::cli {
+namespace tureen::trainer {
 
 namespace {
 
@@ -119,4 +119,4 @@ std::vector<TrainingRecord> read_training_log(const std::filesystem::path& path)
   return parse_log(path).records;
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen::trainer
