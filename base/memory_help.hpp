@@ -4,7 +4,7 @@
 namespace tureen {
 
 inline constexpr const char* max_memory_help =
-    "what reading a scene or a dataset may take, 4GB by default: a file that asks for more is "
-    "refused";
+    "memory limit for reading a scene or a dataset, 4GB by default; a file that needs more is "
+    "rejected";
 
 }  // namespace tureen

@@ -88,7 +88,7 @@ void require_known_command(const CLI::App& program, const std::vector<std::strin
   const std::string& word = arguments.front();
   if (std::find(names.begin(), names.end(), word) != names.end()) return;
   if (const std::string instead = replacement_of(word); !instead.empty())
-    throw UsageError("there is no longer a command " + word, instead);
+    throw UsageError("this version has no command " + word, instead);
   throw UsageError("there is no command " + word, did_you_mean(word, names));
 }
 
@@ -111,7 +111,7 @@ UsageError explain(const CLI::App& command, const CLI::ParseError& error) {
         for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
       return UsageError(command.get_name() + " has no option " + word, did_you_mean(word, known));
     }
-    if (!extras.empty()) return UsageError("'" + extras.front() + "' is one argument too many");
+    if (!extras.empty()) return UsageError("'" + extras.front() + "' is an unexpected argument");
   }
   return UsageError(error.what());
 }

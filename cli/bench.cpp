@@ -79,7 +79,7 @@ BenchResult run(const BenchOptions& options) {
   result.protocol.processor_time = options.processor_time;
   const BenchCases cases = make_cases(options.cases, context, scene);
   for (const SkippedCase& each : cases.skipped)
-    result.notes.push_back(each.name + " is left out: " + each.reason);
+    result.notes.push_back(each.name + " is skipped: " + each.reason);
   result.load = load_of(cases, read_ms.count());
   add_measurements(result, measure(cases, views.views,
                                    {.rounds = options.rounds,
@@ -123,46 +123,48 @@ ExitCode bench(const BenchOptions& options) {
 void add_bench(Command& program, std::vector<std::string> arguments) {
   auto options = std::make_shared<BenchOptions>();
   options->arguments = std::move(arguments);
-  Command command = program.add_command("bench", "Frame times across resolutions");
+  Command command = program.add_command("bench", "Measure frame times");
   command.footer(
-      R"(Times the plan, our pipeline without specialisations and the published pipeline (where it can
-draw the scene), in turns, frame by frame. Each is warmed up until its times are stable; a frame
-ends when the device has finished. First the plan runs against itself (A/A). "best ms" is the
-smallest of the rounds' medians; ratios use it. Differences below twice the spread (the larger of
-the A/A spread and that between rounds) are called equal; below 3 rounds no difference is
-reported. The 99th percentile and the 1 % low need 100 samples (one view in one round each).
-Loading is timed separately.
+      R"(Draws frames alternately with the plan, with the pipeline without specialisations, and
+with the baseline if it supports the scene. Warm-up frames run until the times are stable. A
+frame ends when the device has finished. First the plan is compared with itself (A/A). "best ms"
+is the smallest of the rounds' medians; ratios use it. Times within twice the spread are
+"equal"; the spread is the larger of the A/A spread and the spread between rounds. Differences
+need at least 3 rounds. The 99th percentile and the 1 % low need 100 samples (one view in one
+round each). Loading is measured separately.
 
 Examples:
   tureen bench soup.glb                                   eight views from above at 1280x720
   tureen bench soup.glb --sweep --json > bench.json       five sizes
   tureen bench soup.glb --size 640x360,1920x1080 --cameras orbit:12,adversarial
   tureen bench soup.glb photographs --sizes full,half     the dataset's test cameras
-  tureen bench soup.glb --ceilings -o timed               report.html, and the images timed
-  tureen bench soup.glb --against timed/bench.json        what has become faster or slower since
+  tureen bench soup.glb --ceilings -o timed               report.html, and the images
+  tureen bench soup.glb --against timed/bench.json        changes since then
   tureen bench soup.glb --only tureen,triangles --seconds 60
   tureen bench soup.glb --only tureen-fragment,tureen-compute
-                                                          shading by compute shaders
+                                                          fragment or compute shaders
 
 Exit codes: 0 done, 1 slower than --fail-slower allows, 2 wrong usage, 3 the scene or the
-cameras cannot be read, 4 no OpenGL context, 5 it does not fit on the device or cannot be
-written.)");
+cameras cannot be read, 4 no OpenGL context, 5 the scene does not fit on the device, or
+the output cannot be written.)");
   add_scene_argument(command, options->scene);
   add_memory_option(command);
   add_bench_view_options(command, options->views);
   add_case_options(command, options->cases);
-  command.add_option("--rounds", options->rounds, "rounds of all views at most, 5 by default")
+  command
+      .add_option("--rounds", options->rounds,
+                  "largest number of rounds over all views, 5 by default")
       .check(between(1, 10000))
       .value_name("N");
   command
       .add_option("--seconds", options->seconds,
-                  "make fewer rounds, but one at least, to be done in about this time; 20 by "
-                  "default, 0 for no limit")
+                  "approximate time limit in seconds, 20 by default, 0 for no limit; reduces the "
+                  "number of rounds, to at least 1")
       .check(between(0.0, 1e6))
       .value_name("S");
   command.add_flag("--processor-time", options->processor_time,
-                   "processor time of all threads instead of time that passed: for ratios on a "
-                   "busy machine; software OpenGL only");
+                   "measure the processor time of all threads instead of elapsed time, for ratios "
+                   "on a busy machine; software OpenGL only");
   add_bench_report_options(command, options->reports);
   command.does([options] { return bench(*options); });
 }

@@ -74,7 +74,8 @@ class CopyCase final : public BenchCase {
     copy_ = std::make_unique<CopyCeiling>(context);
     copy_->finish();
     configuration.upload_ms = milliseconds_since(start);
-    configuration.plan = {"copies as many pixels by a full-screen triangle (a ceiling)"};
+    configuration.plan = {
+        "copies the same number of pixels with a full-screen triangle (a ceiling)"};
   }
   void draw(const Camera& camera) override { copy_->draw(camera.width, camera.height); }
   void finish() const override { copy_->finish(); }
@@ -164,15 +165,15 @@ void add_case_options(Command& command, BenchCaseOptions& options) {
   command
       .add_option(
           "--only", options.only,
-          "the cases, with commas between: tureen (the plan), tureen-fragment and "
-          "tureen-compute (the same, with --shading), generic (no specialisation), published "
-          "(the baseline), triangles and copy (the ceilings); ratios are relative to the first")
+          "cases to measure, separated by commas: tureen (the plan), tureen-fragment and "
+          "tureen-compute (the plan with --shading), generic (no specialisation), published (the "
+          "baseline), triangles and copy (the ceilings); ratios are relative to the first")
       .split_at_commas()
       .single_argument()
       .value_name("NAME,..");
   command.add_flag("--ceilings", options.ceilings,
-                   "also how fast the device draws the same triangles with an empty fragment "
-                   "shader, and copies as many pixels");
+                   "also measure two ceilings: drawing the triangles with an empty fragment "
+                   "shader, and copying the same number of pixels");
 }
 
 void check(const BenchCaseOptions& options) {

@@ -92,15 +92,15 @@ constexpr std::array<const char*, 8> change_names{
     "scene", "machine", "driver", "context", "rasteriser_threads", "build", "commit", "clock"};
 
 std::string describe(Incomparable reason) {
-  return reason == Incomparable::software ? "not compared: one of the two was drawn in software"
-                                          : "not compared: their times are of different clocks";
+  return reason == Incomparable::software ? "not compared: one of the two used a software renderer"
+                                          : "not compared: the two used different clocks";
 }
 
 std::string describe(const BenchChange& change) {
   const char* what = change.what == What::rasteriser_threads
                          ? "number of rasteriser threads"
                          : change_names[std::size_t(change.what)];
-  return fmt::format("another {}: {} then, {} now", what, change.then, change.now);
+  return fmt::format("different {}: {} then, {} now", what, change.then, change.now);
 }
 
 std::string describe(const UnmatchedBench& unmatched) {
@@ -185,7 +185,7 @@ std::vector<std::string> comparison_lines(const BenchComparison& comparison) {
                  ms_text(ratio.now_ms), fmt::format("{:.3f}", ratio.ratio),
                  verdict_text(ratio.verdict, ratio.rounds),
                  ratio.spread ? fmt::format("{:.1f} %", 100 * *ratio.spread) : not_known,
-                 ratio.same_pixels ? "" : "another picture"});
+                 ratio.same_pixels ? "" : "different image"});
     lines = table.lines();
   }
   for (std::string& line : circumstances(comparison)) lines.push_back(std::move(line));

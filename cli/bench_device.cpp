@@ -18,8 +18,8 @@ BenchClock clock_for(const BenchDevice& device, bool processor_time) {
   if (!processor_time)
     return {"steady clock of the processor, from an idle device until it has finished", nullptr};
   if (!device.software)
-    throw UsageError("--processor-time needs a software renderer, and " + device.renderer +
-                     " is none");
+    throw UsageError("--processor-time needs a software renderer, but " + device.renderer +
+                     " is hardware");
   return {"processor time of all threads, not time that passed: for ratios on a busy machine",
           processor_seconds};
 }

@@ -37,18 +37,18 @@ void say_limits(const BenchComparison& comparison, double percent) {
   const auto count = std::count_if(comparison.ratios.begin(), comparison.ratios.end(), coarse);
   if (count > 0)
     say(fmt::format(
-        "--fail-slower: of {} of {} twice the spread is more than {:g} %, and only what "
-        "is slower by more than that would have been noticed",
+        "--fail-slower: in {} of {} rows, twice the spread is above {:g} %; smaller slowdowns "
+        "there cannot be detected",
         count, comparison.ratios.size(), percent));
   if (!comparison.unmatched.empty())
-    say(fmt::format("--fail-slower: {} that only one of the two measured {} not judged",
+    say(fmt::format("--fail-slower: {} in one result only {} not checked",
                     count_text(int(comparison.unmatched.size()), "row"),
                     comparison.unmatched.size() == 1 ? "is" : "are"));
 }
 
 void say_comparison(const BenchComparison& comparison, const std::string& file) {
   say_list("against " + file + ":", comparison_lines(comparison));
-  if (comparison.ratios.empty()) say("nothing can be compared");
+  if (comparison.ratios.empty()) say("no rows can be compared");
 }
 
 }  // namespace
@@ -56,22 +56,22 @@ void say_comparison(const BenchComparison& comparison, const std::string& file) 
 void add_bench_report_options(Command& command, BenchReportOptions& options) {
   command
       .add_option("-o,--output", options.folder,
-                  "a folder for report.html, bench.json and the images timed")
+                  "folder for report.html, bench.json and the images")
       .value_name("FOLDER");
   const Option against =
       command
           .add_option("--against", options.against,
-                      "an earlier bench.json: says what became faster or slower, and "
-                      "what differs by more than twice the spread")
+                      "earlier bench.json to compare with; reports differences above twice the "
+                      "spread")
           .value_name("OLD.json");
   command
       .add_option("--fail-slower", options.fail_slower,
-                  "exit code 1 where something is slower than before by more than so many percent "
-                  "and by more than twice the spread")
+                  "exit with 1 if anything is slower than in --against by more than this "
+                  "percentage and by more than twice the spread")
       .value_name("PERCENT")
       .check(between(0.0, 1e4))
       .needs(against);
-  command.add_flag("--json", options.json, "the result as JSON on standard output");
+  command.add_flag("--json", options.json, "print the result as JSON to standard output");
 }
 
 std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& options,
@@ -86,9 +86,9 @@ std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& optio
     const auto few = [](const BenchMeasurement& m) { return m.frame_ms.rounds < min_rounds; };
     if (options.fail_slower &&
         std::any_of(then->measurements.begin(), then->measurements.end(), few))
-      throw UsageError(fmt::format("--fail-slower needs at least {} rounds in {}, too", min_rounds,
+      throw UsageError(fmt::format("--fail-slower also needs at least {} rounds in {}", min_rounds,
                                    options.against),
-                       "measure it anew");
+                       "measure it again");
   }
   if (!options.folder.empty()) {
     make_folder(options.folder);
@@ -116,8 +116,8 @@ ExitCode report_bench(const BenchReportOptions& options, const BenchResult& now,
                     [](const BenchRatio& ratio) { return ratio.verdict == Verdict::unknown; });
   if (unknown > 0)
     say(
-        fmt::format("--fail-slower cannot judge {} of {}, of fewer than {} rounds: --seconds gives "
-                    "them more time",
+        fmt::format("--fail-slower cannot check {} of {} rows with fewer than {} rounds; increase "
+                    "--seconds",
                     unknown, comparison->ratios.size(), min_rounds));
   say_limits(*comparison, *options.fail_slower);
   const std::vector<BenchRatio> slower = slower_than(*comparison, *options.fail_slower);

@@ -155,7 +155,7 @@ Json to_json(const BenchResult& result) {
 BenchResult bench_result_from_json(const std::string& text, const std::string& file) {
   const nlohmann::json document = parse_json(text, file);
   const JsonView root(document, file);
-  require_format(root, format_name, bench_result_version, "no result of tureen bench");
+  require_format(root, format_name, bench_result_version, "not a result of tureen bench");
   const JsonView protocol = root["protocol"], load = root["load"];
   BenchProgram program = program_of(root["program"]);
   // Results of earlier versions have only the option.

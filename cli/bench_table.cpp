@@ -48,7 +48,7 @@ void add_row(Table& table, const BenchMeasurement& each, const BenchMeasurement&
     table.remark("by the device's clock: " + passes_text(each));
     if (!each.passes_reason.empty()) table.remark(each.passes_reason);
   }
-  if (!each.stable) table.remark("its warm-up did not come to rest");
+  if (!each.stable) table.remark("times were not stable after the warm-up");
 }
 
 /// Why there are no times of passes, each reason once.
@@ -59,20 +59,21 @@ void add_pass_reasons(std::vector<std::string>& lines, const BenchResult& result
         std::find(said.begin(), said.end(), each.passes_reason) == said.end())
       said.push_back(each.passes_reason);
   if (!said.empty()) lines.push_back("");
-  for (const std::string& reason : said) lines.push_back("No times of passes: " + reason + ".");
+  for (const std::string& reason : said) lines.push_back("No pass times: " + reason + ".");
 }
 
 }  // namespace
 
 std::vector<std::string> bench_table(const BenchResult& result) {
   std::vector<std::string> lines;
-  lines.push_back(
-      fmt::format("{} ({}){}", result.device.renderer, result.device.context,
-                  result.device.software ? ": software, never to be compared with hardware" : ""));
+  lines.push_back(fmt::format(
+      "{} ({}){}", result.device.renderer, result.device.context,
+      result.device.software ? ": software renderer; do not compare with hardware" : ""));
   lines.push_back(machine_text(result.machine));
   if (const std::string& build = result.program.build; !build.empty() && build != "release")
-    lines.push_back("A " + build +
-                    " build: its checks take time in every frame, compare it with no other.");
+    lines.push_back(
+        "A " + build +
+        " build: its checks slow down every frame. Do not compare it with other builds.");
   const BenchLoad& load = result.load;
   std::string peaks;  // browsers tell the second alone
   if (load.peak_mib > 0)

@@ -139,27 +139,27 @@ double pixels_of(const BenchViews& views) {
 
 void add_bench_view_options(Command& command, BenchViewOptions& options) {
   command.add_option("DATASET", options.dataset,
-                     "posed photographs, whose test cameras are drawn: as for tureen eval");
+                     "posed photographs, as for tureen eval; their test cameras are drawn");
   command
       .add_option(
           "--cameras", options.cameras,
-          "sets of views, with commas between: hemisphere[:N] (spread evenly above the "
-          "scene), orbit[:N], adversarial (inside, far, grazing, most overdraw), dataset, "
-          "or a FILE[:N] of cameras as for tureen render --camera; hemisphere:8 by default, "
-          "or dataset where one is given")
+          "sets of views, separated by commas: hemisphere[:N] (evenly spaced above the scene), "
+          "orbit[:N], adversarial (inside, far, grazing, most overdraw), dataset, or a FILE[:N] "
+          "with cameras as for tureen render --camera; dataset by default if DATASET is given, "
+          "else hemisphere:8")
       .split_at_commas()
       .single_argument()
       .value_name("SET,..");
   command
       .add_option("--size,--sizes", options.sizes,
-                  "sizes of the pictures, with commas between: 1280x720 (the default), and, of "
-                  "recorded cameras, full (theirs), half and quarter")
+                  "image sizes, separated by commas: WxH in pixels, 1280x720 by default; for "
+                  "recorded cameras also full (their own size, the default), half and quarter")
       .split_at_commas()
       .single_argument()
       .value_name("WxH,..");
   command.add_flag("--sweep", options.sweep,
-                   "640x360, 1280x720, 1920x1080, 2560x1440 and 3840x2160, and recorded cameras in "
-                   "full, half and quarter size");
+                   "use the sizes 640x360, 1280x720, 1920x1080, 2560x1440 and 3840x2160; for "
+                   "recorded cameras also full, half and quarter");
 }
 
 void check(const BenchViewOptions& options) {
@@ -169,20 +169,18 @@ void check(const BenchViewOptions& options) {
   for (const std::string& size : options.sizes) {
     if (!divisor(size)) parse_size(size);
     if (divisor(size) && !recorded)
-      throw UsageError("'" + size +
-                       "' is a size of recorded cameras only: of a DATASET, or of a "
-                       "file given to --cameras");
+      throw UsageError("'" + size + "' needs recorded cameras: a DATASET, or a file in --cameras");
   }
   for (const CameraSet& set : sets) {
     if (set.kind == CameraSet::Kind::dataset && options.dataset.empty())
-      throw UsageError("--cameras dataset wants a DATASET after the scene");
+      throw UsageError("--cameras dataset needs a DATASET after the scene");
     // A file may have any name, but one that is not there is more likely a word that was mistyped.
     const std::string file = set.name.substr(0, set.name.rfind(':'));
     if (set.kind == CameraSet::Kind::file && is_missing(set.name) && is_missing(file))
       throw UsageError(
           "--cameras takes hemisphere[:N], orbit[:N], adversarial, dataset or a file "
           "of cameras, not '" +
-          set.name + "', of which there is none");
+          set.name + "', which does not exist");
   }
 }
 

@@ -33,15 +33,17 @@ struct NamedMetric {
 constexpr std::array named_metrics{
     NamedMetric{"mae", &Metrics::mae, false, "mean absolute difference"},
     NamedMetric{"mse", &Metrics::mse, false, "mean squared difference"},
-    NamedMetric{"psnr_db", &Metrics::psnr_db, true, "peak signal to noise, 100 when equal"},
-    NamedMetric{"ssim", &Metrics::ssim, true, "structural similarity, 1 when equal"},
+    NamedMetric{"psnr_db", &Metrics::psnr_db, true,
+                "peak signal-to-noise ratio, 100 for equal images"},
+    NamedMetric{"ssim", &Metrics::ssim, true, "structural similarity, 1 for equal images"},
     NamedMetric{"flip", &Metrics::flip, false, "perceived difference, 67 pixels per degree"},
     NamedMetric{"max_abs", &Metrics::max_abs, false, "largest difference in a channel"},
-    NamedMetric{"p999_abs", &Metrics::p999_abs, false, "99.9 % of channels differ by no more"},
+    NamedMetric{"p999_abs", &Metrics::p999_abs, false,
+                "99.9th percentile of the differences in a channel"},
     NamedMetric{"coverage_mismatch", &Metrics::coverage_mismatch, false,
-                "fraction of pixels that one picture hits (alpha >= 1/2)"},
+                "fraction of pixels covered in one image only (alpha >= 1/2)"},
     NamedMetric{"failing_fraction", &Metrics::failing_fraction, false,
-                "fraction of pixels off by more than --pixel-tolerance"},
+                "fraction of pixels with a difference above --pixel-tolerance"},
 };
 
 struct CompareOptions {
@@ -92,8 +94,8 @@ ExitCode compare_pictures(const CompareOptions& options) {
     for (const std::string& line : table.lines()) say(line);
   }
   if (passed == false)
-    say(fmt::format("tureen: the pictures differ: {} is {:.6g}, the tolerance is {:.6g}",
-                    metric.key, value, *options.tolerance));
+    say(fmt::format("tureen: the images differ: {} is {:.6g}, the tolerance is {:.6g}", metric.key,
+                    value, *options.tolerance));
   return passed == false ? ExitCode::check_failed : ExitCode::done;
 }
 
@@ -101,55 +103,57 @@ ExitCode compare_pictures(const CompareOptions& options) {
 
 void add_compare(Command& program) {
   auto options = std::make_shared<CompareOptions>();
-  Command command = program.add_command("compare", "How far two pictures are apart");
-  command.footer(R"(Pictures with alpha are compared as they look on --background.
+  Command command = program.add_command("compare", "Compare two images");
+  command.footer(R"(Images with alpha are drawn over --background before the comparison.
 
 Examples:
   tureen compare ours.png theirs.png
-  tureen compare ours.png theirs.png --tolerance 0.002             fails when the mean
+  tureen compare ours.png theirs.png --tolerance 0.002             exit with 1 if the mean
                                                                    difference is larger
   tureen compare ours.png theirs.png --metric psnr_db --tolerance 45
-                                                                   fails below 45 dB
-  tureen compare ours.png theirs.png --diff where.png              both, and a heat map
+                                                                   exit with 1 below 45 dB
+  tureen compare ours.png theirs.png --diff where.png              with a heat map
 
-Exit codes: 0 done, 1 past --tolerance, 2 wrong usage, 3 a picture cannot be read.)");
-  command.add_option("A", options->a, "a PNG or JPEG").required();
-  command.add_option("B", options->b, "another of the same size").required();
-  command.add_flag("--json", options->json, "the numbers as JSON on standard output");
+Exit codes: 0 done, 1 worse than --tolerance, 2 wrong usage, 3 an image cannot be read.)");
+  command.add_option("A", options->a, "first image, PNG or JPEG").required();
+  command.add_option("B", options->b, "second image, of the same size").required();
+  command.add_flag("--json", options->json, "print the metrics as JSON to standard output");
   command
-      .add_option("--tolerance", options->tolerance, "exit with 1 when --metric is worse than this")
+      .add_option("--tolerance", options->tolerance,
+                  "limit for --metric; exit with 1 if the metric is worse")
       .check([](const std::string& text) {
         // Numbers that nothing is worse than would be passed by everything.
         const std::optional<double> value = number_from(text);
         return text.starts_with('-') || !value || !std::isfinite(*value)
-                   ? "a tolerance is a number of at least 0, not " + text
+                   ? "a tolerance must be a number of at least 0, not " + text
                    : std::string();
       })
       .value_name("VALUE");
   std::vector<std::pair<std::string, const NamedMetric*>> metrics;
   for (const NamedMetric& metric : named_metrics) metrics.emplace_back(metric.key, &metric);
   add_choice<const NamedMetric*>(command, "--metric", options->metric, metrics,
-                                 "what --tolerance is held against: one of the names that are "
-                                 "printed; mae by default")
+                                 "metric for --tolerance: a name in the printed table; mae by "
+                                 "default")
       .value_name("NAME");
   command
       .add_option("--pixel-tolerance", options->metrics.pixel_tolerance,
-                  "a pixel fails when a channel is off by more than this; 1/255 by default")
+                  "largest difference in a channel before a pixel fails, 0 to 1; 1/255 by default")
       .check(between(0.0, 1.0))
       .value_name("VALUE");
   std::vector<std::pair<std::string, SsimBorder>> borders;
   for (const SsimBorder border : {SsimBorder::zero_pad, SsimBorder::valid, SsimBorder::uniform7})
     borders.emplace_back(name(border), border);
   add_choice<SsimBorder>(command, "--ssim-border", options->metrics.ssim_border, borders,
-                         "zero_pad (default; as 3DGS reports), valid, or uniform7 (scikit-image)")
+                         "SSIM window at the image border: zero_pad (default, as in 3DGS), valid, "
+                         "or uniform7 (scikit-image)")
       .value_name("MODE");
   command
       .add_option("--background", options->background,
-                  "what shows through alpha: black (default), white, or r,g,b from 0 to 1")
+                  "colour behind transparent pixels: black (default), white, or r,g,b from 0 to 1")
       .value_name("COLOR");
   command
       .add_option("--diff", options->diff,
-                  "write A, B and a heat map of their differences side by side")
+                  "image to write: A, B and a heat map of their differences, side by side")
       .value_name("OUT.png");
   add_memory_option(command);
   command.does([options] { return compare_pictures(*options); });

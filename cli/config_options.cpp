@@ -30,7 +30,7 @@ std::string refuse_seed(const std::string& text) {
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, seed);
   if (error == std::errc() && stop == end) return {};
-  return "a seed is a whole number from 0 to 18446744073709551615, not " + text;
+  return "a seed must be a whole number from 0 to 18446744073709551615, not " + text;
 }
 
 /// For the constant of this name. Beyond an int is beyond every range as well.
@@ -52,25 +52,25 @@ std::string ConfigOptions::mesh() const {
 void add_config_options(Command& command, ConfigOptions& options) {
   add_choice<std::optional<Preset>>(
       command, "--preset", options.preset, {{"object", Preset::object}, {"scene", Preset::scene}},
-      "constants for pictures of one thing, or of a place; by default object where the pictures "
-      "have alpha, else scene")
+      "constants for the kind of dataset: object (default if the images have alpha) or scene "
+      "(default otherwise)")
       .value_name("NAME");
-  command
-      .add_option("--config", options.file,
-                  "a JSON file with any of the constants that --list-config lists")
+  command.add_option("--config", options.file, "JSON file with constants; --list-config lists them")
       .value_name("FILE");
-  command.add_flag("--compat", options.published, "DiffSoup's published choices where ours differ");
-  add_number(command, "--triangles", options.triangles, "so many in the end; 15,000 by default");
-  add_number(command, "--steps", options.steps, "steps of the optimiser; 10,000 by default");
-  add_number(command, "--batch", options.batch, "views a step; 4 by default");
-  add_number(command, "--seed", options.seed, "of every random number; 0 by default")
+  command.add_flag("--compat", options.published,
+                   "use the constants of published DiffSoup where Tureen's differ");
+  add_number(command, "--triangles", options.triangles,
+             "number of triangles at the end; 15,000 by default");
+  add_number(command, "--steps", options.steps, "number of optimiser steps; 10,000 by default");
+  add_number(command, "--batch", options.batch, "views per step; 4 by default");
+  add_number(command, "--seed", options.seed, "seed of the random numbers; 0 by default")
       .check(refuse_seed);
   add_number(command, "--level", options.level,
-             "the finest level of the textures: a face has (2^N + 1)(2^N + 2) / 2 texels");
+             "finest lattice level: a face has (2^N + 1)(2^N + 2) / 2 texels");
   command
       .add_option("--init", options.begin,
-                  "where triangles begin: random, points (of structure from motion), or a scene "
-                  "whose triangles are trained further; by default points where there are some")
+                  "first triangles: random, points (from structure from motion), or a scene to "
+                  "continue from; by default points if the dataset has them, else random")
       .value_name("WHERE");
 }
 

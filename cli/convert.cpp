@@ -48,12 +48,12 @@ bool is_bare_extension(const fs::path& output) {
 void require_known_extension(const fs::path& output) {
   if (is_scene_page(output)) return;
   if (is_bare_extension(output))
-    throw UsageError("'" + output.string() + "' is an extension without a name before it");
+    throw UsageError("'" + output.string() + "' has no name before its extension");
   try {
     require_written_format(output);
   } catch (const UsageError& error) {
     throw UsageError(error.reason(),
-                     (error.hint().empty() ? "" : error.hint() + "; ") + "a page is .html");
+                     (error.hint().empty() ? "" : error.hint() + "; ") + "a page ends in .html");
   }
 }
 
@@ -84,7 +84,7 @@ void apply(const Edits& edits, Scene& scene) {
                      (soup ? appearance_name(soup->appearance) : "soft triangles"));
   const Edits changes = effective(edits, *soup);
   if (changes == Edits{}) {
-    say("the edits change nothing: the scene is within these limits already");
+    say("the edits change nothing: the scene is already within these limits");
     return;
   }
   Progress progress("reducing the scene");
@@ -117,7 +117,7 @@ Json write_page(const ScenePageTemplate& page, Scene scene, const ConvertOptions
             {"remarks", remarks_json(scene.info.remarks)},
             {"lost", Json::array()}};
   }
-  const Scratch glb(options.output + ".glb", "the scene that the page will hold");
+  const Scratch glb(options.output + ".glb", "the scene for the page");
   Json figures;
   try {
     figures = write(std::move(scene), options, glb.path());
@@ -161,34 +161,35 @@ std::string written_formats() {
     text += "  " + extensions + format.name + ": " + format.description + "\n";
   }
   return text +
-         "  .html           one page that opens by double-click: our GLB, and the viewer of ./dev "
-         "web\n";
+         "  .html           page: Tureen's GLB and the viewer from ./dev web; opens by "
+         "double-click\n";
 }
 
 }  // namespace
 
 void add_convert(Command& program) {
   auto options = std::make_shared<ConvertOptions>();
-  Command command = program.add_command("convert", "A scene in another format");
-  command.footer("The extension of OUT says which format is written:\n" + written_formats() +
-                 R"(What the format cannot hold is left out and said.
+  Command command = program.add_command("convert", "Write a scene in another format");
+  command.footer("The extension of OUT determines the format:\n" + written_formats() +
+                 R"(The command omits data that the format cannot store, and prints these losses.
 
 Examples:
-  tureen convert trained.pt soup.glb          to the file that we deploy
+  tureen convert trained.pt soup.glb          Tureen's own format
   tureen convert soup.glb soup.off --force    replaces soup.off
   tureen convert soup.glb small.glb --compress --photographs lego --scale 0.5
-                                              loses 0.1 dB against lego, no more
+                                              at most 0.1 dB of loss on lego
   tureen convert soup.glb less.glb --lattice-level 2
                                               coarser textures; tradeoff measures the error
   tureen convert soup.glb smooth.glb --supersample 2
-                                              drawn with 2 x 2 samples a pixel by default
-  tureen convert soup.glb soup.html           a page to send to somebody
+                                              2 x 2 samples a pixel by default
+  tureen convert soup.glb soup.html           a page to share
   tureen convert foreign.glb soup.glb --vertex-colors srgb --up 0,0,1)");
   add_scene_argument(command, options->scene, "IN");
-  command.add_option("OUT", options->output, "the file (or folder) to write").required();
+  command.add_option("OUT", options->output, "file or folder to write").required();
   add_memory_option(command);
   command.add_flag("--force", options->force, "replace OUT if it exists");
-  command.add_flag("--json", options->json, "what was written and lost as JSON on standard output");
+  command.add_flag("--json", options->json,
+                   "print the output and the losses as JSON to standard output");
   add_edit_options(command, options->edits);
   add_quality_options(command, options->quality);
   add_slim_arguments(command, options->slim);

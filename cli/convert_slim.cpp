@@ -36,7 +36,7 @@ namespace fs = std::filesystem;
 /// Bytes of the scene as DiffSoup publishes it: two PNGs, a PLY and JSON, written beside `glb` and
 /// removed again. None where it cannot be written so.
 std::optional<std::uint64_t> published_bytes(const Scene& scene, const fs::path& glb) {
-  const Scratch folder(glb.string() + ".export", "the export to compare with");
+  const Scratch folder(glb.string() + ".export", "the export for the comparison");
   try {
     write_diffsoup_export(scene, folder.path());
   } catch (const UsageError&) {
@@ -140,12 +140,10 @@ std::vector<std::string> losses_of(const SlimResult& result, const DatasetArgume
 void add_slim_arguments(Command& command, SlimArguments& arguments) {
   const Option slim =
       command.add_flag("--compress,--slim", arguments.slim,
-                       "a small GLB with a loss: the smallest that stays within --max-error");
+                       "write a compressed GLB, with loss: the smallest within --max-error");
   command
-      .add_option(
-          "--max-error", arguments.max_error_db,
-          "with --compress: how many decibels of PSNR against photographs may be lost; 0.1 by "
-          "default")
+      .add_option("--max-error", arguments.max_error_db,
+                  "with --compress: largest loss of PSNR against photographs in dB, 0.1 by default")
       .check(between(1e-4, 20.0))
       .value_name("DB")
       .needs(slim);
@@ -153,29 +151,28 @@ void add_slim_arguments(Command& command, SlimArguments& arguments) {
       command
           .add_option(
               "--photographs", arguments.photographs.path,
-              "with --compress: the dataset on whose test photographs the loss is measured, "
-              "and whose training cameras say what shows where the scene has few; "
-              "without, the loss is estimated from the scene's own pictures. At a smaller "
-              "--scale than the scene is looked at, it loses more than that")
+              "with --compress: dataset for measuring the loss on test photographs; by default the "
+              "loss is estimated from images of the scene. If the scene has few cameras, the "
+              "training cameras determine the visible parts. Views larger than the photographs at "
+              "--scale lose more than --max-error")
           .value_name("DATASET")
           .needs(slim);
   add_scale_option(command, arguments.photographs).needs(photographs);
   command
       .add_flag(
           "--keep-unseen", arguments.keep_unseen,
-          "with --compress: keep faces that none of 200 recorded cameras and no view from above "
-          "and around sees")
+          "with --compress: keep faces that are invisible from 200 recorded cameras and from above "
+          "and around")
       .needs(slim);
   command
       .add_flag("--keep-cameras", arguments.keep_cameras,
-                "with --compress: keep all recorded cameras, not only the first")
+                "with --compress: keep all recorded cameras; only the first by default")
       .needs(slim);
 }
 
 void check_slim(const SlimArguments& arguments, const fs::path& output) {
   if (arguments.slim && extension_of(output) != ".glb" && !is_scene_page(output))
-    throw UsageError("--compress writes .glb files and .html pages of them, not " +
-                     output.string());
+    throw UsageError("--compress writes .glb and .html files, not " + output.string());
 }
 
 Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& glb) {
@@ -186,14 +183,14 @@ Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& g
   if (with_photographs) {
     request.photographs = read(arguments.photographs, DatasetPart::test).test;
     if (request.photographs.empty())
-      throw InputError({arguments.photographs.path, {}, {}}, "it holds no test photographs");
+      throw InputError({arguments.photographs.path, {}, {}}, "the dataset has no test photographs");
     if (scene.cameras.size() < telling_cameras)
       request.training_cameras = training_cameras(arguments.photographs, lost);
   }
   const std::optional<std::uint64_t> published = published_bytes(scene, glb);
   SlimResult result;
   {
-    Progress progress("slimming");
+    Progress progress("compressing");
     request.progress = [&](double fraction) { progress.update(fraction); };
     result = slim(scene, request);
   }
@@ -232,8 +229,8 @@ Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& g
                   double(bytes) / double(std::max<std::size_t>(faces, 1))));
   if (published)
     say(
-        fmt::format("{:.2f} times smaller than the published export of the same soup ({}: two "
-                    "PNGs, PLY and JSON)",
+        fmt::format("{:.2f} times smaller than the DiffSoup export of the same soup ({}: two PNGs, "
+                    "PLY and JSON)",
                     double(*published) / double(bytes), bytes_text(*published)));
   Json json = {{"scene_bytes", bytes},
                {"geometry_bytes", result.soup.geometry.size()},

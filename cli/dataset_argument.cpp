@@ -14,7 +14,7 @@ namespace {
 /// A number in (0, 1], which between(), closed at both ends, cannot say.
 std::string refuse_scale(const std::string& text) {
   if (const auto scale = number_from(text); scale && *scale > 0 && *scale <= 1) return {};
-  return "a scale is more than 0 and at most 1, not " + text;
+  return "a scale must be above 0 and at most 1, not " + text;
 }
 
 }  // namespace
@@ -22,8 +22,8 @@ std::string refuse_scale(const std::string& text) {
 Option add_scale_option(Command& command, DatasetArgument& argument) {
   return command
       .add_option("--scale", argument.options.scale,
-                  "the size at which photographs are used, as a fraction of their own: 0.5 halves "
-                  "both sides, each pixel the mean of those that it covers")
+                  "size of the photographs as a fraction of the original, above 0, 1 by default: "
+                  "0.5 halves both sides, and each pixel is the mean of the pixels it covers")
       .check(refuse_scale)
       .value_name("FRACTION");
 }
@@ -32,20 +32,21 @@ Option add_dataset_argument(Command& command, DatasetArgument& argument) {
   const Option dataset =
       command
           .add_option("DATASET", argument.path,
-                      "posed photographs: a folder with transforms.json, transforms_train.json and "
-                      "transforms_test.json, or a COLMAP model and images")
+                      "posed photographs: a folder with transforms.json, with "
+                      "transforms_train.json and transforms_test.json, or with a COLMAP model and "
+                      "images")
           .required();
   add_scale_option(command, argument);
   command
       .add_option("--images", argument.options.images_folder,
-                  "take the photographs of the folder images_N, which some datasets have beside "
-                  "images, N times smaller")
+                  "read photographs from the folder images_N, where some datasets have copies N "
+                  "times smaller")
       .check(between(1, 64))
       .value_name("N");
   command
       .add_option("--test-every", argument.options.test_every,
-                  "where the dataset has no split of its own, every N-th photograph in name order "
-                  "is a test view, from the first on; 8 by default")
+                  "use every N-th photograph in name order as a test view, starting with the "
+                  "first, if the dataset has no split; 8 by default")
       .check(between(2, 1000000))
       .value_name("N");
   return dataset;
@@ -59,8 +60,8 @@ void require_sides(const DatasetArgument& argument, const Dataset& dataset, Side
       const std::string bound = shorter < limits.least ? fmt::format("at least {}", limits.least)
                                                        : fmt::format("at most {}", limits.most);
       throw InputError({argument.path, {}, {}},
-                       fmt::format("{} is {} x {} pixels; there must be {} each way",
-                                   view.camera.name, view.camera.width, view.camera.height, bound),
+                       fmt::format("{} is {} x {} pixels; each side must have {}", view.camera.name,
+                                   view.camera.width, view.camera.height, bound),
                        longer > limits.most ? "--scale makes it smaller" : "");
     }
 }

@@ -25,7 +25,7 @@ void add_context_option(Command& command, gl::Backend& backend) {
                           {{"auto", gl::Backend::automatic},
                            {"egl", gl::Backend::egl},
                            {"osmesa", gl::Backend::osmesa}},
-                          "where OpenGL comes from: auto (EGL, else OSMesa), egl or osmesa")
+                          "source of OpenGL: auto (default: EGL, else OSMesa), egl or osmesa")
       .value_name("NAME");
 }
 
@@ -34,11 +34,11 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
   add_choice<PipelineKind>(
       command, "--pipeline", options.plan.pipeline,
       {{"auto", PipelineKind::tureen}, {"published", PipelineKind::published}},
-      "auto (our own), or published: drawn as DiffSoup's viewer draws, the baseline")
+      "pipeline: auto (default, Tureen's own) or published (the baseline, as in DiffSoup's viewer)")
       .value_name("NAME");
   const Option no_specialise = command.add_flag(
       "--no-specialise", [&options] { options.plan.specialise = false; },
-      "apply no specialisation: draw and compute also what the scene does not need");
+      "apply no specialisation: also draw and compute the parts that the scene does not need");
   command
       .add_option(
           "--keep",
@@ -47,8 +47,8 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
               options.plan.specialisations =
                   options.plan.specialisations.without(specialisation_of(name));
           },
-          "do not apply these specialisations: names from "
-          "docs/leaving-out.md with commas between, as alpha-test,background")
+          "do not apply these specialisations: names from docs/leaving-out.md, separated by "
+          "commas, such as alpha-test,background")
       .value_name("NAMES")
       .split_at_commas()
       .single_argument()
@@ -56,14 +56,13 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
   add_choice<ShadingStage>(
       command, "--shading", options.plan.shading_stage,
       {{"fragment", ShadingStage::fragment}, {"compute", ShadingStage::compute}},
-      "shader that colours the pixels of scenes that are shaded once a pixel: fragment (default) "
-      "or compute",
+      "shader for scenes with one shading per pixel: fragment (default) or compute",
       {{"measured", "use fragment, the default, or compute"}})
       .value_name("NAME");
   command
       .add_option("--supersample", options.supersampling,
-                  "smooth edges: N x N samples a pixel, 1 to 8; costs N x N times the pixels; the "
-                  "scene's own number by default")
+                  "N x N samples a pixel for smooth edges, 1 to 8; draws N x N times the pixels; "
+                  "the scene's own number by default")
       .check(between(1, 8))
       .value_name("N");
 }
@@ -71,7 +70,8 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
 void add_drawing_scale(Command& command, DrawingOptions& options) {
   command
       .add_option("--scale", options.resolution_scale,
-                  "faster and blurred: draw S of the rows and columns, 0.25 to 1, and enlarge")
+                  "fraction of the rows and columns to draw before enlarging, 0.25 to 1; below 1 "
+                  "is faster but blurred")
       .check(between(0.25, 1.0))
       .excludes(command.option("--supersample"))
       .value_name("S");

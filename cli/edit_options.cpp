@@ -5,19 +5,19 @@ namespace tureen::cli {
 void add_edit_options(Command& command, Edits& edits) {
   command
       .add_option("--lattice-level", edits.lattice_level,
-                  "no lattice texture above level L, 0 to 7: finer ones are projected")
+                  "finest lattice level, 0 to 7; finer textures are projected to it")
       .check(between(0, lattice::max_level))
       .value_name("L");
   add_choice<Edits::Color>(command, "--color", edits.color,
                            {{"network", Edits::Color::network},
                             {"baked", Edits::Color::baked},
                             {"base", Edits::Color::base}},
-                           "what turns texels into colour: network (default, the color MLP where "
-                           "there is one), baked (its mean over all directions) or base (features "
-                           "0 to 2 alone)")
+                           "conversion from texels to colour: network (default, the scene's color "
+                           "MLP), baked (its mean over all directions) or base (features 0 to 2 "
+                           "alone)")
       .value_name("NAME");
   add_choice<bool>(command, "--texel-bits", edits.byte_texels, {{"32", false}, {"8", true}},
-                   "bits of a texel's channel at most: 32 (default, as stored) or 8")
+                   "largest number of bits per texel channel: 32 (default, as stored) or 8")
       .value_name("N");
 }
 
@@ -28,7 +28,7 @@ void add_quality_options(Command& command, std::optional<Quality>& quality) {
                                  [&quality](const std::string& text) {
                                    quality = Quality{.supersampling = int(*number_from(text))};
                                  },
-                                 "quality stored in OUT.glb: N x N samples a pixel, 1 to 8")
+                                 "quality setting stored in OUT: N x N samples a pixel, 1 to 8")
                              .check(between(1, 8))
                              .value_name("N");
   command
@@ -37,7 +37,7 @@ void add_quality_options(Command& command, std::optional<Quality>& quality) {
           [&quality](const std::string& text) {
             quality = Quality{.resolution_scale = *number_from(text)};
           },
-          "quality stored in OUT.glb: S of the rows and columns are drawn, 0.25 to 1")
+          "quality setting stored in OUT: fraction of the rows and columns to draw, 0.25 to 1")
       .check(between(0.25, 1.0))
       .excludes(samples)
       .value_name("S");

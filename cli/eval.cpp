@@ -72,7 +72,8 @@ ExitCode evaluate_scene(EvalOptions options) {
   // Everything that can be wrong with the arguments is said before anything is read.
   EvaluationOptions& evaluation = options.evaluation;
   if (options.background == "transparent")
-    throw UsageError("photographs have something behind them: white, black or 0.2,0.4,1");
+    throw UsageError(
+        "eval does not support --background transparent; use white, black or 0.2,0.4,1");
   if (!options.background.empty())
     evaluation.background = glm::vec3(parse_background(options.background));
   if (!options.folder.empty()) require_writable_folder(options.folder);
@@ -95,9 +96,9 @@ ExitCode evaluate_scene(EvalOptions options) {
   require_sides(options.dataset, dataset, {.least = ssim_window});
   const std::vector<Photograph> photographs = photographs_of(dataset);
   if (photographs.empty())
-    throw InputError({options.dataset.path, {}, {}},
-                     std::string("it holds no photographs to evaluate with --split ") +
-                         split_name(options.split));
+    throw InputError(
+        {options.dataset.path, {}, {}},
+        std::string("the dataset has no photographs for --split ") + split_name(options.split));
 
   std::optional<EvalImages> images;
   if (!options.folder.empty()) {
@@ -143,51 +144,51 @@ ExitCode evaluate_scene(EvalOptions options) {
 
 void add_eval(Command& program) {
   auto options = std::make_shared<EvalOptions>();
-  Command command = program.add_command("eval", "How near a scene comes to photographs");
+  Command command = program.add_command("eval", "Compare a scene with photographs");
   command.footer(
-      R"(Draws the scene from where the photographs were taken and prints PSNR, SSIM and FLIP of
-each view and their means. Photographs with alpha are looked at over the background.
+      R"(Draws the scene from the cameras of the photographs. Prints PSNR, SSIM and FLIP for each
+view, and their means. Photographs with alpha are drawn over the background.
 
 Examples:
   tureen eval soup.glb lego
   tureen eval soup.glb fox --scale 0.25 --split all
-  tureen eval soup.glb lego -o views            photograph, rendering and heat map of each
-  tureen eval soup.glb lego --json              the numbers for programs
-  tureen eval soup.glb lego --ssim-border uniform7    SSIM as DiffSoup reports it on
-                                                      synthetic scenes
+  tureen eval soup.glb lego -o views            images, heat maps and a report
+  tureen eval soup.glb lego --json              the metrics for scripts
+  tureen eval soup.glb lego --ssim-border uniform7    SSIM as in DiffSoup on synthetic
+                                                      scenes
 
 Exit codes: 0 done, 2 wrong usage, 3 the scene or the dataset cannot be read, 4 no OpenGL
-context, 5 it does not fit on the device or cannot be written.)");
+context, 5 the scene does not fit on the device, or the output cannot be written.)");
   add_scene_argument(command, options->scene);
   add_dataset_argument(command, options->dataset);
   add_memory_option(command);
   add_choice<DatasetPart>(
       command, "--split", options->split,
       {{"test", DatasetPart::test}, {"train", DatasetPart::train}, {"all", DatasetPart::all}},
-      "which photographs: test (default), train or all")
+      "photographs to use: test (default), train or all")
       .value_name("NAME");
   command
       .add_option("-o,--output", options->folder,
-                  "a folder for report.html, eval.json, and images: photograph, rendering and "
-                  "heat map side by side for each view, and a contact_sheet.png")
+                  "folder for report.html, eval.json, contact_sheet.png, and an image per view: "
+                  "photograph, rendering and heat map side by side")
       .value_name("FOLDER");
   command
       .add_option("--background", options->background,
-                  "what is behind the scene and behind photographs with alpha: white, black, or "
+                  "colour behind the scene and behind photographs with alpha: white, black, or "
                   "r,g,b from 0 to 1; the scene's own by default")
       .value_name("COLOR");
   std::vector<std::pair<std::string, SsimBorder>> borders;
   for (const SsimBorder border : {SsimBorder::valid, SsimBorder::zero_pad, SsimBorder::uniform7})
     borders.emplace_back(name(border), border);
   add_choice<SsimBorder>(command, "--ssim-border", options->evaluation.metrics.ssim_border, borders,
-                         "valid (default; as DiffSoup reports on photographs), zero_pad (3DGS), "
-                         "or uniform7 (scikit-image)")
+                         "SSIM window at the image border: valid (default, as in DiffSoup on "
+                         "photographs), zero_pad (3DGS), or uniform7 (scikit-image)")
       .value_name("MODE");
   command.add_flag(
       "--no-flip", [options] { options->evaluation.metrics.with_flip = false; },
-      "leave FLIP out, which takes more than half of the time of measuring");
+      "do not compute FLIP; saves more than half of the time for the metrics");
   add_drawing_options(command, options->drawing);
-  command.add_flag("--json", options->json, "the numbers as JSON on standard output");
+  command.add_flag("--json", options->json, "print the metrics as JSON to standard output");
   command.does([options] { return evaluate_scene(*options); });
 }
 

@@ -27,9 +27,9 @@ void check_spared(const fs::path& spared, const fs::path& folder,
   std::error_code error;
   for (const std::string& file : files)
     if (fs::exists(folder / file, error))
-      throw UsageError((folder / file).string() +
-                           " is there already, and in the dataset's folder nothing is replaced",
-                       "choose another folder for the pictures");
+      throw UsageError(
+          (folder / file).string() + " exists; eval does not replace files in the dataset's folder",
+          "choose another folder with -o");
 }
 
 }  // namespace

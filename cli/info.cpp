@@ -137,7 +137,7 @@ struct NamedDevice {
 /// What common devices report for GL_MAX_TEXTURE_SIZE and GL_MAX_ARRAY_TEXTURE_LAYERS.
 const std::vector<NamedDevice>& named_devices() {
   static const std::vector<NamedDevice> devices{
-      {"the least of OpenGL ES 3.0 and WebGL 2", {2048, 256, false}},
+      {"minimum of OpenGL ES 3.0 and WebGL 2", {2048, 256, false}},
       {"older phones", {4096, 512, false}},
       {"phones, browsers without a GPU", {8192, 2048, false}},
       {"desktop GPUs, llvmpipe", {16384, 2048, true}},
@@ -174,7 +174,8 @@ ExitCode inform(const InfoOptions& options) {
         fmt::format("{} ({} x {}, {} layers): {}", device.name, device.limits.max_texture_size,
                     device.limits.max_texture_size, device.limits.max_array_layers,
                     fits ? "fits"
-                         : fmt::format("does not fit: {} has {} texels, a texture holds {}",
+                         : fmt::format("does not fit: {} has {} texels, but a texture holds at "
+                                       "most {}",
                                        forecast.largest_store,
                                        counted(forecast.largest_store_texels), counted(capacity))));
   }
@@ -183,7 +184,7 @@ ExitCode inform(const InfoOptions& options) {
   if (!scene.info.name.empty()) table.row({"name", scene.info.name});
   table.row({"triangles", fmt::format("{} with {} vertices{}", counted(soup.triangles.size()),
                                       counted(soup.positions.size()),
-                                      soft ? ", soft ones, drawn as opaque" : "")});
+                                      soft ? ", soft triangles, drawn as opaque" : "")});
   table.row({"appearance", appearance_name(soup.appearance)});
   for (const std::string& line : appearance.lines) table.row({"", line});
   table.row({"bytes", fmt::format("{} on disk, {} in memory, {} on the device", bytes_text(on_disk),
@@ -241,23 +242,21 @@ ExitCode inform(const InfoOptions& options) {
 void add_info(Command& program) {
   auto options = std::make_shared<InfoOptions>();
   Command command =
-      program.add_command("info", "What a scene is, what it costs, what is odd about it");
+      program.add_command("info", "Print a scene's contents, memory use and lint findings");
   command.footer(
-      R"(Lint finds vertices that are not finite, faces without area, faces that repeat another or
-are transparent everywhere, vertices that no face uses, and coordinates too large for
-their floats. None of it keeps the scene from being drawn. The "cameras" of --json can be
-given to render --camera.
+      R"(Lint reports non-finite vertices, faces without area, repeated faces, fully transparent
+faces, unused vertices, and coordinates too large for their floats. Scenes with findings can
+still be drawn. render --camera reads the "cameras" of --json.
 
 Examples:
   tureen info soup.glb
   tureen info soup.glb --json | jq .triangles
-  tureen info soup.glb --strict               exit with 1 when lint finds anything, or the
-                                              scene fits only on some devices)");
+  tureen info soup.glb --strict               a check for scripts)");
   add_scene_argument(command, options->scene);
   add_memory_option(command);
-  command.add_flag("--json", options->json, "everything as JSON on standard output");
+  command.add_flag("--json", options->json, "print all properties as JSON to standard output");
   command.add_flag("--strict", options->strict,
-                   "exit with 1 when there is anything to complain of");
+                   "exit with 1 if lint finds anything or the scene fits only on some devices");
   command.does([options] { return inform(*options); });
 }
 

@@ -32,8 +32,8 @@ std::string expanded(const std::string& pattern, int index, bool& replaced) {
       // "%03d" and "%12d" are widths that make sense.
       const std::string width = pattern.substr(i + 1, end - i - 1);
       if (end == pattern.size() || pattern[end] != 'd' || width.size() > 2 || replaced)
-        throw UsageError("'" + pattern + "' is no name for pictures",
-                         "the number goes where %d or %03d stands, once, and %% is a percent sign");
+        throw UsageError("'" + pattern + "' is not a name for several images",
+                         "use %d or %03d once for the number, and %% for a percent sign");
       result += padded(index, width.empty() ? 0 : std::stoi(width));
       replaced = true;
       i = end;
@@ -59,7 +59,7 @@ void write_picture(const Image8& image, const std::filesystem::path& path) {
 
 void require_png_name(const std::filesystem::path& path) {
   if (extension_of(path) != ".png")
-    throw UsageError("'" + path.string() + "' does not end in .png; pictures are written as PNG");
+    throw UsageError("'" + path.string() + "' does not end in .png; images are written as PNG");
 }
 
 std::filesystem::path picture_name(const std::string& pattern, int index, int count) {

@@ -161,7 +161,8 @@ FrameTimes benchmark(const Drawer& drawer, const gl::Capabilities& device,
   for (const Camera& camera : cameras)
     if (needs_tiles(drawer, device, camera))
       throw UsageError(
-          fmt::format("--frames times pictures that are drawn at once: {} x {} is drawn in tiles",
+          fmt::format("--frames cannot measure {} x {}: images of this size are drawn in tiles; "
+                      "use a smaller --size",
                       camera.width, camera.height));
   const int warm_up = std::clamp(frames, 3, 10);
   Progress progress("timing");

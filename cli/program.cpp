@@ -39,19 +39,19 @@ void add_commands(Command& program, const std::vector<std::string>& arguments) {
 
 int run_program(int argc, char** argv) {
   catch_interrupts();
-  CommandLine line("tureen", "Draws trained triangle soups.");
+  CommandLine line("tureen", "Trains, draws, measures and converts triangle soups.");
   Command program = line.program();
   program.add_text_flag(
       "--version", [] { return std::string("tureen ") + program_version(); },
       "Display program version information and exit");
   program.footer(R"(Examples:
-  tureen render soup.glb -o picture.png
+  tureen render soup.glb -o image.png
   tureen info soup.glb
   tureen view soup.glb
-  tureen COMMAND --help               what a command takes, with examples
+  tureen COMMAND --help               options and examples of a command
 
-Exit codes: 0 done, 1 the comparison or the check failed, 2 wrong usage, 3 the input is
-bad, 4 no OpenGL context, 5 anything else.)");
+Exit codes: 0 done, 1 a comparison or check failed, 2 wrong usage, 3 invalid input,
+4 no OpenGL context, 5 any other error.)");
 
   const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
   add_commands(program, arguments);

@@ -80,7 +80,7 @@ Drawn draw_inspection(const gl::Context& context, const Scene& scene, const Tria
   inspector.show(options.show.what, options.show.features);
   Pictures pictures = draw_views(drawer_of(inspector, device), device, views, options.output);
   const std::string sentence = std::string("shows ") + name_of(options.show.what) +
-                               " of the soup as it is stored, one sample a pixel";
+                               " of the stored soup, one sample a pixel";
   return {std::move(pictures),
           {sentence},
           {},
@@ -112,12 +112,10 @@ void check_output(const RenderOptions& options, const glm::vec4& background) {
     return;
   }
   if (!options.views.is_film())
-    throw UsageError("'" + options.output +
-                     "' is a video, which shows the frames of --path or "
-                     "--turntable");
+    throw UsageError("'" + options.output + "' is a video; videos need --path or --turntable");
   if (!options.background.empty() && background.a < 1)
-    throw UsageError("a video shows no transparency",
-                     "leave --background transparent away, or write pictures, -o frame_%04d.png");
+    throw UsageError("videos do not support transparency",
+                     "remove --background transparent, or write images with -o frame_%04d.png");
   if (!have_ffmpeg()) throw UsageError(ffmpeg_missing, ffmpeg_hint);
   require_not_input(options.output, options.scene.path);
   require_writable_file(options.output);
@@ -127,7 +125,7 @@ void check_output(const RenderOptions& options, const glm::vec4& background) {
 void say_written(const Pictures& pictures, const Views& views) {
   const std::vector<std::string>& paths = pictures.paths;
   if (views.frames_per_second > 0)
-    say(fmt::format("{} frames, {:.2f} s at {:g} a second", views.cameras.size(),
+    say(fmt::format("{} frames, {:.2f} s at {:g} frames per second", views.cameras.size(),
                     double(views.cameras.size()) / views.frames_per_second,
                     views.frames_per_second));
   if (views.frames_per_second > 0 && paths.size() > 2) {
@@ -188,40 +186,40 @@ ExitCode render(RenderOptions options) {
 
 void add_render(Command& program) {
   auto options = std::make_shared<RenderOptions>();
-  Command command = program.add_command("render", "Pictures of a scene");
+  Command command = program.add_command("render", "Draw images of a scene");
   command.footer(
-      R"(Without a view the scene's first camera draws, or else a view from the front, a little to
-the right and from above, that shows all of the scene.
+      R"(The default view is the scene's first camera. Without cameras, it is a view of the whole
+scene from the front, slightly from the right and from above.
 
 Examples:
-  tureen render soup.glb -o picture.png
+  tureen render soup.glb -o image.png
   tureen render soup.glb --orbit 8 -o orbit_%02d.png      and a contact_sheet.png
   tureen render soup.glb --eye 3,0,1 --target 0,0,0.5 --up 0,0,1 --fov 35
   tureen render soup.glb --camera transforms.json:12 --size 540x960
-  tureen render soup.glb --turntable 8 -o turn.mp4        a video, where ffmpeg is installed
+  tureen render soup.glb --turntable 8 -o turn.mp4        a video; needs ffmpeg
   tureen render soup.glb --path path.json --fps 25 -o frame_%04d.png
                                                           the frames along a camera path
   tureen render soup.glb --supersample 4 -o smooth.png    16 samples a pixel
-  tureen render soup.glb --size 40000x20000 -o poster.png beyond what the device draws: in tiles
+  tureen render soup.glb --size 40000x20000 -o poster.png larger than the device's limit, in tiles
   tureen render soup.glb --show depth -o depth.png        or normals, texels, overdraw, ..
-  tureen render soup.glb --frames 100 --json              milliseconds a frame
+  tureen render soup.glb --frames 100 --json              milliseconds per frame
   tureen render soup.glb --pipeline published --frames 100 --json
                                                           against the baseline
 
 Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL context,
-5 it does not fit on the device or cannot be written.)");
+5 the scene does not fit on the device, or an image cannot be written.)");
   add_scene_argument(command, options->scene);
   add_memory_option(command);
   command
       .add_option("-o,--output", options->output,
-                  "the picture, out.png by default; of several views %d becomes the number; a name "
-                  "that ends in .mp4 or .webm is a video of --path or --turntable, by ffmpeg")
+                  "image to write, out.png by default; with several views, %d stands for the "
+                  "number; with --path or --turntable, .mp4 or .webm writes a video with ffmpeg")
       .value_name("OUT.png");
   add_view_options(command, options->views);
   command
       .add_option("--background", options->background,
-                  "what pixels without a triangle show: white, black, transparent, or r,g,b from "
-                  "0 to 1; the scene's own by default")
+                  "colour of pixels without a triangle: white, black, transparent, or r,g,b from 0 "
+                  "to 1; the scene's own by default")
       .value_name("COLOR");
   add_drawing_options(command, options->drawing);
   add_drawing_scale(command, options->drawing);
@@ -231,12 +229,12 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
     show.excludes(command.option(other));
   command
       .add_option("--frames", options->frames,
-                  "draw so many frames more, after a warm-up, and tell the time of each")
+                  "after a warm-up, draw N more frames and print their times")
       .check(between(1, 1000000))
       .excludes(show)
       .value_name("N");
   command.add_flag("--json", options->json,
-                   "what was drawn, and how fast, as JSON on standard output");
+                   "print the images, the plan and the frame times as JSON to standard output");
   command.does([options] { return render(*options); });
 }
 

@@ -39,7 +39,7 @@ fs::path page_in_cache() {
   else if (const char* home = set_variable("HOME"))
     folder = fs::path(home) / ".cache";
   else
-    throw UsageError("neither XDG_CACHE_HOME nor HOME is set: name the page, -o OUT.html");
+    throw UsageError("XDG_CACHE_HOME and HOME are not set: name the page with -o OUT.html");
   make_folder(folder / "tureen");
   return fs::absolute(folder / "tureen/report.html");
 }
@@ -64,8 +64,7 @@ bool open_in_browser(const std::string& page) {
 ExitCode report(const ReportOptions& options) {
   const bool opens = options.output.empty();
   if (!opens && extension_of(options.output) != ".html")
-    throw UsageError("'" + options.output +
-                     "' is no name that ends in .html; a report is one page");
+    throw UsageError("'" + options.output + "' does not end in .html; a report is an HTML page");
   const fs::path page = opens ? page_in_cache() : fs::path(options.output);
   for (const std::string& input : options.inputs)
     if (!fs::is_directory(input)) require_not_input(page, input);
@@ -85,23 +84,27 @@ ExitCode report(const ReportOptions& options) {
 
 void add_report(Command& program) {
   auto options = std::make_shared<ReportOptions>();
-  Command command = program.add_command("report", "Results as a page: tables, plots, images");
+  Command command =
+      program.add_command("report", "Show results as a page of tables, plots and images");
   command.footer(
-      R"(Shows results of bench, tradeoff and eval (--json or -o), logs of train, downloads of the
-page bench.html, and measurements of ./dev. Several results of one kind appear side by side;
-scenes of tradeoff are joined. The page needs no network. Images stay where they are.
+      R"(Reads results from bench, tradeoff and eval (--json or -o), logs from train, downloads
+from the page bench.html, and measurements from ./dev. Several results of one kind appear
+side by side; scenes from tradeoff are joined. The page needs no network. It links to images
+and does not copy them.
 
 Examples:
-  tureen report timed/bench.json                opens the browser, or prints the page's path
+  tureen report timed/bench.json                opens in a browser, or prints the page's path
   tureen report phone.json laptop.json          frame times by device
   tureen report lego.jsonl chair.jsonl -o trainings.html
   tureen report lego/tradeoff.json chair/tradeoff.json       means over scenes
   tureen report results                         all results in a folder
 
 Exit codes: 0 done, 2 wrong usage, 3 a result cannot be read, 5 the page cannot be written.)");
-  command.add_option("FILE", options->inputs, "JSON results, training logs, or folders of them")
+  command.add_option("FILE", options->inputs, "JSON results, training logs, or folders with them")
       .required();
-  command.add_option("-o,--output", options->output, "the page; by default it opens in a browser")
+  command
+      .add_option("-o,--output", options->output,
+                  "page to write; by default the page opens in a browser")
       .value_name("OUT.html");
   command.does([options] { return report(*options); });
 }

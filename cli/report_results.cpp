@@ -8,8 +8,8 @@
 #include "cli/json_reading.hpp"
 #include "cli/provenance.hpp"
 #include "cli/tradeoff_report.hpp"
-#include "cli/training_log.hpp"
 #include "cli/web_bench.hpp"
+#include "trainer/common/training_log.hpp"
 
 namespace tureen::cli {
 
@@ -23,7 +23,7 @@ struct UnknownResult : InputError {
 };
 
 void check_tradeoff(const JsonView& root) {
-  require_format(root, tradeoff_format, tradeoff_version, "no result of tureen tradeoff");
+  require_format(root, tradeoff_format, tradeoff_version, "not a result of tureen tradeoff");
   scene_of(root["scene"]);
   device_of(root["device"]);
   for (const char* name : {"drawing", "antialiasing"}) {
@@ -43,7 +43,7 @@ void check_eval(const JsonView& root) {
 }
 
 void check_measurements(const JsonView& root) {
-  require_format(root, "tureen measurements", 1, "no measurements");
+  require_format(root, "tureen measurements", 1, "not measurements");
   root["name"].text();
   const JsonView tables = root["tables"];
   for (const auto& [name, rows] : tables.value().items()) tables[name.c_str()].size();
@@ -51,8 +51,8 @@ void check_measurements(const JsonView& root) {
 
 /// The lines of a log as a list, without an incomplete last one.
 ReportResult training(const std::string& file, const std::string& text) {
-  if (read_training_log(file).empty())
-    throw UnknownResult({file, {}, {}}, "the log holds no record yet");
+  if (trainer::read_training_log(file).empty())
+    throw UnknownResult({file, {}, {}}, "the log has no records yet");
   std::string lines = text.substr(0, text.rfind('\n'));
   std::replace(lines.begin(), lines.end(), '\n', ',');
   return {file, "training", "[" + lines + "]"};
@@ -94,8 +94,7 @@ std::vector<ReportResult> read_file(const std::string& file) {
     check_eval(root);
     return {{file, "eval", text}};
   }
-  throw UnknownResult({file, {}, {}},
-                      "no result of bench, tradeoff, train or eval, nor measurements of ./dev");
+  throw UnknownResult({file, {}, {}}, "not a result of bench, tradeoff, train, eval or ./dev");
 }
 
 std::vector<ReportResult> read_folder(const fs::path& folder) {
@@ -111,7 +110,8 @@ std::vector<ReportResult> read_folder(const fs::path& folder) {
     } catch (const UnknownResult&) {
     }
   if (results.empty())
-    throw InputError({folder.string(), {}, {}}, "the folder holds no result, .json or .jsonl");
+    throw InputError({folder.string(), {}, {}},
+                     "the folder has no results in .json or .jsonl files");
   return results;
 }
 

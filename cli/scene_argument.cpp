@@ -10,19 +10,20 @@
 namespace tureen::cli {
 
 void add_scene_argument(Command& command, SceneArgument& argument, const char* name) {
-  command.add_option(name, argument.path, "the scene: a file or a folder, told by its content")
+  command
+      .add_option(name, argument.path,
+                  "scene: a file or a folder; its content determines the format")
       .required();
   add_choice<VertexColorSpace>(command, "--vertex-colors", argument.vertex_colors,
                                {{"auto", VertexColorSpace::automatic},
                                 {"srgb", VertexColorSpace::srgb},
                                 {"linear", VertexColorSpace::linear}},
-                               "what COLOR_0 of a foreign glTF holds: auto (decided by its "
-                               "generator), srgb or linear")
+                               "colour space of COLOR_0 in a foreign glTF: auto (default, depends "
+                               "on its generator), srgb or linear")
       .value_name("SPACE");
   command
       .add_option("--up", argument.up,
-                  "the direction that is up, in world coordinates, instead of the scene's own: "
-                  "x,y,z")
+                  "up direction in world coordinates; the scene's own by default")
       .value_name("X,Y,Z");
 }
 
@@ -30,7 +31,7 @@ Scene read(const SceneArgument& argument) {
   glm::dvec3 up(0.0);
   if (!argument.up.empty()) {
     up = parse_vector(argument.up);
-    if (!(glm::length(up) > 0)) throw UsageError("--up 0,0,0 is no direction");
+    if (!(glm::length(up) > 0)) throw UsageError("--up 0,0,0 has no direction");
   }
   const std::filesystem::path path = argument.path;
   require_there(path);

@@ -56,31 +56,29 @@ ScenePageTemplate ScenePageTemplate::find() {
   if (named && *named) return read_template(named);
   if (const std::optional<fs::path> file = template_of_program()) return read_template(*file);
   throw OutputError(
-      {},
-      "a page needs the viewer that goes into it, share/tureen/scene_template.html, "
-      "which is not there",
-      std::string("./dev web makes it; ") + template_variable + " names one that lies elsewhere");
+      {}, "cannot find share/tureen/scene_template.html, the viewer for .html pages",
+      std::string("build it with ./dev web, or set ") + template_variable + " to its path");
 }
 
 ScenePageTemplate::ScenePageTemplate(std::string text, const std::string& file)
     : text_(std::move(text)), element_(text_.find(scene_element)) {
   if (element_ == std::string::npos)
     throw InputError({file, {}, {}},
-                     std::string("no template for a scene: it lacks ") + scene_element);
+                     std::string("not a template for a scene: it lacks ") + scene_element);
   if (const std::size_t second = text_.find(scene_element, element_ + 1);
       second != std::string::npos)
     throw InputError({file, second, {}},
-                     std::string("no template for a scene: it has a second ") + scene_element);
+                     std::string("not a template for a scene: it has a second ") + scene_element);
 }
 
 void ScenePageTemplate::write(const fs::path& glb, const std::string& name,
                               const fs::path& page) const {
   Input scene = Input::open(glb);
   if (scene.size() > max_scene_page_bytes)
-    throw UsageError("the scene takes " + std::to_string(scene.size()) +
-                         " bytes, and a page that a browser opens holds at most " +
+    throw UsageError("the scene has " + std::to_string(scene.size()) +
+                         " bytes; browsers open pages with at most " +
                          std::to_string(max_scene_page_bytes),
-                     "--compress makes it smaller, and a .glb beside the viewer may have any size");
+                     "use --compress, or publish a .glb of any size beside the viewer");
   const std::string_view text = text_, element = scene_element;
   const std::string_view name_at = R"(data-name=")", digits_at = R"(">)";
   const std::size_t name_begin = element_ + element.find(name_at) + name_at.size();

@@ -26,7 +26,7 @@ FeatureChoice parse_features(const std::string& text) {
       dash == std::string::npos ? first : parse_integer(text.substr(dash + 1), 0, most);
   if (last < first || last > first + 2)
     throw UsageError("--show features:" + text +
-                     ": one, two or three features that follow each other, as 3 or 4-6");
+                     ": needs one to three consecutive features, such as 3 or 4-6");
   return {first, last - first + 1};
 }
 
@@ -37,7 +37,7 @@ ShowOption parse_show(const std::string& text) {
   ShowOption show{.what = inspection_of(text.substr(0, colon))};
   if (colon == std::string::npos) return show;
   if (show.what != Inspection::features)
-    throw UsageError("--show " + text + ": only features are followed by which, as features:4-6");
+    throw UsageError("--show " + text + ": only features takes numbers, such as features:4-6");
   show.features = parse_features(text.substr(colon + 1));
   return show;
 }
@@ -46,10 +46,9 @@ Option add_show_option(Command& command, ShowOption& show) {
   return command
       .add_option(
           "--show", [&show](const std::string& text) { show = parse_show(text); },
-          "what the soup has instead of its final colour: depth, normals, triangle-id, texels, "
-          "alpha, mlp-weight, features (features:3 as grey, features:4-6 as red, green, blue), "
-          "overdraw or wireframe; of the soup as it is stored, one sample a pixel "
-          "(docs/looking.md)")
+          "debug view instead of the final colour: depth, normals, triangle-id, texels, alpha, "
+          "mlp-weight, features (features:3 as grey, features:4-6 as red, green, blue), overdraw "
+          "or wireframe; draws the stored soup with one sample a pixel (docs/looking.md)")
       .value_name("NAME");
 }
 

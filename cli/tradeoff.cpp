@@ -75,93 +75,93 @@ ExitCode tradeoff(const TradeoffArguments& options) {
 void add_tradeoff(Command& program, std::vector<std::string> arguments) {
   auto options = std::make_shared<TradeoffArguments>();
   options->arguments = std::move(arguments);
-  Command command = program.add_command("tradeoff", "Error against run time, and the choice");
+  Command command =
+      program.add_command("tradeoff", "Measure error against frame time, and choose edits");
   command.footer(
-      R"(Changes one quality setting at a time, then those that matter together, and measures for
-each the time of a frame and the error against the oracle's image of the same model
-(E_render). Antialiasing settings have an oracle of their own, with 8 x 8 samples a pixel. With
-photographs the error against them (E_model) stands beside, never on one axis, and that of the
-published pipeline with it. The choice is the cheapest with an E_render of at least 50 dB and
-hardly a pixel covered wrongly.
+      R"(Measures each edit and quality setting alone, then combinations of those that matter. Each
+measurement has the frame time and the error against the oracle's image of the same model
+(E_render). The reference for quality settings has 8 x 8 samples a pixel. With photographs, the
+report also has the error against them (E_model), for the baseline too. The choice is the
+fastest configuration within --least-psnr and --most-mismatch; it contains no quality setting.
+docs/tradeoff.md describes the method.
 
 Examples:
   tureen tradeoff soup.glb -o tradeoff                report.html and tradeoff.json
   tureen tradeoff soup.glb lego --scale 0.5 -o tradeoff
                                                       with E_model against photographs
-  tureen tradeoff soup.glb --write fast.glb           the scene reduced as chosen, in a file of
-                                                      its own
-  tureen tradeoff soup.glb --full --json > soup.json  1280x720, all settings: long
+  tureen tradeoff soup.glb --write fast.glb           a new scene with the chosen edits
+  tureen tradeoff soup.glb --full --json > soup.json  1280x720, all settings: slow
 
-Exit codes: 0 done, 1 nothing keeps to the limits and --write was given, 2 wrong usage,
-3 the scene or the dataset cannot be read, 4 no OpenGL context, 5 it does not fit
-on the device or cannot be written.)");
+Exit codes: 0 done, 1 no configuration within the limits for --write, 2 wrong usage,
+3 the scene or the dataset cannot be read, 4 no OpenGL context, 5 the scene does not fit
+on the device, or the output cannot be written.)");
   add_scene_argument(command, options->scene);
   add_dataset_argument(command, options->dataset).required(false);
   add_memory_option(command);
-  command.add_option("-o,--output", options->folder, "a folder for report.html and tradeoff.json")
+  command.add_option("-o,--output", options->folder, "folder for report.html and tradeoff.json")
       .value_name("FOLDER");
   add_choice<tradeoff::Samples>(
       command, "--reference", options->samples,
       {{"device", tradeoff::Samples::device}, {"exact", tradeoff::Samples::exact}},
-      "what drawing settings are measured against: the oracle at the device's sample points "
-      "(default), or of exact triangles, which adds what the device rounds")
+      "reference for edits: device (default, the oracle at the device's sample points) or exact "
+      "(exact triangles; the error then includes the device's rounding)")
       .value_name("NAME");
   const Option full = command.add_flag(
       "--full", [options] { options->effort = Effort::full; },
-      "1280x720, 8 views and 4 adversarial ones, 5 rounds, 8 x 8 samples, all photographs; "
-      "480x270, 4 views, 3 rounds, 4 x 4 samples and 8 photographs by default");
+      "measure more: 1280x720, 8 views and 4 adversarial views, 5 rounds, up to 8 x 8 samples, all "
+      "photographs; by default 480x270, 4 views, 3 rounds, up to 4 x 4 samples, 8 photographs");
   command
       .add_flag(
           "--quick", [options] { options->effort = Effort::quick; },
-          "96x64, 2 views, 1 round: whether it works at all")
+          "test run: 96x64, 2 views, 1 round")
       .excludes(full);
   command.add_option("--size", options->size, "image size in pixels").value_name("WxH");
   command
       .add_option("--cameras", options->cameras,
-                  "the views, of one set or several: hemisphere:N, orbit:N, adversarial, dataset "
-                  "(its test cameras), or a file of cameras; 4 of the scene's own by default, or "
-                  "hemisphere:4 where it has none")
+                  "sets of views, separated by commas: hemisphere:N, orbit:N, adversarial, dataset "
+                  "(its test cameras), or a file with cameras; by default 4 of the scene's own "
+                  "cameras, or hemisphere:4 without cameras")
       .value_name("SET[,SET..]")
       .split_at_commas();
-  command.add_option("--rounds", options->rounds, "rounds of all views")
+  command.add_option("--rounds", options->rounds, "number of rounds over all views")
       .check(between(1, 1000))
       .value_name("N");
   command
       .add_option("--combinations", options->combinations,
-                  "limit of the combinations of the settings that matter, for drawing and for "
-                  "antialiasing each, 48 by default; 0 changes one setting at a time")
+                  "limit for the combinations of edits, and for those of quality settings, 48 by "
+                  "default; 0 changes one edit or setting at a time")
       .check(between(0, 10000))
       .value_name("N");
   command
       .add_option("--photographs", options->photographs,
-                  "limit of the dataset's test photographs, which are chosen evenly")
+                  "limit for the test photographs from DATASET, which are evenly spaced")
       .check(between(1, 1000000))
       .value_name("N");
   command
       .add_option("--least-psnr", options->limits.min_psnr_db,
-                  "least E_render in dB of the choice, 50 by default")
+                  "limit for the choice: smallest E_render in dB, 50 by default")
       .check(between(0.0, 100.0))
       .value_name("DB");
   command
       .add_option("--most-mismatch", options->limits.max_coverage_mismatch,
-                  "largest fraction of wrongly covered pixels of the choice, 1e-4 by default")
+                  "limit for the choice: largest fraction of pixels that only one of the two "
+                  "images covers, 1e-4 by default")
       .check(between(0.0, 1.0))
       .value_name("FRACTION");
   const Option write =
       command
           .add_option("--write", options->written_scene,
-                      "the scene with its data reduced as chosen, as a GLB of ours; SCENE stays as "
-                      "it is")
+                      "GLB to write: the scene with the chosen edits; SCENE stays unchanged")
           .value_name("OUT.glb");
-  command.add_flag("--force", options->force, "--write may replace a file").needs(write);
+  command.add_flag("--force", options->force, "replace OUT.glb if it exists").needs(write);
   command.add_flag(
       "--no-flip", [options] { options->with_flip = false; },
-      "do not compute FLIP, which takes most of the time of comparing");
+      "do not compute FLIP; saves most of the time for the metrics");
   command.add_flag("--processor-time", options->processor_time,
-                   "processor time of all threads instead of time that passed: for ratios on a "
-                   "busy machine; software OpenGL only");
+                   "measure the processor time of all threads instead of elapsed time, for ratios "
+                   "on a busy machine; software OpenGL only");
   add_context_option(command, options->backend);
-  command.add_flag("--json", options->json, "everything as JSON on standard output");
+  command.add_flag("--json", options->json, "print the result as JSON to standard output");
   command.does([options] { return tradeoff(*options); });
 }
 

@@ -151,8 +151,8 @@ void say_panel(const TradeoffReport& report, const tradeoff::Panel& panel,
   say(title);
   for (const std::string& line : table.lines()) say(line);
   say(
-      fmt::format("  R1, the reference itself in 8 bits: {:.2f} dB; times differ by chance by "
-                  "{:.1f} % (A/A); hypervolume {:.1f} decade dB",
+      fmt::format("  R1, the reference in 8 bits: {:.2f} dB; A/A spread of the times: {:.1f} %; "
+                  "hypervolume: {:.1f} decade dB",
                   panel.ideal.psnr_db, 100 * panel.aa_spread, panel.hypervolume));
   std::vector<std::string> lines = panel.notes;
   for (const tradeoff::SkippedOutcome& skipped : panel.skipped)
@@ -162,7 +162,7 @@ void say_panel(const TradeoffReport& report, const tradeoff::Panel& panel,
       lines.push_back(outcome.name +
                       (outcome.method == tradeoff::Method::generic ? " (generic)" : "") + ": " +
                       warning);
-  say_list("Not measured, and warnings:", lines);
+  say_list("Skipped configurations and warnings:", lines);
 }
 
 void say_model(const TradeoffReport& report) {
@@ -185,7 +185,7 @@ void say_model(const TradeoffReport& report) {
 }  // namespace
 
 const char* where_it_looks(const TradeoffReport& report) {
-  return report.samples == "device" ? "at the device's own sample points" : "of exact triangles";
+  return report.samples == "device" ? "at the device's own sample points" : "with exact triangles";
 }
 
 Json to_json(const TradeoffReport& report) {
@@ -220,17 +220,15 @@ Json to_json(const TradeoffReport& report) {
 }
 
 void say_tables(const TradeoffReport& report) {
-  say_panel(
-      report, report.study.drawing,
-      fmt::format("E_render of drawing settings, against the oracle {} (* on the front, > the "
-                  "choice):",
-                  where_it_looks(report)));
+  say_panel(report, report.study.drawing,
+            fmt::format("E_render of edits, against the oracle {} (* on the front, > the choice):",
+                        where_it_looks(report)));
   say(
-      fmt::format("  exact dB is against exact triangles; the device's subpixel grid alone has "
-                  "{:.2f} dB there, which no setting changes",
+      fmt::format("  exact dB: PSNR against exact triangles; the device's subpixel grid alone "
+                  "limits it to {:.2f} dB",
                   report.study.grid.psnr_db));
   say_panel(report, report.study.antialiasing,
-            "E_render of antialiasing settings, against 8 x 8 samples a pixel (* on the front):");
+            "E_render of quality settings, against 8 x 8 samples a pixel (* on the front):");
   say_model(report);
   say("Times: " + report.clock + ".");
   say(choice_sentence(report));
@@ -239,14 +237,15 @@ void say_tables(const TradeoffReport& report) {
 std::string choice_sentence(const TradeoffReport& report) {
   const tradeoff::Study& study = report.study;
   const std::string limits =
-      fmt::format("at least {:g} dB and at most {:g} of the pixels uncovered or covered wrongly",
-                  report.limits.min_psnr_db, report.limits.max_coverage_mismatch);
-  if (!study.choice) return "No configuration keeps to the limits: " + limits + ".";
+      fmt::format("at least {:g} dB and a mismatch of at most {:g}", report.limits.min_psnr_db,
+                  report.limits.max_coverage_mismatch);
+  if (!study.choice) return "No configuration is within the limits: " + limits + ".";
   const tradeoff::Outcome& chosen = study.drawing.outcomes[*study.choice];
   const tradeoff::Outcome& defaults = study.drawing.outcomes.front();
-  return fmt::format("The cheapest with {}: {}, {} ms at {:.2f} dB; the defaults take {} ms.",
-                     limits, chosen.name, ms_text(chosen.ms.min_of_medians), chosen.error.psnr_db,
-                     ms_text(defaults.ms.min_of_medians));
+  return fmt::format(
+      "The fastest configuration with {}: {}, {} ms at {:.2f} dB; the defaults take {} ms.", limits,
+      chosen.name, ms_text(chosen.ms.min_of_medians), chosen.error.psnr_db,
+      ms_text(defaults.ms.min_of_medians));
 }
 
 }  // namespace tureen::cli

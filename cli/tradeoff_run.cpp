@@ -58,7 +58,7 @@ std::vector<Photograph> test_photographs(const TradeoffOptions& options, Tradeof
   std::vector<Photograph> photographs =
       tradeoff::spread_out(std::move(dataset.test), std::size_t(most));
   if (photographs.empty())
-    throw InputError({options.dataset.path, {}, {}}, "it holds no photographs to test with");
+    throw InputError({options.dataset.path, {}, {}}, "the dataset has no test photographs");
   for (std::string& note : described(dataset.remarks)) report.notes.push_back(std::move(note));
   return photographs;
 }
@@ -86,8 +86,9 @@ TradeoffReport head_of(const TradeoffOptions& options, const Scene& scene) {
   TradeoffReport report;
   report.notes = all_notes(scene.info);
   if (scene.quality != Quality{})
-    report.notes.push_back("measured with one sample a pixel, not with the scene's quality: " +
-                           describe(scene.quality));
+    report.notes.push_back(
+        "measured with one sample a pixel instead of the scene's quality setting: " +
+        describe(scene.quality));
   report.date = utc_now();
   report.program = {program_version(), program_commit(), options.arguments};
   report.scene = {scene.info.name, options.scene.path, soup.triangles.size(),
@@ -120,8 +121,8 @@ tradeoff::Study study_of(const TradeoffOptions& options, const Scene& scene,
   tradeoff::StudyOptions study{.subpixel_bits = tradeoff::device_subpixel_bits()};
   if (study.subpixel_bits != 8)
     report.notes.push_back(fmt::format(
-        "this device rounds vertices to 1/{} pixel, and so does the oracle where it samples as the "
-        "device does; E_render is not that of devices with the usual 1/256",
+        "this device, and the oracle at its sample points, round vertices to 1/{} pixel; E_render "
+        "differs on devices with the usual 1/256",
         1 << study.subpixel_bits));
   study.clock = clock.now;
   study.background = scene.info.background;

@@ -15,26 +15,27 @@
 #include "cli/config_options.hpp"
 #include "cli/dataset_argument.hpp"
 #include "cli/eval_images.hpp"
-#include "cli/held_out.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory_option.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
-#include "cli/run_lock.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/table.hpp"
-#include "cli/training_session.hpp"
+#include "cli/train_files.hpp"
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "formats/scene_file.hpp"
 #include "jobs/eval/evaluation.hpp"
 #include "scene/edit/lattice_bytes.hpp"
 #include "trainer/common/kernels/projection.hpp"
+#include "trainer/common/run_lock.hpp"
 #include "trainer/common/training_views.hpp"
 #include "trainer/diffsoup/config_fields.hpp"
 #include "trainer/diffsoup/config_file.hpp"
 #include "trainer/diffsoup/device.hpp"
+#include "trainer/diffsoup/held_out.hpp"
 #include "trainer/diffsoup/initialise.hpp"
 #include "trainer/diffsoup/near_zone.hpp"
+#include "trainer/diffsoup/session.hpp"
 
 namespace tureen::cli {
 
@@ -83,7 +84,7 @@ Config config_of(const TrainOptions& options, Preset otherwise, const Checkpoint
   const Config config = with_options(base, options.config);
   if (checkpoint)
     if (const auto reason = difference(config, checkpoint->config))
-      throw UsageError("--resume cannot go on with another configuration: " + *reason);
+      throw UsageError("--resume needs the configuration of the checkpoint: " + *reason);
   if (config.initialisation == trainer::Initialisation::mesh && !checkpoint &&
       options.config.mesh().empty())
     throw UsageError("initialisation \"mesh\" needs the scene", "--init FILE names it");
@@ -121,6 +122,16 @@ double opacity_binary_fraction(const trainer::Model& model) {
     }
   }
   return texels > 0 ? double(binary) / double(texels) : 1.0;
+}
+
+std::string progress_text(const trainer::SessionStatus& now) {
+  std::string text = fmt::format("{}/{}", now.step, now.steps);
+  if (now.loss > 0) text += fmt::format(", loss {:.4f}", now.loss);
+  if (now.test_psnr_db) text += fmt::format(", {:.2f} dB", *now.test_psnr_db);
+  if (now.seconds_per_step > 0)
+    text += fmt::format(", {:.3g} it/s, {} left", 1 / now.seconds_per_step,
+                        duration_text(now.seconds_per_step * (now.steps - now.step)));
+  return text;
 }
 
 struct Result {
@@ -172,18 +183,20 @@ std::optional<Evaluation> evaluation_of(const Scene& scene, std::span<const Phot
   } catch (const DeviceLimitError& error) {
     reason = error.reason();
   }
-  say("The soup could not be drawn by the runtime, so the trainer's own drawing was measured: " +
+  say("The runtime cannot draw the soup here; the metrics are from the trainer's own renderer: " +
       reason);
   return std::nullopt;
 }
 
 void say_result(const TrainOptions& options, const Dataset& dataset, const Result& result) {
   const trainer::TrainingState& state = result.state;
-  say(fmt::format("{} triangles after {} steps in {}; {:.1f} % of the texels are clear or opaque",
+  say(
+      fmt::format("{} triangles after {} steps in {}; {:.1f} % of the texels are transparent or "
+                  "opaque",
                   counted(state.model.faces()), counted(std::uint64_t(state.step)),
                   duration_text(result.seconds), 100 * opacity_binary_fraction(state.model)));
   if (state.non_finite > 0)
-    say(fmt::format("{} numbers that were not finite were put aside", counted(state.non_finite)));
+    say(fmt::format("{} non-finite numbers were skipped", counted(state.non_finite)));
   Table table({counted(dataset.test.size()) + " test views", "PSNR dB", "SSIM", "FLIP"});
   table.row({"drawn by the trainer", fmt::format("{:.2f}", result.trainer_psnr_db)});
   if (result.evaluation) {
@@ -219,7 +232,7 @@ Json report(const Dataset& dataset, const Result& result) {
 void say_beginning(const Dataset& dataset, const Config& config, const trainer::Backend& backend) {
   const Camera& first = dataset.train.front().camera;
   say(
-      fmt::format("{} views to train on and {} to test with, the first {} x {}; {} steps to {} "
+      fmt::format("{} training views and {} test views, the first {} x {}; {} steps to {} "
                   "triangles; {}",
                   counted(dataset.train.size()), counted(dataset.test.size()), first.width,
                   first.height, counted(std::uint64_t(config.steps)),
@@ -241,7 +254,7 @@ std::optional<Scene> read_mesh(const ConfigOptions& options) {
   const std::vector<std::string> words{"random", "points"};
   if (is_missing(path))
     throw InputError({path.string(), {}, {}},
-                     why_missing(path) + ", and --init takes random, points or a scene",
+                     why_missing(path) + "; --init takes random, points or a scene",
                      did_you_mean(path.string(), words));
   return read(SceneArgument{.path = path.string(), .vertex_colors = {}, .up = {}});
 }
@@ -250,13 +263,13 @@ std::optional<Scene> read_mesh(const ConfigOptions& options) {
 void check_existing(const TrainOptions& options, const TrainingFiles& files) {
   std::error_code error;
   if (const fs::path mesh = options.config.mesh(); fs::equivalent(mesh, files.scene, error))
-    throw UsageError("-o would replace " + mesh.string() + ", from which --init begins",
+    throw UsageError("-o would replace " + mesh.string() + ", the scene for --init",
                      "choose another name");
   if (!options.resume && fs::exists(files.scene, error))
-    say(files.scene.string() + " is there and will be replaced in the end, its log now");
+    say(files.scene.string() + " exists; training replaces its log now and the file at the end");
   if (!options.resume && fs::exists(files.checkpoint, error))
-    throw UsageError(files.checkpoint.string() + " is there, of a run that was not finished",
-                     "--resume goes on with it; remove it to begin again");
+    throw UsageError(files.checkpoint.string() + " exists, from an unfinished run",
+                     "give --resume to continue this run, or remove the file to start again");
 }
 
 /// Reads what a run begins with. Ctrl-C in it, unlike later, leaves no checkpoint, which people may
@@ -267,8 +280,8 @@ auto before_the_first_step(const TrainOptions& options, Work&& read) {
     return read();
   } catch (const Interrupted&) {
     if (!options.print_config)
-      say(options.resume ? "no step was done: the checkpoint is as it was"
-                         : "no step was done, so there is no checkpoint to go on from");
+      say(options.resume ? "interrupted before a step was complete; the checkpoint is unchanged"
+                         : "interrupted before a step was complete; no checkpoint was written");
     throw;
   }
 }
@@ -276,7 +289,7 @@ auto before_the_first_step(const TrainOptions& options, Work&& read) {
 ExitCode train(const TrainOptions& options) {
   // Everything that can be wrong with the arguments is said before the photographs are read.
   TrainingFiles files;
-  std::optional<RunLock> lock, log_lock;
+  std::optional<trainer::RunLock> lock, log_lock;
   if (!options.print_config) {
     outlive_readers();  // hours of work are worth more than the lines that nobody reads
     files = files_of(options);
@@ -305,8 +318,8 @@ ExitCode train(const TrainOptions& options) {
   }
   say_list("Reading " + options.dataset.path + ":", described(dataset.remarks));
   if (!checkpoint && !options.config.preset && options.config.file.empty())
-    say(dataset.has_alpha ? "The pictures have alpha: --preset object"
-                          : "The pictures have no alpha: --preset scene");
+    say(dataset.has_alpha ? "The images have alpha: --preset object"
+                          : "The images have no alpha: --preset scene");
 
   Checkpoint run{.config = config,
                  .views = trainer::fingerprint(dataset.train),
@@ -314,7 +327,7 @@ ExitCode train(const TrainOptions& options) {
                  .state = {}};
   if (checkpoint)
     if (const auto reason = difference(run.views, checkpoint->views))
-      throw UsageError("--resume cannot go on with another dataset: " + *reason);
+      throw UsageError("--resume needs the dataset of the checkpoint: " + *reason);
   const trainer::Region region = trainer::region_of_interest(dataset);
   const Config scaled =
       trainer::with_empty_near_zone(trainer::scaled_to(config, region.half_side), dataset, region);
@@ -328,26 +341,48 @@ ExitCode train(const TrainOptions& options) {
   Result result;
   result.visible_at_start = shows_something(trainer.backend(), views);
   if (!result.visible_at_start)
-    say("No training picture shows a triangle yet: are the cameras where the scene is?");
+    say("No training image shows a triangle yet: check that the cameras see the scene.");
 
+  Progress::Output output = Progress::standard_error();
+  output.line_seconds = 10;
+  std::optional<Progress> progress;
+  progress.emplace("training", output);
   const double seconds_before = run.seconds;
-  TrainingSession session(trainer,
-                          {.files = files,
-                           .checkpoint_every = options.checkpoint_every,
-                           .preview_every = options.preview_every,
-                           .test_views = dataset.test,
-                           .seconds_before = seconds_before},
-                          std::move(run));
+  trainer::TrainingSession session(
+      trainer,
+      {.checkpoint = files.checkpoint,
+       .log = files.log,
+       .previews = files.previews,
+       .checkpoint_every = options.checkpoint_every,
+       .preview_every = options.preview_every,
+       .test_views = dataset.test,
+       .seconds_before = seconds_before,
+       .progress =
+           [&](const trainer::SessionStatus& now) {
+             progress->update(double(now.step) / now.steps, progress_text(now));
+           },
+       .interrupted =
+           [&] {
+             progress.reset();
+             say(
+                 fmt::format("wrote {} after step {} of {}; the same command with --resume goes on "
+                             "from it",
+                             files.checkpoint.string(), counted(trainer.steps_done()),
+                             counted(trainer.config().steps)));
+           }},
+      std::move(run));
   session.run();
+  progress.reset();
 
   result.seconds = session.seconds();
   result.state = trainer.state();
   const Scene scene = scene_of(options, dataset, config, result.state);
   session.keep_if_it_fails([&] { write_results(files, scene, result); });
   {
-    Progress progress("measuring");
-    result.trainer_psnr_db = mean_psnr_db(trainer.backend(), dataset.test, config,
-                                          [&](double fraction) { progress.update(fraction); });
+    Progress measuring("measuring");
+    result.trainer_psnr_db =
+        trainer::mean_psnr_db(trainer.backend(), dataset.test, config,
+                              [&](double fraction) { measuring.update(fraction); });
   }
   result.evaluation = evaluation_of(scene, dataset.test);
   say_result(options, dataset, result);
@@ -356,26 +391,29 @@ ExitCode train(const TrainOptions& options) {
 }
 
 void add_file_options(Command& command, TrainOptions& options) {
-  command.add_option("-o,--output", options.output, "the soup").value_name("OUT.glb");
+  command.add_option("-o,--output", options.output, "soup to write").value_name("OUT.glb");
   command
-      .add_option("--log", options.log,
-                  "the log, JSON lines; OUT.jsonl by default (tureen report shows it)")
+      .add_option(
+          "--log", options.log,
+          "training log to write, JSON lines; OUT.jsonl by default (tureen report plots it)")
       .value_name("FILE");
   command
       .add_option("--checkpoint-every", options.checkpoint_every,
-                  "write OUT.checkpoint every N steps; every two minutes by default")
+                  "steps between checkpoints in OUT.checkpoint; every two minutes by default")
       .check(between(1, 10'000'000))
       .value_name("N");
-  command.add_flag("--resume", options.resume,
-                   "go on from OUT.checkpoint, to the same soup as without the break");
+  command.add_flag(
+      "--resume", options.resume,
+      "continue from OUT.checkpoint; the soup is the same as without the interruption");
   command
       .add_option("--preview-every", options.preview_every,
-                  "every N steps draw a test view beside its photograph into OUT.previews")
+                  "steps between previews in OUT.previews, a test view beside its photograph; none "
+                  "by default")
       .check(between(1, 10'000'000))
       .value_name("N");
   command
       .add_option("--export-diffsoup", options.diffsoup_export,
-                  "also write the folder that DiffSoup's web viewer reads")
+                  "also write a folder for DiffSoup's web viewer")
       .value_name("FOLDER");
 }
 
@@ -383,40 +421,43 @@ void add_file_options(Command& command, TrainOptions& options) {
 
 void add_train(Command& program) {
   auto options = std::make_shared<TrainOptions>();
-  Command command = program.add_command("train", "Photographs to a soup");
+  Command command = program.add_command("train", "Train a soup from photographs");
   command.footer(
-      R"(Trains triangles with lattice textures and a color MLP until they look like the
-photographs, writes them as OUT.glb, with a log (OUT.jsonl) beside it, and measures them against the
-test views. Ctrl-C leaves a checkpoint that --resume goes on from. Equal
-seeds give equal soups with any number of threads.
+      R"(Trains triangles with lattice textures and a color MLP to match the photographs. Writes the
+soup as OUT.glb and a log as OUT.jsonl, and measures the soup on the test views. Ctrl-C writes
+a checkpoint; --resume continues from it. Equal seeds give equal soups with any number of
+threads.
 
 Examples:
   tureen train lego -o lego.glb
-  tureen train fox -o fox.glb --scale 0.25 --steps 5000      quick, from smaller photographs
+  tureen train fox -o fox.glb --scale 0.25 --steps 5000      fast, with smaller photographs
   tureen train fox -o fox.glb --scale 0.25 --resume          after Ctrl-C
-  tureen train lego -o lego.glb --preview-every 500          watch it
-  tureen train lego -o better.glb --init lego.glb            train a soup further
+  tureen train lego -o lego.glb --preview-every 500          write previews
+  tureen train lego -o better.glb --init lego.glb            continue from a trained soup
   tureen train lego --print-config > lego.json               all constants, for --config
 
-Exit codes: 0 done, 2 wrong usage, which a dataset or constants other than the checkpoint's are,
+Exit codes: 0 done, 2 wrong usage, or --resume with another dataset or other constants,
 3 the photographs, the checkpoint or the configuration cannot be read,
-4 no GPU where one is asked for, 5 interrupted, or the soup cannot be written.)");
+4 no GPU for --device cuda, 5 interrupted, or the soup cannot be written.)");
   add_dataset_argument(command, options->dataset);
   add_memory_option(command);
   add_file_options(command, *options);
   add_config_options(command, options->config);
   add_choice<Device>(command, "--device", options->device,
                      {{"auto", Device::automatic}, {"cpu", Device::cpu}, {"cuda", Device::cuda}},
-                     "what does the arithmetic: auto (a GPU where one answers), cpu or cuda")
+                     "device for training: auto (default: a GPU if available), cpu or cuda")
       .value_name("NAME");
-  command.add_option("--threads", options->threads, "of the processor; all cores by default")
+  command
+      .add_option("--threads", options->threads,
+                  "number of processor threads; one per core by default")
       .check(between(1, 1024))
       .value_name("N");
   command.add_flag("--print-config", options->print_config,
-                   "print all constants of this run as JSON instead of training");
+                   "print all constants of this run as JSON, without training");
   command.add_text_flag("--list-config", trainer::config_reference,
                         "list all constants with their defaults, ranges and meanings, and exit");
-  command.add_flag("--json", options->json, "the result as one line of JSON on standard output");
+  command.add_flag("--json", options->json,
+                   "print the result as one line of JSON to standard output");
   command.does([options] { return train(*options); });
 }
 

@@ -44,7 +44,7 @@ PictureSize parse_any_size(const std::string& text) {
     height = whole_number(text.substr(times + 1), 1, max_image_side);
   }
   if (!width || !height)
-    throw UsageError("'" + text + "' is no size",
+    throw UsageError("'" + text + "' is not a size",
                      "write it as 1280x720, each side from 1 to " + std::to_string(max_image_side));
   return {*width, *height};
 }
@@ -52,14 +52,14 @@ PictureSize parse_any_size(const std::string& text) {
 PictureSize parse_size(const std::string& text) {
   const PictureSize size = parse_any_size(text);
   if (std::size_t(size.width) * std::size_t(size.height) > max_image_pixels)
-    throw UsageError("a picture of " + text + " has more than " + std::to_string(max_image_pixels) +
+    throw UsageError("an image of " + text + " has more than " + std::to_string(max_image_pixels) +
                      " pixels");
   return size;
 }
 
 glm::dvec3 parse_vector(const std::string& text) {
   if (const auto vector = three_numbers(text)) return *vector;
-  throw UsageError("'" + text + "' is no vector", "write it as 1,-2.5,3");
+  throw UsageError("'" + text + "' is not a vector", "write it as 1,-2.5,3");
 }
 
 glm::vec4 parse_background(const std::string& text) {
@@ -68,14 +68,14 @@ glm::vec4 parse_background(const std::string& text) {
   if (text == "transparent") return glm::vec4(0);
   const auto color = three_numbers(text);
   if (!color || *color != glm::clamp(*color, 0.0, 1.0))
-    throw UsageError("'" + text + "' is no background",
+    throw UsageError("'" + text + "' is not a background",
                      "write white, black, transparent or 0.2,0.4,1");
   return {glm::vec3(*color), 1};
 }
 
 int parse_integer(const std::string& text, int low, int high) {
   if (const auto value = whole_number(text, low, high)) return *value;
-  throw UsageError("'" + text + "' is no whole number from " + std::to_string(low) + " to " +
+  throw UsageError("'" + text + "' is not a whole number from " + std::to_string(low) + " to " +
                    std::to_string(high));
 }
 

@@ -44,10 +44,10 @@ ExitCode become_window(const std::vector<std::string>& arguments) {
 #endif
   if (errno == ENOENT)
     throw UsageError(
-        "there is no " + std::string(window_program) +
-            ", the program of the window, beside this program or on PATH",
-        "install libglfw3-dev and libimgui-dev and build it with ./dev demo, or draw without a "
-        "window: tureen render");
+        "cannot find " + std::string(window_program) +
+            ", the window program, beside this program or on PATH",
+        "install libglfw3-dev and libimgui-dev and build it with ./dev demo, or draw images with "
+        "tureen render");
   throw OutputError({program, {}, {}}, "cannot be started");
 }
 
@@ -55,7 +55,7 @@ ExitCode become_window(const std::vector<std::string>& arguments) {
 
 void add_view(Command& program) {
   // All that follows, --help too, is the other program's.
-  program.add_command("view", "A window to look around in").does_with_rest(become_window);
+  program.add_command("view", "Explore a scene in a window").does_with_rest(become_window);
 }
 
 }  // namespace tureen::cli

@@ -82,7 +82,7 @@ Views recorded_views(const std::string& argument, const std::string& which_witho
   const CameraArgument wanted(argument, which_without);
   CameraFile found = cameras_in(wanted.file, scene, scene_path);
   if (found.cameras.empty())
-    throw InputError({wanted.file.string(), {}, {}}, "it holds no cameras");
+    throw InputError({wanted.file.string(), {}, {}}, "the file has no cameras");
   if (wanted.which == "all") return {std::move(found.cameras), described(found.remarks)};
   const int last = int(found.cameras.size()) - 1;
   // As text first: a number of forty digits is out of range, not malformed.
@@ -97,22 +97,23 @@ void add_film_options(Command& command, ViewOptions& options) {
   Option path =
       command
           .add_option("--path", options.path,
-                      "the frames along a camera path: our JSON of cameras with \"seconds\"")
+                      "draw the frames along a camera path: a JSON file with \"cameras\" and their "
+                      "\"seconds\" (docs/camera-paths.md)")
           .value_name("FILE.json");
   for (const char* other : {"--camera", "--eye", "--fov", "--orbit"})
     path.excludes(command.option(other));
   Option turntable =
       command
           .add_option("--turntable", options.turntable,
-                      "the frames of one turn around the up axis in so many seconds, like --orbit, "
-                      "or from --eye about --target")
+                      "draw the frames of one turn around the up axis, with this duration, like "
+                      "--orbit, or from --eye around --target")
           .value_name("SECONDS")
           .check(between(0.001, 36000.0));
   for (const Option& other : {command.option("--camera"), command.option("--orbit"), path})
     turntable.excludes(other);
   command
       .add_option("--fps", options.frames_per_second,
-                  "frames a second of --path and --turntable, 30 by default")
+                  "frames per second for --path and --turntable, 30 by default")
       .value_name("N")
       .check(between(0.01, 1000.0));
 }
@@ -122,41 +123,45 @@ void add_film_options(Command& command, ViewOptions& options) {
 void check(const ViewOptions& options) {
   if (!options.size.empty()) parse_any_size(options.size);
   if (options.frames_per_second && !options.is_film())
-    throw UsageError("--fps is for the frames of --path and --turntable");
+    throw UsageError("--fps needs --path or --turntable");
 }
 
 void add_view_options(Command& command, ViewOptions& options) {
   command
       .add_option(
           "--size", options.size,
-          "width and height in pixels, 1280x720 by default; a recorded camera keeps its own")
+          "width and height in pixels, 1280x720 by default; recorded cameras keep their own size "
+          "by default")
       .value_name("WxH");
   const Option camera =
       command
           .add_option("--camera", options.camera,
-                      "camera N (from 0) of a file, or all: our JSON of cameras, NeRF's "
-                      "transforms.json, cameras.json of 3D Gaussian Splatting, the folder of a "
-                      "COLMAP model, or a scene that has cameras, such as SCENE itself")
+                      "camera N of a file, counted from 0, or all cameras: a JSON file written by "
+                      "Tureen, NeRF's transforms.json, cameras.json from 3D Gaussian Splatting, "
+                      "the folder of a COLMAP model, or a scene with cameras, such as SCENE")
           .value_name("FILE[:N|:all]");
   const Option eye = command
                          .add_option("--eye", options.eye,
-                                     "where the eye is, in world coordinates; it looks at --target")
+                                     "eye position in world coordinates; the view direction is "
+                                     "towards --target")
                          .value_name("X,Y,Z")
                          .excludes(camera);
   command
       .add_option("--target", options.target,
-                  "what the eye looks at; the centre of the scene by default")
+                  "point in the centre of the image, in world coordinates; the centre of the scene "
+                  "by default")
       .value_name("X,Y,Z")
       .needs(eye);
   command
       .add_option("--fov", options.fov_degrees,
-                  "the full vertical angle of view in degrees, 40 by default")
+                  "full vertical field of view in degrees, 40 by default")
       .value_name("DEGREES")
       .check(between(0.1, 179.0))
       .excludes(camera);
   command
-      .add_option("--orbit", options.orbit,
-                  "so many views around the up axis, slightly from above, all of the scene in each")
+      .add_option(
+          "--orbit", options.orbit,
+          "draw N views around the up axis, slightly from above; each shows the whole scene")
       .value_name("N")
       .check(between(1, max_orbit_views))
       .excludes(camera)

@@ -23,13 +23,14 @@ double mebibytes(const JsonView& bytes) { return double(bytes.natural()) / doubl
 double milliseconds(const JsonView& view) {
   const double ms = view.number();
   if (!(ms >= 0 && ms <= max_ms))
-    view.fail(fmt::format("{} is no time from 0 to {:g} ms", ms, max_ms));
+    view.fail(fmt::format("{} is not a time from 0 to {:g} ms", ms, max_ms));
   return ms;
 }
 
 double frame_milliseconds(const JsonView& view) {
   const double ms = milliseconds(view);
-  if (ms == 0) view.fail("a frame that took no time: the clock is too coarse for so few a sample");
+  if (ms == 0)
+    view.fail("a frame took 0 ms: the clock is too coarse for this number of frames a sample");
   return ms;
 }
 
@@ -67,7 +68,7 @@ BenchConfiguration configuration_of(const JsonView& view) {
 /// The part that the cases of one measurement share.
 BenchMeasurement shared_part(const JsonView& view) {
   const JsonView cases = view["entrants"];
-  if (cases.size() == 0) cases.fail("nobody took part");
+  if (cases.size() == 0) cases.fail("has no cases");
   const JsonView first = cases.at(0)["frame_ms"];
   if (first.size() == 0) first.fail("has no rounds");
   if (first.at(0).size() == 0) first.at(0).fail("has no views");
@@ -82,15 +83,15 @@ BenchMeasurement shared_part(const JsonView& view) {
   const std::uint64_t frames = std::uint64_t(shared.frame_ms.rounds) * std::uint64_t(shared.views) *
                                shared.frames_per_sample;
   if (frames > std::uint64_t(std::numeric_limits<int>::max()))
-    view["frames_per_sample"].fail("more frames than anybody draws");
+    view["frames_per_sample"].fail("too many frames");
   shared.frames = int(frames);
   const JsonView self_test = view["self_test_ms"];
-  if (self_test.size() != 2) self_test.fail("expected the times of two turns");
+  if (self_test.size() != 2) self_test.fail("expected the times of two runs");
   const std::size_t rounds = self_test.at(0).size();
   if (rounds == 0) self_test.at(0).fail("has no rounds");
   shared.aa_spread = series_spread(frame_times(self_test.at(0), std::size_t(shared.views), rounds),
                                    frame_times(self_test.at(1), std::size_t(shared.views), rounds));
-  shared.passes_reason = "a browser does not tell them";
+  shared.passes_reason = "browsers do not report them";
   return shared;
 }
 
@@ -104,10 +105,10 @@ void add_measurements(const JsonView& view, BenchResult& result) {
     BenchMeasurement measurement = shared;
     measurement.configuration = benchmark_case["configuration"].text();
     if (!find_configuration(result, measurement.configuration))
-      benchmark_case["configuration"].fail("is none of the scene's configurations");
+      benchmark_case["configuration"].fail("is not a configuration of the scene");
     for (std::size_t k = begin; k < result.measurements.size(); ++k)
       if (result.measurements[k].configuration == measurement.configuration)
-        benchmark_case["configuration"].fail("took part already");
+        benchmark_case["configuration"].fail("appears twice");
     measurement.stable = boolean(benchmark_case["stable"]);
     measurement.pixels_hash = hash_of(benchmark_case["pixels_hash"]);
     const FrameTimes times = frame_times(benchmark_case["frame_ms"], std::size_t(shared.views),
@@ -170,7 +171,7 @@ BenchResult result_of_scene(const JsonView& view, BenchResult result) {
 std::vector<BenchResult> read_web_bench(Input& input) {
   const nlohmann::json document = read_json(input);
   const JsonView root(document, input.name());
-  require_format(root, web_format_name, web_bench_version, "no download of bench.html");
+  require_format(root, web_format_name, web_bench_version, "not a download of bench.html");
   const BenchResult shared = result_of_page(root);
   const JsonView scenes = root["scenes"];
   if (scenes.size() == 0) scenes.fail("is empty");

@@ -15,7 +15,7 @@ function(tureen_fuzz_trainer)
   find_package(fmt REQUIRED)
   find_package(nlohmann_json REQUIRED)
   find_package(ZLIB REQUIRED)
-  list(TRANSFORM ARGN PREPEND "${PROJECT_SOURCE_DIR}/trainer/diffsoup/" OUTPUT_VARIABLE sources)
+  list(TRANSFORM ARGN PREPEND "${PROJECT_SOURCE_DIR}/trainer/" OUTPUT_VARIABLE sources)
   add_library(tureen_trainer STATIC ${sources})
   target_link_libraries(tureen_trainer PUBLIC tureen_formats
     PRIVATE nlohmann_json::nlohmann_json fmt::fmt ZLIB::ZLIB tureen_warnings)

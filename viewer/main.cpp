@@ -37,34 +37,37 @@ struct Arguments {
 };
 
 void add_arguments(CLI::App& program, Arguments& arguments) {
-  program.add_option("SCENE", arguments.scene, "a scene: .glb, .off, .ply, .obj, .pt, a folder");
+  program.add_option("SCENE", arguments.scene, "scene: .glb, .off, .ply, .obj, .pt, or a folder");
   program.add_option("DATASET", arguments.dataset,
-                     "photographs to compare with: a folder of COLMAP's or NeRF's");
-  program.add_option("--size", arguments.size, "of the window, in points")->option_text("WxH");
-  program.add_option("--api", arguments.api, "gl: OpenGL 3.3; es: OpenGL ES 3.0")
+                     "photographs for comparison: a COLMAP or NeRF folder");
+  program.add_option("--size", arguments.size, "window size in points")->option_text("WxH");
+  program
+      .add_option("--api", arguments.api,
+                  "graphics API: gl (default, OpenGL 3.3) or es (OpenGL ES 3.0)")
       ->check(CLI::IsMember({"gl", "es"}));
   program
       .add_option("--pipeline", arguments.pipeline,
-                  "auto, or published: the published viewer's, the baseline")
+                  "pipeline: auto (default, Tureen's own) or published (the baseline)")
       ->check(CLI::IsMember({"auto", "published"}));
-  program.add_flag("--no-specialise", arguments.no_specialise, "apply no specialisation");
-  program.add_option("--pictures", arguments.pictures, "where pictures are saved")
+  program.add_flag("--no-specialise", arguments.no_specialise,
+                   "apply no specialisation: also draw and compute the parts that the scene does "
+                   "not need");
+  program.add_option("--pictures", arguments.pictures, "folder for saved images")
       ->option_text("FOLDER");
   program
       .add_option_function<std::string>(
           "--max-memory", [](const std::string& text) { set_max_memory(parse_memory_size(text)); },
           max_memory_help)
       ->option_text("SIZE");
-  program.add_flag("--no-settings", arguments.no_settings,
-                   "neither read nor keep what the last run left");
+  program.add_flag("--no-settings", arguments.no_settings, "do not load or save settings");
   program.add_flag("--report", arguments.report,
-                   "say at the end when the first picture stood, and how long loading kept the "
-                   "window busy");
-  program.add_option("--record", arguments.record, "write what happens to a session file")
+                   "at the end, print the time to the first image and the longest frame time while "
+                   "loading");
+  program.add_option("--record", arguments.record, "session file to write: the events of this run")
       ->option_text("FILE");
   program
       .add_option("--replay", arguments.replay,
-                  "do what a session file says, then end; 1 when it ends with an error shown")
+                  "session file to replay, then exit; exit with 1 if an error is shown")
       ->option_text("FILE");
 }
 
@@ -97,8 +100,7 @@ int run(const Arguments& arguments) {
   std::signal(SIGTERM, note_interrupt);
   application.run();
   if (arguments.report)
-    std::fprintf(stderr,
-                 "first picture after %.2f s; busy for at most %.1f ms a frame while loading\n",
+    std::fprintf(stderr, "first image after %.2f s; longest frame while loading %.1f ms\n",
                  application.report().first_picture_seconds, application.report().longest_busy_ms);
   if (arguments.replay.empty()) return int(ExitCode::done);
   const std::vector<std::string> errors = application.errors();
@@ -115,14 +117,14 @@ int run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   using namespace tureen::viewer;
   CLI::App program("Shows trained triangle soups in a window.", "tureen view");
-  program.footer(R"(Without SCENE the window asks for one; F1 lists the keys.
+  program.footer(R"(Without SCENE, drop a scene on the window or press Ctrl+O. F1 lists the keys.
 
 Examples:
   tureen view soup.glb
-  tureen view soup.glb photographs/          [ and ] go through the photographs' cameras
+  tureen view soup.glb photographs/          [ and ] select the photographs' cameras
 
 Exit codes: 0 done, 1 a replayed session ended with an error, 2 wrong usage, 3 the session
-or the settings cannot be read, 4 no display or no OpenGL, 5 anything else.)");
+or the settings cannot be read, 4 no display or no OpenGL, 5 any other error.)");
   Arguments arguments;
   add_arguments(program, arguments);
   try {

@@ -214,8 +214,8 @@ TEST(BenchComparison, InEnglish) {
   now.protocol.processor_time = true;
   now.measurements.clear();
   EXPECT_THAT(comparison_lines(compare_benches(now, then)),
-              ElementsAre("not compared: their times are of different clocks",
-                          "another clock: steady then, processor time now"));
+              ElementsAre("not compared: the two used different clocks",
+                          "different clock: steady then, processor time now"));
 }
 
 // ---- The files ---------------------------------------------------------------------

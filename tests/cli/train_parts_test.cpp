@@ -8,9 +8,8 @@
 
 #include "base/error.hpp"
 #include "cli/config_options.hpp"
-#include "cli/held_out.hpp"
-#include "cli/training_files.hpp"
-#include "cli/training_session.hpp"
+#include "cli/progress.hpp"
+#include "cli/train_files.hpp"
 #include "tests/support/errors.hpp"
 #include "trainer/diffsoup/config_fields.hpp"
 
@@ -62,68 +61,6 @@ TEST(TrainingFiles, AreTriedAndLeaveNothing) {
   for ([[maybe_unused]] const auto& entry : fs::recursive_directory_iterator(folder)) ++entries;
   EXPECT_EQ(entries, 2u);
   fs::remove_all(folder);
-}
-
-TEST(SomeOf, SpreadsEvenlyFromTheFirst) {
-  std::vector<Photograph> views(12);
-  for (std::size_t i = 0; i < views.size(); ++i) views[i].camera.name = std::to_string(i);
-  const auto names = [](const std::vector<Photograph>& chosen) {
-    std::string text;
-    for (const Photograph& view : chosen) text += view.camera.name + " ";
-    return text;
-  };
-  EXPECT_EQ(names(some_of(views, 5)), "0 2 4 7 9 ");
-  EXPECT_EQ(names(some_of(views, 1)), "0 ");
-  EXPECT_EQ(some_of(views, 50).size(), 12u);
-}
-
-/// Draws one colour everywhere.
-class OneColor final : public trainer::Backend {
- public:
-  explicit OneColor(float value) : value_(value) {}
-  std::string description() const override { return "one colour"; }
-  void upload(const trainer::TrainingState&) override {}
-  void download(trainer::TrainingState&) const override {}
-  trainer::StepReport step(std::span<const std::uint32_t>, const trainer::Rates&) override {
-    return {};
-  }
-  trainer::StageTimes take_times() override { return {}; }
-  std::vector<std::uint64_t> visible_pixels(std::span<const Camera>) override { return {}; }
-  std::vector<float> render(const Camera& camera) override {
-    const std::size_t pixels = std::size_t(camera.width) * std::size_t(camera.height);
-    std::vector<float> planes(3 * pixels, value_);
-    std::fill_n(planes.begin(), pixels, 0.0f);  // no red
-    return planes;
-  }
-
- private:
-  float value_;
-};
-
-Photograph photograph(glm::u8vec4 color) {
-  Photograph view;
-  view.camera = look_at({3, 0, 1}, {0, 0, 0}, {0, 0, 1}, 0.8, 16, 12);
-  view.image = Image8(16, 12, color);
-  return view;
-}
-
-TEST(HeldOut, IsMeasuredAsTheEvaluationDoes) {
-  OneColor backend(0.2f + 0.4f / 255);  // rounds to 51
-  Config config;
-  config.background[0] = 0.0f;
-  config.background[1] = config.background[2] = 0.4f;
-  // The same picture, and one that shows the background through and through: off by 51 / 255 in
-  // two of three channels.
-  const std::vector<Photograph> views{photograph({0, 51, 51, 255}), photograph({9, 9, 9, 0})};
-  const double off = -10 * std::log10(0.2 * 0.2 * 2 / 3);
-  // Floats hold the values to 6e-8.
-  EXPECT_NEAR(mean_psnr_db(backend, views, config), (100 + off) / 2, 1e-5);
-  const Image8 image = drawn(backend, views[0].camera);
-  EXPECT_EQ(image.at(15, 11), glm::u8vec4(0, 51, 51, 255));
-  const Image8 both = preview(backend, views[1], config);
-  EXPECT_EQ(both.width, 3 * 16);
-  EXPECT_EQ(both.at(0, 0), glm::u8vec4(0, 102, 102, 255));
-  EXPECT_EQ(both.at(16, 0), glm::u8vec4(0, 51, 51, 255));
 }
 
 TEST(ConfigOptions, KeepTheProportionOfTrianglesToBeginWith) {

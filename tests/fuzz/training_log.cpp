@@ -1,5 +1,5 @@
 // The log of a training run.
-#include "cli/training_log.hpp"
+#include "trainer/common/training_log.hpp"
 
 #include "tests/fuzz/scratch.hpp"
 
@@ -8,7 +8,7 @@ namespace tureen::fuzz {
 void training_log(Bytes bytes) {
   static const Scratch scratch("log");
   scratch.write("run.jsonl", bytes);
-  cli::read_training_log(scratch.folder() / "run.jsonl");
+  trainer::read_training_log(scratch.folder() / "run.jsonl");
 }
 
 }  // namespace tureen::fuzz

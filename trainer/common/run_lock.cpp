@@ -1,4 +1,4 @@
-#include "cli/run_lock.hpp"
+#include "trainer/common/run_lock.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -10,7 +10,7 @@
 
 #include "base/error.hpp"
 
-namespace tureen::cli {
+namespace tureen::trainer {
 
 namespace {
 
@@ -46,4 +46,4 @@ RunLock::~RunLock() {
   close(descriptor_);
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen::trainer

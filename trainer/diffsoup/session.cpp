@@ -1,18 +1,17 @@
-#include "cli/training_session.hpp"
+#include "trainer/diffsoup/session.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 
-#include "cli/held_out.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/picture_file.hpp"
-#include "cli/progress.hpp"
-#include "cli/report.hpp"
+#include "base/error.hpp"
+#include "base/output.hpp"
 #include "image/metrics.hpp"
+#include "image/png.hpp"
+#include "trainer/diffsoup/held_out.hpp"
 
-namespace tureen::cli {
+namespace tureen::trainer {
 
 namespace {
 
@@ -36,21 +35,12 @@ double smoothed(double mean, double value) {
 }
 
 TrainingLog open_log(const SessionOptions& options, int step) {
-  return step > 0 ? TrainingLog::resume(options.files.log, step)
-                  : TrainingLog::create(options.files.log);
+  return step > 0 ? TrainingLog::resume(options.log, step) : TrainingLog::create(options.log);
 }
 
 }  // namespace
 
-std::string duration_text(double seconds) {
-  const auto whole = static_cast<long long>(seconds + 0.5);
-  if (whole < 60) return fmt::format("{} s", whole);
-  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
-  return fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
-}
-
-TrainingSession::TrainingSession(trainer::Trainer& trainer, SessionOptions options,
-                                 trainer::Checkpoint run)
+TrainingSession::TrainingSession(Trainer& trainer, SessionOptions options, Checkpoint run)
     : trainer_(trainer),
       options_(std::move(options)),
       run_(std::move(run)),
@@ -75,42 +65,37 @@ void TrainingSession::run() {
 void TrainingSession::keep_if_it_fails(const std::function<void()>& work) {
   try {
     work();
-  } catch (const Interrupted&) {
-    keep();
-    throw;
-  } catch (...) {
-    // What went wrong is said in the end; a checkpoint that fails as well adds nothing to it.
+  } catch (const Error&) {
+    // This error is the one to report; a checkpoint that fails as well adds nothing.
     try {
       if (!in_step_) keep();
     } catch (const OutputError&) {
     }
+    throw;
+  } catch (...) {
+    if (!in_step_) keep();
     throw;
   }
 }
 
 void TrainingSession::keep() {
   save_checkpoint();
-  say(fmt::format("wrote {} after step {} of {}; the same command with --resume goes on from it",
-                  options_.files.checkpoint.string(), counted(trainer_.steps_done()),
-                  counted(trainer_.config().steps)));
+  if (options_.interrupted) options_.interrupted();
 }
 
 void TrainingSession::train_to_the_end() {
-  Progress::Output output = Progress::standard_error();
-  output.line_seconds = 10;
-  Progress progress("training", output);
   while (!trainer_.done()) {
-    progress.update(double(trainer_.steps_done()) / trainer_.config().steps, detail());
+    if (options_.progress) options_.progress(status());
     const double before = seconds();
     in_step_ = true;
-    const trainer::StepReport report = trainer_.step();
+    const StepReport report = trainer_.step();
     in_step_ = false;
     seconds_per_step_ = smoothed(seconds_per_step_, seconds() - before);
     after_step(report);
   }
 }
 
-void TrainingSession::after_step(const trainer::StepReport& report) {
+void TrainingSession::after_step(const StepReport& report) {
   ++recent_.steps;
   recent_.loss += report.loss;
   recent_.l1 += report.l1;
@@ -154,28 +139,26 @@ void TrainingSession::record() {
 
 void TrainingSession::write_preview() {
   const int digits = int(std::to_string(trainer_.config().steps).size());
-  write_picture(
-      preview(trainer_.backend(), options_.test_views.front(), trainer_.config()),
-      options_.files.previews / fmt::format("step_{:0{}}.png", trainer_.steps_done(), digits));
+  Output output(options_.previews / fmt::format("step_{:0{}}.png", trainer_.steps_done(), digits));
+  output.write(
+      encode_png(preview(trainer_.backend(), options_.test_views.front(), trainer_.config())));
+  output.commit();
 }
 
 void TrainingSession::save_checkpoint() {
   run_.state = trainer_.state();
   run_.seconds = seconds();
-  trainer::write_checkpoint(options_.files.checkpoint, run_);
+  write_checkpoint(options_.checkpoint, run_);
   run_.state = {};  // hundreds of megabytes at times
   last_checkpoint_ = seconds();
 }
 
-std::string TrainingSession::detail() const {
-  const int step = trainer_.steps_done(), steps = trainer_.config().steps;
-  std::string text = fmt::format("{}/{}", step, steps);
-  if (loss_ > 0) text += fmt::format(", loss {:.4f}", loss_);
-  if (shown_test_psnr_) text += fmt::format(", {:.2f} dB", *shown_test_psnr_);
-  if (seconds_per_step_ > 0)
-    text += fmt::format(", {:.3g} it/s, {} left", 1 / seconds_per_step_,
-                        duration_text(seconds_per_step_ * (steps - step)));
-  return text;
+SessionStatus TrainingSession::status() const {
+  return {.step = trainer_.steps_done(),
+          .steps = trainer_.config().steps,
+          .loss = loss_,
+          .test_psnr_db = shown_test_psnr_,
+          .seconds_per_step = seconds_per_step_};
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen::trainer

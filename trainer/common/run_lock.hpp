@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-namespace tureen::cli {
+namespace tureen::trainer {
 
 class RunLock {
  public:
@@ -22,4 +22,4 @@ class RunLock {
   int descriptor_ = -1;
 };
 
-}  // namespace tureen::cli
+}  // namespace tureen::trainer

@@ -1,4 +1,4 @@
-#include "cli/held_out.hpp"
+#include "trainer/diffsoup/held_out.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -7,18 +7,18 @@
 #include "image/metrics.hpp"
 #include "image/quantise.hpp"
 
-namespace tureen::cli {
+namespace tureen::trainer {
 
 namespace {
 
-ImageF truth(const Photograph& view, const trainer::Config& config) {
+ImageF truth(const Photograph& view, const Config& config) {
   const float* color = config.background;
   return composited(to_float(view.image), {color[0], color[1], color[2]});
 }
 
 }  // namespace
 
-Image8 drawn(trainer::Backend& backend, const Camera& camera) {
+Image8 drawn(Backend& backend, const Camera& camera) {
   const std::vector<float> planes = backend.render(camera);
   Image8 image(camera.width, camera.height);
   const std::size_t pixels = image.pixels.size();
@@ -29,8 +29,8 @@ Image8 drawn(trainer::Backend& backend, const Camera& camera) {
   return image;
 }
 
-double mean_psnr_db(trainer::Backend& backend, std::span<const Photograph> views,
-                    const trainer::Config& config, const std::function<void(double)>& progress) {
+double mean_psnr_db(Backend& backend, std::span<const Photograph> views, const Config& config,
+                    const std::function<void(double)>& progress) {
   assert(!views.empty());
   double sum = 0;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -41,7 +41,7 @@ double mean_psnr_db(trainer::Backend& backend, std::span<const Photograph> views
   return sum / double(views.size());
 }
 
-Image8 preview(trainer::Backend& backend, const Photograph& view, const trainer::Config& config) {
+Image8 preview(Backend& backend, const Photograph& view, const Config& config) {
   Image8 picture = side_by_side(truth(view, config), to_float(drawn(backend, view.camera)));
   // The photograph is shown over its background already.
   for (glm::u8vec4& pixel : picture.pixels) pixel.a = 255;
@@ -55,4 +55,4 @@ std::vector<Photograph> some_of(std::span<const Photograph> views, std::size_t c
   return chosen;
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen::trainer

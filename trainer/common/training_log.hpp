@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace tureen::cli {
+namespace tureen::trainer {
 
 /// What a line holds. NaN, which a run that goes wrong has, is null in JSON.
 struct TrainingRecord {
@@ -56,4 +56,4 @@ class TrainingLog {
 /// Throws InputError with the line that is no record, or that does not come after the one before.
 std::vector<TrainingRecord> read_training_log(const std::filesystem::path& path);
 
-}  // namespace tureen::cli
+}  // namespace tureen::trainer

@@ -7,26 +7,25 @@
 #include <span>
 #include <vector>
 
-#include "formats/dataset/dataset.hpp"
 #include "image/image.hpp"
+#include "scene/photographs.hpp"
 #include "trainer/diffsoup/backend.hpp"
 #include "trainer/diffsoup/config.hpp"
 
-namespace tureen::cli {
+namespace tureen::trainer {
 
 /// The camera's picture as a device would write it, 8 bits a channel, opaque.
-Image8 drawn(trainer::Backend& backend, const Camera& camera);
+Image8 drawn(Backend& backend, const Camera& camera);
 
 /// The mean over views of the PSNR against the photograph over the background, as evaluate()
 /// measures it. `progress`, where there is one, is called with the fraction done and may throw.
-double mean_psnr_db(trainer::Backend& backend, std::span<const Photograph> views,
-                    const trainer::Config& config,
+double mean_psnr_db(Backend& backend, std::span<const Photograph> views, const Config& config,
                     const std::function<void(double)>& progress = {});
 
 /// The view's photograph, what the trainer draws, and where they differ.
-Image8 preview(trainer::Backend& backend, const Photograph& view, const trainer::Config& config);
+Image8 preview(Backend& backend, const Photograph& view, const Config& config);
 
 /// At most `count` of the views, evenly spread, the first among them.
 std::vector<Photograph> some_of(std::span<const Photograph> views, std::size_t count);
 
-}  // namespace tureen::cli
+}  // namespace tureen::trainer

@@ -1,38 +1,51 @@
-// A training run as somebody sees it: progress, the log, checkpoints and previews around the steps
-// of a Trainer.
+// A training run from its first step to its last: the steps of a Trainer, the log, checkpoints,
+// previews and held-out views.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "cli/training_files.hpp"
-#include "cli/training_log.hpp"
-#include "formats/dataset/dataset.hpp"
+#include "scene/photographs.hpp"
+#include "trainer/common/training_log.hpp"
 #include "trainer/diffsoup/checkpoint.hpp"
 #include "trainer/diffsoup/trainer.hpp"
 
-namespace tureen::cli {
+namespace tureen::trainer {
+
+/// A moment of the run, for people who wait.
+struct SessionStatus {
+  int step = 0, steps = 0;             // done, of all
+  double loss = 0;                     // smoothed; 0 before the first step
+  std::optional<double> test_psnr_db;  // of the held-out views, when last measured
+  double seconds_per_step = 0;         // smoothed; 0 before the first step
+};
 
 struct SessionOptions {
-  TrainingFiles files;
+  std::filesystem::path checkpoint;        // replaced at each
+  std::filesystem::path log;               // JSON lines
+  std::filesystem::path previews;          // a folder that exists, where preview_every > 0
   std::optional<int> checkpoint_every;     // steps; by default every two minutes
   int preview_every = 0;                   // steps; 0 draws none
   std::span<const Photograph> test_views;  // one at least
   double seconds_before = 0;               // of training, in sessions that this one goes on from
+  /// Called before each step; what it throws ends the run.
+  std::function<void(const SessionStatus&)> progress = {};
+  /// Called after the checkpoint of a run that ends early.
+  std::function<void()> interrupted = {};
 };
 
 class TrainingSession {
  public:
   /// `run` is what checkpoints say of it; its state and seconds are filled in here. `trainer`,
   /// and what the options point to, must outlive the session.
-  TrainingSession(trainer::Trainer& trainer, SessionOptions options, trainer::Checkpoint run);
+  TrainingSession(Trainer& trainer, SessionOptions options, Checkpoint run);
 
-  /// Trains to the last step. Throws OutputError where a file cannot be written, and Interrupted
-  /// after Ctrl-C. Either way a checkpoint is written, where that can be, and it is said how to go
-  /// on.
+  /// Trains to the last step. Throws OutputError where a file cannot be written, and what
+  /// SessionOptions::progress throws. Either way a checkpoint is written first, where that can be.
   void run();
 
   /// Does what is left to do after run(); where it throws the checkpoint is written first.
@@ -50,17 +63,17 @@ class TrainingSession {
   };
 
   void train_to_the_end();
-  void after_step(const trainer::StepReport& report);
+  void after_step(const StepReport& report);
   void measure();
   void record();
   void write_preview();
   void save_checkpoint();
   void keep();
-  std::string detail() const;
+  SessionStatus status() const;
 
-  trainer::Trainer& trainer_;
+  Trainer& trainer_;
   SessionOptions options_;
-  trainer::Checkpoint run_;
+  Checkpoint run_;
   std::vector<Photograph> measured_views_;
   TrainingLog log_;
   int test_every_;
@@ -74,7 +87,4 @@ class TrainingSession {
   std::optional<double> fresh_test_psnr_, shown_test_psnr_;
 };
 
-/// "7 s", "3 min 20 s", "2 h 5 min".
-std::string duration_text(double seconds);
-
-}  // namespace tureen::cli
+}  // namespace tureen::trainer

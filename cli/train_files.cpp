@@ -1,4 +1,4 @@
-#include "cli/training_files.hpp"
+#include "cli/train_files.hpp"
 
 #include <span>
 #include <string>
@@ -24,22 +24,22 @@ void check_kind(const fs::path& file, std::string_view beginning, const char* ki
   std::string found(beginning.size(), '\0');
   found.resize(input.read_some(std::as_writable_bytes(std::span(found))));
   if (found != beginning.substr(0, found.size()))
-    throw UsageError(file.string() + " exists and is no " + kind, "choose another name");
+    throw UsageError(file.string() + " exists and is not a " + kind, "choose another name");
 }
 
 void check_log(const TrainingFiles& files) {
   for (const fs::path& other : {files.scene, files.checkpoint, files.previews, files.lock})
     if (files.log.lexically_normal() == other.lexically_normal())
-      throw UsageError("the log cannot be " + other.string() + ", which is written, too");
+      throw UsageError("--log cannot be " + other.string() + ", which is another output file");
   // All lines of a log begin so, also one that was cut short.
-  check_kind(files.log, "{\"step\":", "log of training");
+  check_kind(files.log, "{\"step\":", "training log");
 }
 
 }  // namespace
 
 TrainingFiles training_files(const fs::path& scene) {
   if (extension_of(scene) != ".glb")
-    throw UsageError("'" + scene.string() + "' does not end in .glb, which is what is written");
+    throw UsageError("'" + scene.string() + "' does not end in .glb");
   const auto beside = [&](const char* extension) {
     return fs::path(scene).replace_extension(extension);
   };
@@ -60,7 +60,8 @@ void check_writable(const TrainingFiles& files) {
   for (const fs::path& other :
        {files.scene, files.checkpoint, files.log, files.previews, files.lock})
     if (folder.lexically_normal() == other.lexically_normal())
-      throw UsageError("the export cannot be " + other.string() + ", which is written, too");
+      throw UsageError("--export-diffsoup cannot be " + other.string() +
+                       ", which is another output file");
   require_writable_export(folder);
 }
 

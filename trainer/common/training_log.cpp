@@ -1,4 +1,4 @@
-#include "cli/training_log.hpp"
+#include "trainer/common/training_log.hpp"
 
 #include <cerrno>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "base/input.hpp"
 #include "base/json_view.hpp"
 
-namespace tureen::cli {
+namespace tureen::trainer {
 
 namespace {
 
@@ -55,14 +55,14 @@ ParsedLog parse_log(const std::filesystem::path& path) {
       const auto line = parse_json(text.substr(begin, end - begin), input.name(), begin);
       log.records.push_back(record_of(JsonView(line, input.name())));
     } catch (const InputError& error) {
-      throw InputError({input.name(), {}, number}, "no record of training: " + error.reason(),
+      throw InputError({input.name(), {}, number}, "not a training record: " + error.reason(),
                        error.hint());
     }
     const std::size_t count = log.records.size();
     if (count > 1 && log.records[count - 1].step <= log.records[count - 2].step)
       throw InputError({input.name(), {}, number}, "step " +
                                                        std::to_string(log.records[count - 1].step) +
-                                                       " does not come after the one before");
+                                                       " does not follow the previous step");
     begin = end + 1;
     log.ends.push_back(begin);
   }
@@ -102,7 +102,7 @@ TrainingLog TrainingLog::resume(const std::filesystem::path& path, int step) {
       keep = log.ends[i];
     std::filesystem::resize_file(path, keep, error);
     if (error)
-      throw OutputError({path.string(), {}, {}}, "cannot be cut short: " + error.message());
+      throw OutputError({path.string(), {}, {}}, "cannot be shortened: " + error.message());
   }
   return TrainingLog(path, "ab");
 }
@@ -119,4 +119,4 @@ std::vector<TrainingRecord> read_training_log(const std::filesystem::path& path)
   return parse_log(path).records;
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen::trainer

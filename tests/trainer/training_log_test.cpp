@@ -1,4 +1,4 @@
-#include "cli/training_log.hpp"
+#include "trainer/common/training_log.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include "base/error.hpp"
 #include "tests/support/errors.hpp"
 
-namespace tureen::cli {
+namespace tureen::trainer {
 namespace training_log_test {
 
 namespace fs = std::filesystem;
@@ -31,8 +31,8 @@ class Log : public testing::Test {
     return all.str();
   }
   void write(const std::string& content) const { std::ofstream(path, std::ios::binary) << content; }
-  std::optional<test::Refusal> refusal() const {
-    return test::error_of([&] { read_training_log(path); });
+  std::optional<tureen::test::Refusal> refusal() const {
+    return tureen::test::error_of([&] { read_training_log(path); });
   }
 
   fs::path path;
@@ -129,7 +129,7 @@ TEST_F(Log, IsReadAtEveryLengthThatARunMayLeave) {
 }
 
 TEST_F(Log, SaysWhichLineIsWrong) {
-  using test::ErrorAt;
+  using tureen::test::ErrorAt;
   const std::string name = path.filename().string();
   TrainingLog::create(path).append(record(100));
   const std::string line = text();
@@ -155,4 +155,4 @@ TEST_F(Log, SaysThatItCannotBeWritten) {
 }
 
 }  // namespace training_log_test
-}  // namespace tureen::cli
+}  // namespace tureen::trainer
