@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -9,6 +10,8 @@
 #include <limits>
 #include <numbers>
 #include <string>
+
+#include "base/error.hpp"
 
 namespace tureen {
 
@@ -151,6 +154,21 @@ Camera named(Camera camera, const char* name) {
 }
 
 }  // namespace
+
+std::optional<CameraSetName> parse_camera_set(std::string_view text,
+                                              std::initializer_list<std::string_view> kinds) {
+  const std::size_t colon = text.find(':');
+  CameraSetName set{.kind = std::string(text.substr(0, colon))};
+  if (std::find(kinds.begin(), kinds.end(), set.kind) == kinds.end()) return std::nullopt;
+  if (colon == std::string_view::npos) return set;
+  const std::string_view digits = text.substr(colon + 1);
+  const auto [end, error] =
+      std::from_chars(digits.data(), digits.data() + digits.size(), set.count);
+  if (error != std::errc() || end != digits.data() + digits.size() || set.count < 1 ||
+      set.count > 1000)
+    throw UsageError("'" + std::string(text) + "' needs a number of views from 1 to 1000");
+  return set;
+}
 
 std::vector<Camera> hemisphere(const Subject& subject, int count, const Lens& lens) {
   const std::vector<Bearing> bearings = fibonacci_bearings(count, 0, 1);

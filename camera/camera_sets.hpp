@@ -3,12 +3,29 @@
 #pragma once
 
 #include <array>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "camera/navigation.hpp"
 #include "scene/triangle_soup.hpp"
 
 namespace tureen {
+
+/// A set of views as people name it: "hemisphere:8".
+struct CameraSetName {
+  std::string kind;
+  int count = 8;  // views, 1..1000
+
+  std::string text() const { return kind + ":" + std::to_string(count); }
+};
+
+/// Reads "KIND" or "KIND:COUNT". Nothing where KIND is not in `kinds`. Throws UsageError for a
+/// count that is not a number in its range.
+std::optional<CameraSetName> parse_camera_set(std::string_view text,
+                                              std::initializer_list<std::string_view> kinds);
 
 /// `count` cameras spread evenly over the upper half of a sphere around the box (the Fibonacci
 /// lattice: equal steps of height, azimuth by the golden angle). All have the distance at which

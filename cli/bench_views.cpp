@@ -18,34 +18,22 @@ namespace {
 constexpr const char* sweep_sizes[] = {"640x360", "1280x720", "1920x1080", "2560x1440",
                                        "3840x2160"};
 constexpr const char* fractions[] = {"full", "half", "quarter"};
-constexpr int default_views = 8, max_views = 1000;
 
 /// What a word of --cameras stands for.
 struct CameraSet {
   enum class Kind { hemisphere, orbit, adversarial, dataset, file };
   Kind kind = Kind::file;
-  int count = default_views;
+  int count = 0;     // views of hemisphere and orbit
   std::string name;  // for the result
 
   bool recorded() const { return kind == Kind::dataset || kind == Kind::file; }
 };
 
 CameraSet parse_set(const std::string& text) {
-  const std::size_t colon = text.find(':');
-  const std::string word = text.substr(0, colon);
-  const auto counted_set = [&](CameraSet::Kind kind) {
-    CameraSet set{.kind = kind, .count = default_views, .name = {}};
-    try {
-      if (colon != std::string::npos)
-        set.count = parse_integer(text.substr(colon + 1), 1, max_views);
-    } catch (const UsageError& error) {
-      throw UsageError("--cameras " + text + ": " + error.reason(), error.hint());
-    }
-    set.name = word + ":" + std::to_string(set.count);
-    return set;
-  };
-  if (word == "hemisphere") return counted_set(CameraSet::Kind::hemisphere);
-  if (word == "orbit") return counted_set(CameraSet::Kind::orbit);
+  if (const auto set = parse_camera_set(text, {"hemisphere", "orbit"}))
+    return {.kind = set->kind == "orbit" ? CameraSet::Kind::orbit : CameraSet::Kind::hemisphere,
+            .count = set->count,
+            .name = set->text()};
   if (text == "adversarial") return {.kind = CameraSet::Kind::adversarial, .name = text};
   if (text == "dataset") return {.kind = CameraSet::Kind::dataset, .name = text};
   return {.kind = CameraSet::Kind::file, .name = text};

@@ -10,6 +10,7 @@
 #include <glm/vec4.hpp>
 #include <random>
 
+#include "base/error.hpp"
 #include "oracle/hits.hpp"
 
 namespace tureen {
@@ -189,6 +190,19 @@ TEST(AdversarialViews, ASoupWithoutFacesHasViewsToo) {
   TriangleSoup soup;
   soup.appearance = FaceColors{};
   EXPECT_EQ(adversarial_views(soup, origin, {}, lens).size(), 4u);
+}
+
+TEST(CameraSetName, IsAKindAndANumberOfViews) {
+  const auto parsed = [](const std::string& text) {
+    return parse_camera_set(text, {"hemisphere", "orbit"});
+  };
+  EXPECT_EQ(parsed("orbit:12")->text(), "orbit:12");
+  EXPECT_EQ(parsed("hemisphere")->text(), "hemisphere:8");
+  for (const char* other : {"orbits:3", "orbi", "adversarial", "", ":8"})
+    EXPECT_FALSE(parsed(other));
+  for (const char* wrong : {"orbit:", "orbit:0", "orbit:1001", "orbit:-3", "orbit:3x", "orbit:3:4",
+                            "orbit: 3", "orbit:99999999999999999999"})
+    EXPECT_THROW(parsed(wrong), UsageError) << wrong;
 }
 
 }  // namespace camera_sets_test

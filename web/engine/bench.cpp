@@ -107,29 +107,23 @@ Json add_published(const Json& arguments) {
   return result;
 }
 
-int count_of(const std::string& set) {
-  const std::size_t colon = set.find(':');
-  const int count = colon == std::string::npos ? 8 : std::atoi(set.c_str() + colon + 1);
-  if (count < 1 || count > 1000) throw UsageError("a set has 1 to 1000 views, not \"" + set + "\"");
-  return count;
-}
-
 std::vector<Camera> first_of(std::vector<Camera> cameras, int count, const Lens& lens) {
   if (cameras.size() > std::size_t(count)) cameras.resize(std::size_t(count));
   for (Camera& camera : cameras) camera = resized(camera, lens.width, lens.height);
   return cameras;
 }
 
-std::vector<Camera> named_set(const std::string& set, const BenchScene& scene, const Lens& lens) {
-  const int count = count_of(set);
-  if (set.rfind("hemisphere", 0) == 0) return hemisphere(scene.subject, count, lens);
-  if (set.rfind("orbit", 0) == 0)
-    return orbit(scene.subject, count, {three_quarter_view.azimuth, orbit_elevation}, lens);
-  if (set.rfind("recorded", 0) != 0)
-    throw UsageError("views are \"hemisphere:N\", \"orbit:N\", \"recorded:N\" or a file, not \"" +
-                     set + "\"");
+CameraSetName set_of(const std::string& text) {
+  if (const auto set = parse_camera_set(text, {"hemisphere", "orbit", "recorded"})) return *set;
+  throw UsageError("views are hemisphere:N, orbit:N, recorded:N or a file, not '" + text + "'");
+}
+
+std::vector<Camera> named_set(const CameraSetName& set, const BenchScene& scene, const Lens& lens) {
+  if (set.kind == "hemisphere") return hemisphere(scene.subject, set.count, lens);
+  if (set.kind == "orbit")
+    return orbit(scene.subject, set.count, {three_quarter_view.azimuth, orbit_elevation}, lens);
   if (scene.recorded.empty()) throw UsageError("the scene has no cameras of its own");
-  return first_of(scene.recorded, count, lens);
+  return first_of(scene.recorded, set.count, lens);
 }
 
 /// Of a path as many as are asked for, evenly in time; of recorded cameras the first ones.
@@ -157,7 +151,7 @@ Json set_cameras(const Json& arguments) {
   const auto file = arguments.find("file");
   scene.cameras = file != arguments.end()
                       ? cameras_in(file->get<std::string>(), arguments.at("count"), lens)
-                      : named_set(arguments.at("set").get<std::string>(), scene, lens);
+                      : named_set(set_of(arguments.at("set").get<std::string>()), scene, lens);
   return nullptr;
 }
 
