@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "viewer/file_watch.hpp"
+#include "viewer/files/file_watch.hpp"
+#include "viewer/files/session.hpp"
 #include "viewer/frame_clock.hpp"
 #include "viewer/gui.hpp"
-#include "viewer/navigation_input.hpp"
-#include "viewer/session.hpp"
+#include "viewer/input/navigation_input.hpp"
 #include "viewer/state.hpp"
 #include "viewer/window.hpp"
 #include "viewer/worker.hpp"

@@ -5,9 +5,9 @@
 #include "base/output.hpp"
 #include "formats/dataset/camera_file.hpp"
 #include "viewer/application.hpp"
+#include "viewer/files/writing.hpp"
 #include "viewer/names.hpp"
 #include "viewer/render_command.hpp"
-#include "viewer/writing.hpp"
 
 namespace tureen::viewer {
 

@@ -129,7 +129,7 @@ void Gui::Destroy::operator()(ImGuiContext* context) const { ImGui::DestroyConte
 
 Gui::Gui(Window& window, const GuiOptions& options) : context_(ImGui::CreateContext()) {
   ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;  // settings are ours (viewer/settings.hpp)
+  io.IniFilename = nullptr;  // settings are ours (viewer/files/settings.hpp)
   io.LogFilename = nullptr;
   io.BackendFlags |= ImGuiBackendFlags_HasMouseCursors;
   io.GetClipboardTextFn = read_clipboard;

@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "viewer/event.hpp"
+#include "viewer/input/event.hpp"
 #include "viewer/window.hpp"
 
 struct ImGuiContext;

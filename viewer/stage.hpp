@@ -11,7 +11,7 @@
 #include "camera/up_axis.hpp"
 #include "runtime/renderer.hpp"
 #include "scene/scene.hpp"
-#include "viewer/file_watch.hpp"
+#include "viewer/files/file_watch.hpp"
 
 namespace tureen::viewer {
 

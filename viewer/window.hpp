@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "runtime/gl/context.hpp"
-#include "viewer/event.hpp"
+#include "viewer/input/event.hpp"
 
 namespace tureen::viewer {
 

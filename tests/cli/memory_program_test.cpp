@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/cli/program_fixture.hpp"
-#include "tests/formats/dataset_fixture.hpp"
+#include "tests/formats/dataset/dataset_fixture.hpp"
 #include "tests/support/errors.hpp"
 
 namespace tureen {

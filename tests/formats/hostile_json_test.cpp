@@ -13,7 +13,7 @@
 #include "base/json_file.hpp"
 #include "base/json_view.hpp"
 #include "formats/scene_file.hpp"
-#include "tests/formats/dataset_fixture.hpp"
+#include "tests/formats/dataset/dataset_fixture.hpp"
 #include "tests/formats/hostile_bounds.hpp"
 #include "tests/fuzz/fixtures.hpp"
 #include "tests/fuzz/folder_files.hpp"

@@ -21,7 +21,7 @@
 #include "formats/scene_file.hpp"
 #include "formats/torch/checkpoint.hpp"
 #include "image/png.hpp"
-#include "tests/formats/dataset_fixture.hpp"
+#include "tests/formats/dataset/dataset_fixture.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/hostile_bounds.hpp"
 #include "tests/formats/torch_fixture.hpp"

@@ -13,13 +13,13 @@
 #include "formats/tureen_glb/slim_geometry.hpp"
 #include "formats/tureen_glb/slim_texels.hpp"
 #include "formats/tureen_glb/tureen_glb_slim.hpp"
-#include "tests/formats/dataset_fixture.hpp"
+#include "tests/formats/dataset/dataset_fixture.hpp"
 #include "tests/formats/torch_fixture.hpp"
-#include "tests/formats/tureen_glb_kinds.hpp"
+#include "tests/formats/tureen_glb/tureen_glb_kinds.hpp"
 #include "tests/fuzz/folder_files.hpp"
 #include "tests/trainer/random_model.hpp"
 #include "trainer/diffsoup/checkpoint.hpp"
-#include "viewer/session.hpp"
+#include "viewer/files/session.hpp"
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC

@@ -1,5 +1,5 @@
 // A session of the window.
-#include "viewer/session.hpp"
+#include "viewer/files/session.hpp"
 
 #include "tests/fuzz/scratch.hpp"
 

@@ -1,5 +1,5 @@
 // What the window remembers between runs.
-#include "viewer/settings.hpp"
+#include "viewer/files/settings.hpp"
 
 #include <cstdio>
 #include <cstdlib>

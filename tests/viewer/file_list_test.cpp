@@ -1,5 +1,5 @@
 // The list that files are picked from.
-#include "viewer/file_list.hpp"
+#include "viewer/files/file_list.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Files that change are noticed once, and only when whoever writes them has come to rest.
-#include "viewer/file_watch.hpp"
+#include "viewer/files/file_watch.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Which drag and which key moves what. The movements themselves are runtime/camera_controls's.
-#include "viewer/navigation_input.hpp"
+#include "viewer/input/navigation_input.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Session files: what is recorded comes back, and what people write wrong is told by its place.
-#include "viewer/session.hpp"
+#include "viewer/files/session.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

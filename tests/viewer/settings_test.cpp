@@ -1,5 +1,5 @@
 // Settings between runs.
-#include "viewer/settings.hpp"
+#include "viewer/files/settings.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

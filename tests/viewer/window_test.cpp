@@ -19,7 +19,7 @@
 #include "tests/support/errors.hpp"
 #include "tests/support/golden.hpp"
 #include "tests/viewer/display.hpp"
-#include "viewer/session.hpp"
+#include "viewer/files/session.hpp"
 
 namespace tureen::test {
 namespace window_test {

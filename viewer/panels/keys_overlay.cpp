@@ -1,9 +1,9 @@
 // The list of keys.
 #include <string>
 
+#include "viewer/input/shortcuts.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
-#include "viewer/shortcuts.hpp"
 
 namespace tureen::viewer {
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 
 #include "viewer/axes.hpp"
+#include "viewer/input/shortcuts.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
-#include "viewer/shortcuts.hpp"
 
 namespace tureen::viewer {
 

@@ -1,4 +1,4 @@
-// Keys of the page. They are the desktop window's (viewer/shortcuts.cpp) where a browser leaves them
+// Keys of the page. They are the desktop window's (viewer/input/shortcuts.cpp) where a browser leaves them
 // free. Keys that move the view belong to the canvas (viewer/controls.ts) and come first.
 
 import { block, byId, input, make, takesText } from './dom.js';

@@ -11,7 +11,7 @@
 #include "formats/tureen_glb/tureen_glb_slim.hpp"
 #include "scene/edit/mean_color.hpp"
 #include "tests/formats/truncation.hpp"
-#include "tests/formats/tureen_glb_kinds.hpp"
+#include "tests/formats/tureen_glb/tureen_glb_kinds.hpp"
 #include "tests/support/errors.hpp"
 
 namespace tureen {

@@ -1,4 +1,4 @@
-#include "viewer/writing.hpp"
+#include "viewer/files/writing.hpp"
 
 #include <fmt/format.h>
 

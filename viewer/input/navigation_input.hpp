@@ -6,7 +6,7 @@
 #include <glm/vec2.hpp>
 
 #include "camera/camera_controls.hpp"
-#include "viewer/event.hpp"
+#include "viewer/input/event.hpp"
 
 namespace tureen::viewer {
 

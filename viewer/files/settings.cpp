@@ -1,4 +1,4 @@
-#include "viewer/settings.hpp"
+#include "viewer/files/settings.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-#include "viewer/session.hpp"
+#include "viewer/files/session.hpp"
 
 #include <array>
 #include <cmath>

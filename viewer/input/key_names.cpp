@@ -1,6 +1,6 @@
 #include <array>
 
-#include "viewer/event.hpp"
+#include "viewer/input/event.hpp"
 
 namespace tureen::viewer {
 

@@ -1,4 +1,4 @@
-#include "viewer/file_list.hpp"
+#include "viewer/files/file_list.hpp"
 
 #include <algorithm>
 

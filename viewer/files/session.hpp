@@ -29,7 +29,7 @@
 #include <string>
 #include <vector>
 
-#include "viewer/event.hpp"
+#include "viewer/input/event.hpp"
 
 namespace tureen::viewer {
 

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "viewer/event.hpp"
+#include "viewer/input/event.hpp"
 #include "viewer/state.hpp"
 
 namespace tureen::viewer {

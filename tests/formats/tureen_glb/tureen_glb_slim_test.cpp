@@ -12,7 +12,7 @@
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "tests/formats/random_scene.hpp"
 #include "tests/formats/truncation.hpp"
-#include "tests/formats/tureen_glb_kinds.hpp"
+#include "tests/formats/tureen_glb/tureen_glb_kinds.hpp"
 #include "tests/support/errors.hpp"
 
 namespace tureen {

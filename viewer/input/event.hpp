@@ -1,5 +1,5 @@
 // What happens to the window, as plain values: so that a session can be recorded, edited by hand
-// and replayed (viewer/session.hpp), and tests can play a person.
+// and replayed (viewer/files/session.hpp), and tests can play a person.
 #pragma once
 
 #include <cstdint>

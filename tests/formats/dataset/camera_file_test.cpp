@@ -8,7 +8,7 @@
 #include <glm/matrix.hpp>
 #include <random>
 
-#include "tests/formats/dataset_fixture.hpp"
+#include "tests/formats/dataset/dataset_fixture.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/truncation.hpp"
 

@@ -5,7 +5,7 @@
 #include <glm/matrix.hpp>
 
 #include "image/box_scale.hpp"
-#include "tests/formats/dataset_fixture.hpp"
+#include "tests/formats/dataset/dataset_fixture.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/formats/truncation.hpp"
 

@@ -1,4 +1,4 @@
-#include "viewer/navigation_input.hpp"
+#include "viewer/input/navigation_input.hpp"
 
 #include <glm/geometric.hpp>
 

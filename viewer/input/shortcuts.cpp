@@ -1,4 +1,4 @@
-#include "viewer/shortcuts.hpp"
+#include "viewer/input/shortcuts.hpp"
 
 #include <array>
 

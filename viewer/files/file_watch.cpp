@@ -1,4 +1,4 @@
-#include "viewer/file_watch.hpp"
+#include "viewer/files/file_watch.hpp"
 
 #include <utility>
 
