@@ -14,7 +14,7 @@ uniform sampler2DArray coordinates;  // (u, v) of a corner, three texels a face
 uniform sampler2DArray tints;  // RGBA of a corner, three texels a face
 #endif
 uniform usampler2DArray material_of_face;
-// Three texels a material, see runtime/appearance_upload.cpp:
+// Three texels a material, see runtime/passes/appearance_source.cpp:
 //   (first texel, width, height, flags), factor as float bits, (mask threshold as float bits, 0, 0, 0)
 uniform usampler2DArray materials;
 
