@@ -28,4 +28,10 @@ std::string short_decimal(double value, int digits) { return formatted("%.*g", d
 
 std::string fixed_decimal(double value, int places) { return formatted("%.*f", places, value); }
 
+std::string counted(std::uint64_t number) {
+  std::string text = std::to_string(number);
+  for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, 1, ',');
+  return text;
+}
+
 }  // namespace tureen

@@ -1,6 +1,7 @@
 // Numbers in sentences, with a decimal point in every locale.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace tureen {
@@ -10,5 +11,8 @@ std::string short_decimal(double value, int digits);
 
 /// `places` digits after the point, 0..9: "0.50".
 std::string fixed_decimal(double value, int places);
+
+/// "33,417".
+std::string counted(std::uint64_t number);
 
 }  // namespace tureen

@@ -7,18 +7,21 @@
 
 #include "base/error.hpp"
 #include "cli/arguments.hpp"
-#include "cli/bench_cases.hpp"
+#include "cli/bench_case_options.hpp"
 #include "cli/bench_device.hpp"
-#include "cli/bench_measure.hpp"
 #include "cli/bench_reports.hpp"
 #include "cli/bench_table.hpp"
 #include "cli/bench_views.hpp"
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory_option.hpp"
+#include "cli/picture_file.hpp"
+#include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/version.hpp"
+#include "jobs/bench/bench_cases.hpp"
+#include "jobs/bench/bench_measure.hpp"
 #include "jobs/timing/benchmark.hpp"
 
 namespace tureen::cli {
@@ -28,13 +31,22 @@ namespace {
 struct BenchOptions {
   SceneArgument scene;
   BenchViewOptions views;
-  BenchCaseOptions cases;
+  BenchCaseArguments cases;
   int rounds = 5;
   double seconds = 20;
   bool processor_time = false;
   BenchReportOptions reports;
   std::vector<std::string> arguments;  // all of them, as typed
 };
+
+/// "tureen_hemisphere-8_1280x720.png".
+std::string picture_name_of(const BenchMeasurement& measurement) {
+  std::string name =
+      measurement.configuration + "_" + measurement.camera_set + "_" + measurement.size;
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '.') c = '-';
+  return name + ".png";
+}
 
 BenchLoad load_of(const BenchCases& cases, double read_ms) {
   const BenchConfiguration& first = cases.list.front()->configuration;
@@ -77,15 +89,27 @@ BenchResult run(const BenchOptions& options) {
   const BenchClock clock = clock_for(result.device, options.processor_time);
   result.protocol.clock = clock.text;
   result.protocol.processor_time = options.processor_time;
-  const BenchCases cases = make_cases(options.cases, context, scene);
+  const BenchCases cases = make_cases({.plan = preferences_for(scene, options.cases.drawing),
+                                       .only = options.cases.only,
+                                       .ceilings = options.cases.ceilings},
+                                      context, scene);
   for (const SkippedCase& each : cases.skipped)
     result.notes.push_back(each.name + " is skipped: " + each.reason);
   result.load = load_of(cases, read_ms.count());
-  add_measurements(result, measure(cases, views.views,
-                                   {.rounds = options.rounds,
-                                    .max_seconds = options.seconds,
-                                    .clock = clock.now,
-                                    .folder = options.reports.folder}));
+  Progress progress("timing");
+  MeasureOptions measuring{.rounds = options.rounds, .max_seconds = options.seconds};
+  measuring.clock = clock.now;
+  measuring.progress = [&](double fraction, const std::string& what) {
+    progress.update(fraction, what);
+  };
+  if (!options.reports.folder.empty())
+    measuring.keep_frame = [&](const BenchMeasurement& measurement, const Image8& frame) {
+      const std::filesystem::path path =
+          std::filesystem::path(options.reports.folder) / picture_name_of(measurement);
+      write_picture(frame, path);
+      return path.string();
+    };
+  add_measurements(result, measure(cases, views.views, measuring));
   if (const double peak = peak_mib(); peak > 0) result.peak_mib = peak;
   for (const auto& bench_case : cases.list)
     result.configurations.push_back(bench_case->configuration);

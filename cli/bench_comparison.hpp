@@ -1,56 +1,13 @@
-// Two results of `tureen bench` side by side: what became faster or slower, and whether the two can
-// be compared at all.
+// A comparison of two results, as JSON and for people.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "cli/bench_result.hpp"
+#include "cli/report.hpp"
+#include "jobs/bench/bench_comparison.hpp"
 
 namespace tureen::cli {
-
-/// What both results measured: one configuration with one set of cameras at one size.
-struct BenchRatio {
-  std::string configuration, camera_set, size;
-  double then_ms = 0, now_ms = 0;     // min_of_medians
-  double ratio = 1;                   // now / then: above 1 is slower
-  std::optional<double> spread = {};  // spread_between() the two, with the larger A/A spread
-  Verdict verdict = Verdict::unknown;
-  int rounds = 0;            // of the shorter of the two
-  bool same_pixels = false;  // the two drew the same picture, bit for bit
-};
-
-/// Why times of two results say nothing of each other.
-enum class Incomparable { software, clock };  // one drawn in software; different clocks
-
-/// Something else than the program that differs.
-struct BenchChange {
-  enum class What { scene, machine, driver, context, rasteriser_threads, build, commit, clock };
-  What what{};
-  std::string then, now;
-};
-
-/// What only one of the two results measured.
-struct UnmatchedBench {
-  enum class In { now, then };
-  In in{};
-  BenchMeasurement measurement;
-};
-
-struct BenchComparison {
-  std::optional<Incomparable> incomparable;
-  /// In the order of the new result. None, as nothing unmatched, where they are incomparable.
-  std::vector<BenchRatio> ratios;
-  /// In the order of BenchChange::What. A field that an older file lacks is no change.
-  std::vector<BenchChange> changes;
-  std::vector<UnmatchedBench> unmatched;
-};
-
-BenchComparison compare_benches(const BenchResult& now, const BenchResult& then);
-
-/// Those that are slower by more than `percent`, and by more than their spread explains.
-std::vector<BenchRatio> slower_than(const BenchComparison& comparison, double percent);
 
 /// The member `comparison` of docs/json.md; `against` is the file of the earlier result.
 Json to_json(const BenchComparison& comparison, const std::string& against);

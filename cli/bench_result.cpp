@@ -184,10 +184,4 @@ BenchResult bench_result_from_json(const std::string& text, const std::string& f
           .peak_mib = peak ? std::optional(peak->number()) : std::nullopt};
 }
 
-const BenchConfiguration* find_configuration(const BenchResult& result, const std::string& name) {
-  for (const BenchConfiguration& each : result.configurations)
-    if (each.name == name) return &each;
-  return nullptr;
-}
-
 }  // namespace tureen::cli

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/decimal_text.hpp"
 #include "cli/bench_words.hpp"
 #include "cli/table.hpp"
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/arguments.hpp"
+#include "jobs/bench/bench_result.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen::cli {
@@ -15,13 +16,6 @@ struct BenchViewOptions {
   std::vector<std::string> cameras;  // "hemisphere:8", "orbit", "adversarial", "dataset", FILE
   std::vector<std::string> sizes;    // "1280x720", "full", "half", "quarter"
   bool sweep = false;
-};
-
-/// One set of cameras at one size.
-struct BenchViews {
-  std::string camera_set;  // as the result names it: "hemisphere:8", ..
-  std::string size;        // "1280x720", or "full", "half", "quarter"
-  std::vector<Camera> cameras;
 };
 
 struct BenchViewList {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "base/extension.hpp"
 #include "cli/bench_words.hpp"

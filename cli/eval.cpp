@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"

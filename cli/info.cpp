@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 
+#include "base/decimal_text.hpp"
 #include "cli/commands.hpp"
 #include "cli/memory_option.hpp"
 #include "cli/plan_json.hpp"

@@ -68,12 +68,6 @@ Json remarks_json(const std::vector<Remark>& remarks) {
 
 void print_json_line(const Json& document) { print(document, -1); }
 
-std::string counted(std::uint64_t number) {
-  std::string text = std::to_string(number);
-  for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, 1, ',');
-  return text;
-}
-
 std::string bytes_text(std::uint64_t bytes) {
   if (bytes < 1024) return bytes == 1 ? "1 byte" : std::to_string(bytes) + " bytes";
   constexpr std::array units{"KiB", "MiB", "GiB", "TiB"};

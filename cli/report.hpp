@@ -41,9 +41,6 @@ Json remarks_json(const std::vector<Remark>& remarks);
 /// The time of day, "2026-11-21T15:04:05Z".
 std::string utc_now();
 
-/// "33,417".
-std::string counted(std::uint64_t number);
-
 /// "917 bytes", "1.2 KiB", "34 MiB".
 std::string bytes_text(std::uint64_t bytes);
 

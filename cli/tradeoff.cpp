@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "base/output.hpp"
 #include "cli/arguments.hpp"

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "base/existing_path.hpp"
 #include "base/output.hpp"

@@ -21,6 +21,7 @@ set(arrows
   "trainer/diffsoup: base image scene trainer/common"
   "jobs/timing: base image scene runtime runtime/gl"
   "jobs/visibility: base image scene oracle runtime runtime/gl"
+  "jobs/bench: base image scene runtime runtime/gl runtime/plan runtime/passes jobs/timing"
   "jobs/eval: base image scene runtime runtime/gl runtime/plan"
   "jobs/tradeoff: base image scene oracle runtime runtime/gl runtime/plan jobs/eval jobs/timing jobs/visibility"
   "jobs/compress: base image scene camera formats runtime runtime/gl jobs/visibility"

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 
+#include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "base/suggestion.hpp"
 #include "cli/contact_sheet.hpp"

@@ -377,7 +377,7 @@ void add_benchmarks(Collection& all) {
   const std::filesystem::path page = TUREEN_SOURCE_DIR "/tests/cli/web_bench.json";
   Content bytes = Input::open(page).read_rest();
   Input input = Input::memory("web_bench.json", bytes);
-  all.add("bench_result", "bench.json", to_json(cli::read_web_bench(input).at(0)).dump());
+  all.add("bench_result", "bench.json", cli::to_json(cli::read_web_bench(input).at(0)).dump());
   all.add("web_bench", "web_bench.json", std::move(bytes));
 }
 

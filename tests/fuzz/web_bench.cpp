@@ -7,7 +7,7 @@ namespace tureen::fuzz {
 
 void web_bench(Bytes bytes) {
   Input input = Input::memory("fuzz.json", bytes);
-  for (const cli::BenchResult& result : cli::read_web_bench(input)) cli::to_json(result);
+  for (const BenchResult& result : cli::read_web_bench(input)) cli::to_json(result);
 }
 
 }  // namespace tureen::fuzz

@@ -1,16 +1,15 @@
-#include "cli/bench_cases.hpp"
+#include "jobs/bench/bench_cases.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <exception>
 
 #include "base/error.hpp"
-#include "base/suggestion.hpp"
 #include "runtime/passes/copy_ceiling.hpp"
 #include "runtime/plan/plan_description.hpp"
 #include "runtime/renderer.hpp"
 
-namespace tureen::cli {
+namespace tureen {
 
 namespace {
 
@@ -90,7 +89,7 @@ class CopyCase final : public BenchCase {
 
 std::vector<std::string> names_of(const BenchCaseOptions& options) {
   std::vector<std::string> names = options.only;
-  const PlanPreferences& plan = options.drawing.plan;
+  const PlanPreferences& plan = options.plan;
   if (names.empty()) {
     if (plan.pipeline == PipelineKind::published)
       names = {published};
@@ -145,7 +144,7 @@ Setting setting_of(const std::string& name, PlanPreferences plan) {
 std::unique_ptr<BenchCase> make_case(const std::string& name, const BenchCaseOptions& options,
                                      const gl::Context& context, const Scene& scene) {
   if (name == copy) return std::make_unique<CopyCase>(context);
-  const Setting setting = setting_of(name, preferences_for(scene, options.drawing));
+  const Setting setting = setting_of(name, options.plan);
   auto bench_case = std::make_unique<RendererCase>(name, context, scene, setting.plan);
   bench_case->configuration.options = setting.options;
   return bench_case;
@@ -159,37 +158,7 @@ BenchmarkCase BenchCase::benchmark_case() {
           .finish = [this] { finish(); }};
 }
 
-void add_case_options(Command& command, BenchCaseOptions& options) {
-  add_drawing_options(command, options.drawing);
-  add_drawing_scale(command, options.drawing);
-  command
-      .add_option(
-          "--only", options.only,
-          "cases to measure, separated by commas: tureen (the plan), tureen-fragment and "
-          "tureen-compute (the plan with --shading), generic (no specialisation), published (the "
-          "baseline), triangles and copy (the ceilings); ratios are relative to the first")
-      .split_at_commas()
-      .single_argument()
-      .value_name("NAME,..");
-  command.add_flag("--ceilings", options.ceilings,
-                   "also measure two ceilings: drawing the triangles with an empty fragment "
-                   "shader, and copying the same number of pixels");
-}
-
-void check(const BenchCaseOptions& options) {
-  for (std::size_t i = 0; i < options.only.size(); ++i) {
-    const std::string& name = options.only[i];
-    if (std::find(all_names.begin(), all_names.end(), name) == all_names.end())
-      throw UsageError(
-          "--only takes tureen, tureen-fragment, tureen-compute, generic, published, triangles and "
-          "copy, not '" +
-              name + "'",
-          did_you_mean(name, all_names));
-    if (std::find(options.only.begin(), options.only.begin() + std::ptrdiff_t(i), name) !=
-        options.only.begin() + std::ptrdiff_t(i))
-      throw UsageError("--only names " + name + " twice");
-  }
-}
+std::span<const std::string> bench_case_names() { return all_names; }
 
 BenchCases make_cases(const BenchCaseOptions& options, const gl::Context& context,
                       const Scene& scene) {
@@ -214,4 +183,4 @@ BenchCases make_cases(const BenchCaseOptions& options, const gl::Context& contex
   return result;
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-namespace tureen::cli {
+namespace tureen {
 
 struct Machine {
   std::string cpu = "unknown";  // the model's name
@@ -24,4 +24,4 @@ std::optional<int> rasteriser_threads_of(const std::string& renderer);
 /// The largest resident set of this process so far, in MiB; 0 where it cannot be told.
 double peak_mib();
 
-}  // namespace tureen::cli
+}  // namespace tureen

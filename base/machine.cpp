@@ -1,4 +1,4 @@
-#include "cli/machine.hpp"
+#include "base/machine.hpp"
 
 #include <cstdlib>
 #include <fstream>
@@ -8,7 +8,7 @@
 #include <sys/resource.h>
 #endif
 
-namespace tureen::cli {
+namespace tureen {
 
 namespace {
 
@@ -62,4 +62,4 @@ double peak_mib() {
 #endif
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen

@@ -1,15 +1,12 @@
-#include "cli/bench_measure.hpp"
+#include "jobs/bench/bench_measure.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <utility>
 
-#include "cli/picture_file.hpp"
-#include "cli/progress.hpp"
-
-namespace tureen::cli {
+namespace tureen {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Samples shorter than this would measure how one waits for a device rather than how it draws.
 constexpr double min_sample_ms = 5;
@@ -17,23 +14,12 @@ constexpr double min_sample_ms = 5;
 /// For graphics cards to raise their clocks; next to nothing beside a run of seconds.
 constexpr double min_warm_up_seconds = 0.1;
 
-/// "tureen_hemisphere-8_1280x720.png".
-std::string picture_name_of(const BenchMeasurement& measurement) {
-  std::string name =
-      measurement.configuration + "_" + measurement.camera_set + "_" + measurement.size;
-  for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '.') c = '-';
-  return name + ".png";
-}
-
 /// What the pixels of the last frame that was timed prove.
-void add_proof(BenchMeasurement& measurement, const BenchCase& bench_case, const fs::path& folder) {
+void add_proof(BenchMeasurement& measurement, const BenchCase& bench_case,
+               const MeasureOptions& options) {
   const Image8 frame = bench_case.last_frame();
   measurement.pixels_hash = pixels_hash(frame);
-  if (folder.empty()) return;
-  const fs::path path = folder / picture_name_of(measurement);
-  write_picture(frame, path);
-  measurement.picture = path.string();
+  if (options.keep_frame) measurement.picture = options.keep_frame(measurement, frame);
 }
 
 BenchMeasurement described(const CaseResult& timed, const BenchmarkResult& result,
@@ -56,16 +42,16 @@ BenchMeasurement described(const CaseResult& timed, const BenchmarkResult& resul
 }
 
 std::vector<BenchMeasurement> measure_views(const BenchCases& cases, const BenchViews& views,
-                                            const BenchmarkOptions& options,
-                                            const fs::path& folder) {
+                                            const BenchmarkOptions& benchmark,
+                                            const MeasureOptions& options) {
   std::vector<BenchmarkCase> timed_cases;
   for (const auto& bench_case : cases.list) timed_cases.push_back(bench_case->benchmark_case());
-  const BenchmarkResult result = run_benchmark(timed_cases, views.cameras, options);
+  const BenchmarkResult result = run_benchmark(timed_cases, views.cameras, benchmark);
   std::vector<BenchMeasurement> measurements;
   for (std::size_t i = 0; i < cases.list.size(); ++i) {
     BenchCase& bench_case = *cases.list[i];
     BenchMeasurement measurement = described(result.cases[i], result, views);
-    add_proof(measurement, bench_case, folder);
+    add_proof(measurement, bench_case, options);
     // Only now: these frames are not those that were timed.
     PassTimes passes = bench_case.passes(views.cameras);
     measurement.passes_ms = std::move(passes.ms);
@@ -82,7 +68,6 @@ std::vector<BenchMeasurement> measure(const BenchCases& cases, const std::vector
                                       const MeasureOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const double count = double(views.size());
-  Progress progress("timing");
   std::vector<BenchMeasurement> measurements;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const std::string detail = views[i].camera_set + " " + views[i].size;
@@ -91,7 +76,7 @@ std::vector<BenchMeasurement> measure(const BenchCases& cases, const std::vector
     benchmark.min_sample_ms = min_sample_ms;
     benchmark.min_warm_up_seconds = min_warm_up_seconds;
     benchmark.progress = [&](double fraction) {
-      progress.update((double(i) + fraction) / count, detail);
+      if (options.progress) options.progress((double(i) + fraction) / count, detail);
     };
     if (options.max_seconds > 0) {
       // What small pictures leave of their share is the larger ones', which come later.
@@ -100,10 +85,10 @@ std::vector<BenchMeasurement> measure(const BenchCases& cases, const std::vector
       benchmark.max_seconds = std::max(left, 1e-3);  // a round is always made
       benchmark.max_warm_up_seconds = std::min(benchmark.max_warm_up_seconds, left / 8);
     }
-    for (BenchMeasurement& each : measure_views(cases, views[i], benchmark, options.folder))
+    for (BenchMeasurement& each : measure_views(cases, views[i], benchmark, options))
       measurements.push_back(std::move(each));
   }
   return measurements;
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen

@@ -3,30 +3,26 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "cli/arguments.hpp"
-#include "cli/bench_result.hpp"
-#include "cli/drawing_options.hpp"
+#include "jobs/bench/bench_result.hpp"
 #include "jobs/timing/benchmark.hpp"
 #include "jobs/timing/pass_times.hpp"
+#include "runtime/plan/plan.hpp"
 #include "scene/scene.hpp"
 
-namespace tureen::cli {
+namespace tureen {
 
-/// As typed.
 struct BenchCaseOptions {
-  DrawingOptions drawing;
+  PlanPreferences plan = {};      // with the scene's quality, or another
   std::vector<std::string> only;  // names; empty: the usual ones
   bool ceilings = false;
 };
 
-/// --only, --ceilings and the options that all commands share which draw.
-void add_case_options(Command& command, BenchCaseOptions& options);
-
-/// Throws UsageError for unknown names.
-void check(const BenchCaseOptions& options);
+/// The names that BenchCaseOptions::only may have.
+std::span<const std::string> bench_case_names();
 
 /// Something that draws a camera's view on a device.
 class BenchCase {
@@ -62,4 +58,4 @@ struct BenchCases {
 BenchCases make_cases(const BenchCaseOptions& options, const gl::Context& context,
                       const Scene& scene);
 
-}  // namespace tureen::cli
+}  // namespace tureen
