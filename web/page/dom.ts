@@ -37,13 +37,9 @@ export function icon(name: string): SVGSVGElement {
   return svg;
 }
 
-/** With a capital and a full stop, however it came. */
-export const sentence = (text: string) =>
-  text && text[0]!.toUpperCase() + text.slice(1) + (/[.!?]$/.test(text) ? '' : '.');
-
-/** Replaces the contents of a list by sentences. */
+/** Replaces the contents of a list by sentences, whose first letter the style makes large. */
 export function fillSentences(list: HTMLElement, sentences: readonly string[]): void {
-  list.replaceChildren(...sentences.map((one) => make('li', {}, sentence(one))));
+  list.replaceChildren(...sentences.map((one) => make('li', { class: 'sentence' }, one)));
 }
 
 /** Replaces the contents of a dl by names and values; those without a value are left out. */

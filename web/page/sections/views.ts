@@ -1,7 +1,7 @@
 // Where the scene is looked at from: what a drag does, the named views, which way is up, the angle.
 
 import { namedViews, type NamedView, type NavigationMode, type Vec3, type Viewer } from '../../viewer/types.js';
-import { block, button, input, make, select, sentence } from '../dom.js';
+import { block, button, input, make, select } from '../dom.js';
 import { degreesPerRadian } from '../numbers.js';
 
 const viewTitles: Readonly<Record<NamedView, string>> = {
@@ -45,7 +45,7 @@ export class ViewsSection {
       this.update();
     });
     viewer.on('scene', (scene) => {
-      block('up-reason').textContent = sentence(scene?.upReason ?? '');
+      block('up-reason').textContent = scene?.upReason ?? '';
       this.update();
     });
     viewer.on('view', () => this.update());
