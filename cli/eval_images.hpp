@@ -15,7 +15,7 @@
 namespace tureen::cli {
 
 /// The names of the images in the folder: "train/r_0.png" gives "train_r_0.png". Letters other than
-/// those that every file system takes become '_', and equal names are told apart by a number.
+/// those that every file system takes become '_', and equal names get a number.
 std::vector<std::string> picture_names(std::span<const Photograph> photographs);
 
 class EvalImages {

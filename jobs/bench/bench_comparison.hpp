@@ -10,7 +10,7 @@
 
 namespace tureen {
 
-/// What both results measured: one configuration with one set of cameras at one size.
+/// A measurement that both results have: one configuration with one set of cameras at one size.
 struct BenchRatio {
   std::string configuration, camera_set, size;
   double then_ms = 0, now_ms = 0;     // min_of_medians
@@ -31,7 +31,7 @@ struct BenchChange {
   std::string then, now;
 };
 
-/// What only one of the two results measured.
+/// A measurement that only one of the two results has.
 struct UnmatchedBench {
   enum class In { now, then };
   In in{};

@@ -1,4 +1,4 @@
-// The measurements of `tureen bench`: every set of views at every size, with everybody in turns.
+// The measurements of `tureen bench`: every set of views at every size; the cases alternate.
 #pragma once
 
 #include <functional>

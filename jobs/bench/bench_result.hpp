@@ -18,7 +18,7 @@ struct BenchProgram {
   std::string version;                 // "0.1.0"
   std::string commit = "unknown";      // what git describes
   std::vector<std::string> arguments;  // as typed, from "bench" on
-  std::string build = {};              // program_build(); empty where nobody told
+  std::string build = {};              // program_build(); empty where unknown
 };
 
 struct BenchScene {
