@@ -52,6 +52,7 @@ Json to_json(const BenchMeasurement& measurement) {
           {"aa_spread", measurement.aa_spread},
           {"stable", measurement.stable},
           {"passes_ms", passes},
+          {"passes_gap", name_of(measurement.passes_gap)},
           {"passes_reason", measurement.passes_reason},
           {"gpu_ms", measurement.gpu_ms ? Json(*measurement.gpu_ms) : Json(nullptr)},
           {"views_ms", measurement.views_ms},
@@ -98,6 +99,15 @@ std::vector<std::pair<std::string, double>> passes(const JsonView& view) {
   });
 }
 
+PassTimesGap passes_gap(const JsonView& measurement) {
+  const std::optional<JsonView> name = measurement.find("passes_gap");
+  if (!name)  // results of earlier versions have only the sentence
+    return measurement["passes_reason"].text().empty() ? PassTimesGap::none : PassTimesGap::other;
+  const std::optional<PassTimesGap> gap = pass_times_gap(name->text());
+  if (!gap) name->fail("'" + name->text() + "' is not a reason for missing pass times");
+  return *gap;
+}
+
 BenchMeasurement measurement(const JsonView& view) {
   const auto text = [](const JsonView& each) { return each.text(); };
   return {.configuration = view["configuration"].text(),
@@ -113,6 +123,7 @@ BenchMeasurement measurement(const JsonView& view) {
           .aa_spread = not_negative(view["aa_spread"]),
           .stable = boolean(view["stable"]),
           .passes_ms = passes(view["passes_ms"]),
+          .passes_gap = passes_gap(view),
           .passes_reason = view["passes_reason"].text(),
           .gpu_ms = unless_null(view["gpu_ms"], not_negative),
           .views_ms = list(view["views_ms"], not_negative),
@@ -157,6 +168,7 @@ BenchResult bench_result_from_json(const std::string& text, const std::string& f
   const JsonView root(document, file);
   require_format(root, format_name, bench_result_version, "not a result of tureen bench");
   const JsonView protocol = root["protocol"], load = root["load"];
+  if (root["measurements"].size() == 0) root["measurements"].fail("is empty");
   BenchProgram program = program_of(root["program"]);
   // Results of earlier versions have only the option.
   const std::optional<JsonView> known = protocol.find("processor_time");

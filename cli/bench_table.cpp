@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <set>
 
 #include "base/decimal_text.hpp"
 #include "cli/bench_words.hpp"
@@ -45,22 +45,22 @@ void add_row(Table& table, const BenchMeasurement& each, const BenchMeasurement&
   table.row({each.configuration, ms_text(ms.min_of_medians), ms_text(ms.mean), ms_text(ms.median),
              ms_text(ms.p95), slowest_percent_text(ms, ms_text(ms.p99)), fps_text(each.fps),
              slowest_percent_text(ms, fps_text(ms.low_1_percent_fps)), compared(each, first)});
-  if (!each.passes_ms.empty()) {
-    table.remark("by the device's clock: " + passes_text(each));
-    if (!each.passes_reason.empty()) table.remark(each.passes_reason);
-  }
+  if (!each.passes_ms.empty()) table.remark("by the device's clock: " + passes_text(each));
+  if (each.passes_gap == PassTimesGap::partial) table.remark(each.passes_reason);
   if (!each.stable) table.remark("times were not stable after the warm-up");
 }
 
-/// Why there are no times of passes, each reason once.
-void add_pass_reasons(std::vector<std::string>& lines, const BenchResult& result) {
-  std::vector<std::string> said;
-  for (const BenchMeasurement& each : result.measurements)
-    if (each.passes_ms.empty() && !each.passes_reason.empty() && each.configuration != "copy" &&
-        std::find(said.begin(), said.end(), each.passes_reason) == said.end())
-      said.push_back(each.passes_reason);
-  if (!said.empty()) lines.push_back("");
-  for (const std::string& reason : said) lines.push_back("No pass times: " + reason + ".");
+/// Why pass times are missing: one line a kind of gap, with the numbers of its first measurement.
+void add_pass_gaps(std::vector<std::string>& lines, const BenchResult& result) {
+  // One pass needs no explanation, a partial time has its own beside the row.
+  std::set<PassTimesGap> explained{PassTimesGap::none, PassTimesGap::one_pass,
+                                   PassTimesGap::partial};
+  const std::size_t without = explained.size();
+  for (const BenchMeasurement& each : result.measurements) {
+    if (!explained.insert(each.passes_gap).second) continue;
+    if (explained.size() == without + 1) lines.push_back("");
+    lines.push_back("No pass times: " + each.passes_reason + ".");
+  }
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ std::vector<std::string> bench_table(const BenchResult& result) {
     for (; i < all.size() && same_views(first, all[i]); ++i) add_row(table, all[i], first);
     for (const std::string& line : table.lines()) lines.push_back("  " + line);
   }
-  add_pass_reasons(lines, result);
+  add_pass_gaps(lines, result);
   return lines;
 }
 

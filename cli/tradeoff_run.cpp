@@ -133,12 +133,12 @@ tradeoff::Study study_of(const TradeoffOptions& options, const Scene& scene,
   study.max_samples = defaults.samples;
   study.with_flip = options.with_flip;
   std::optional<Progress> progress;
-  std::string task;
-  study.progress = [&](const std::string& now, double fraction) {
-    if (now != task) {
+  std::optional<tradeoff::StudyStage> stage;
+  study.progress = [&](tradeoff::StudyStage now, double fraction) {
+    if (now != stage) {
       progress.reset();
-      progress.emplace(now);
-      task = now;
+      progress.emplace(name_of(now));
+      stage = now;
     }
     progress->update(fraction);
   };

@@ -91,6 +91,7 @@ BenchMeasurement shared_part(const JsonView& view) {
   if (rounds == 0) self_test.at(0).fail("has no rounds");
   shared.aa_spread = series_spread(frame_times(self_test.at(0), std::size_t(shared.views), rounds),
                                    frame_times(self_test.at(1), std::size_t(shared.views), rounds));
+  shared.passes_gap = PassTimesGap::no_timers;
   shared.passes_reason = "browsers do not report them";
   return shared;
 }

@@ -55,6 +55,7 @@ std::vector<BenchMeasurement> measure_views(const BenchCases& cases, const Bench
     // Only now: these frames are not those that were timed.
     PassTimes passes = bench_case.passes(views.cameras);
     measurement.passes_ms = std::move(passes.ms);
+    measurement.passes_gap = passes.gap;
     measurement.passes_reason = std::move(passes.reason);
     measurement.gpu_ms = passes.gpu_ms;
     measurements.push_back(std::move(measurement));

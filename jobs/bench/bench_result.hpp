@@ -9,6 +9,7 @@
 
 #include "base/machine.hpp"
 #include "jobs/timing/frame_statistics.hpp"
+#include "jobs/timing/pass_times.hpp"
 #include "runtime/plan/specialisation.hpp"
 #include "scene/camera.hpp"
 
@@ -78,10 +79,10 @@ struct BenchMeasurement {
   double aa_spread = 0;      // of the first configuration against itself, with these cameras
   bool stable = true;        // the warm-up came to rest
 
-  /// What the device says of its passes, a mean over the views in milliseconds: (name, ms) in the
-  /// order of the frame. Empty where its timers do not count, and then the reason, which there is,
-  /// too, where they are the lesser part of a frame.
+  /// (pass, milliseconds by the device's clock) in frame order, a mean over the views; empty, or a
+  /// part of the frame, for the reason in `passes_gap`.
   std::vector<std::pair<std::string, double>> passes_ms;
+  PassTimesGap passes_gap = PassTimesGap::none;
   std::string passes_reason;
   /// All passes together by the device's own clock, to be held against frame_ms.
   std::optional<double> gpu_ms;

@@ -1,5 +1,7 @@
 #include "jobs/timing/pass_times.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cassert>
 #include <chrono>
 #include <cstdio>
@@ -22,42 +24,53 @@ double wall_ms(Renderer& renderer, std::span<const Camera> cameras, int repeats)
   return all.count() / (double(repeats) * double(cameras.size()));
 }
 
+constexpr std::array<std::string_view, 7> gap_names{
+    "none", "one_pass", "no_timers", "disturbed_clock", "exceeds_wall_clock", "partial", "other"};
+
 }  // namespace
+
+std::string_view name_of(PassTimesGap gap) { return gap_names[std::size_t(gap)]; }
+
+std::optional<PassTimesGap> pass_times_gap(std::string_view name) {
+  const auto found = std::find(gap_names.begin(), gap_names.end(), name);
+  if (found == gap_names.end()) return {};
+  return PassTimesGap(found - gap_names.begin());
+}
 
 PassTimes believed(std::vector<std::pair<std::string, double>> passes, double wall_ms) {
   double sum = 0;
   for (const auto& [pass, ms] : passes) sum += ms;
   // Timestamps round to a microsecond on some devices, and the two were not the same frames.
   constexpr double tolerance = 1.1, rounding_ms = 0.002;
-  // Below it, what passes do not tell of is the larger part of a frame.
-  constexpr double most_of_it = 0.5;
+  // Below it, the passes are the smaller part of the frame.
+  constexpr double complete = 0.5;
   char text[240];
-  // A clock of which all passes take no time stands still.
+  // A sum of 0: the clock stands still.
   if (sum > 0 && sum <= wall_ms * tolerance + rounding_ms * double(passes.size())) {
-    if (sum >= wall_ms * most_of_it) return {.ms = std::move(passes), .reason = {}, .gpu_ms = sum};
+    if (sum >= wall_ms * complete) return {.ms = std::move(passes), .gap = {}, .reason = {}, .gpu_ms = sum};
     std::snprintf(
         text, sizeof text,
         "the passes are %.3f ms of frames that take %.3f ms by the wall clock: the rest is "
         "the processor's work, or the device's timers miss some of its own",
         sum, wall_ms);
-    return {.ms = std::move(passes), .reason = text, .gpu_ms = sum};
+    return {.ms = std::move(passes), .gap = PassTimesGap::partial, .reason = text, .gpu_ms = sum};
   }
   std::snprintf(text, sizeof text,
                 "the device's timers say %.3f ms for frames that take %.3f ms by the wall clock: "
                 "only the processor's clock counts",
                 sum, wall_ms);
-  return {.ms = {}, .reason = text, .gpu_ms = {}};
+  return {.ms = {}, .gap = PassTimesGap::exceeds_wall_clock, .reason = text, .gpu_ms = {}};
 }
 
 PassTimes time_passes(const gl::Context& context, Renderer& renderer,
                       std::span<const Camera> cameras, int repeats) {
   assert(!cameras.empty() && repeats > 0);
   if (const auto reason = gl::timers_mislead(context.capabilities()))
-    return {.ms = {}, .reason = *reason, .gpu_ms = {}};
+    return {.ms = {}, .gap = PassTimesGap::no_timers, .reason = *reason, .gpu_ms = {}};
   gl::PassTimer timer(context);
   renderer.time_passes(&timer);
   std::vector<gl::PassTimer::PassTime> passes;
-  // Three attempts: a clock that was disturbed in all of them will be in a fourth.
+  // Three attempts: a fourth would be disturbed as well.
   for (int attempt = 0; attempt < 3 && passes.empty(); ++attempt) {
     for (const Camera& camera : cameras)
       for (int i = 0; i < repeats; ++i) renderer.draw(camera);
@@ -67,6 +80,7 @@ PassTimes time_passes(const gl::Context& context, Renderer& renderer,
   renderer.time_passes(nullptr);
   if (passes.empty())
     return {.ms = {},
+            .gap = PassTimesGap::disturbed_clock,
             .reason = "the device's clock was disturbed: only the processor's clock counts",
             .gpu_ms = {}};
   std::vector<std::pair<std::string, double>> ms;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,17 +14,32 @@
 
 namespace tureen {
 
+/// Why times of passes are missing, or cover only a part of the frame.
+enum class PassTimesGap {
+  none,
+  one_pass,            // the frame is a single pass
+  no_timers,           // the device has no timers, or unreliable ones (gl::timers_mislead)
+  disturbed_clock,     // the device reported a disturbance in every attempt
+  exceeds_wall_clock,  // the sum is 0 or exceeds the wall clock
+  partial,             // the passes are less than half of the frame
+  other,               // of a result file without this field
+};
+
+/// "none", "one_pass", ..; as written to JSON.
+std::string_view name_of(PassTimesGap gap);
+std::optional<PassTimesGap> pass_times_gap(std::string_view name);
+
 struct PassTimes {
   /// (pass, milliseconds a frame) in frame order; empty if the device's clock is unusable.
   std::vector<std::pair<std::string, double>> ms;
-  /// The reason why times are missing or limited, as a sentence; empty if they are complete.
-  std::string reason;
+  PassTimesGap gap = PassTimesGap::none;
+  std::string reason;  // the gap as a sentence; empty without one
   std::optional<double> gpu_ms;  // all passes of a frame
 };
 
-/// The passes unchanged, or an empty result with a reason if their sum is 0 or exceeds `wall_ms`,
+/// The passes unchanged, or an empty result with a gap if their sum is 0 or exceeds `wall_ms`,
 /// the mean time of such a frame without others in flight. A smaller sum is valid, since the frame
-/// may wait for the processor. Below half of `wall_ms` the reason reports it.
+/// may wait for the processor. Below half of `wall_ms` the gap is `partial`.
 PassTimes believed(std::vector<std::pair<std::string, double>> passes, double wall_ms);
 
 /// Draws every camera `repeats` times with timers and as often without, for the wall clock of the

@@ -34,19 +34,19 @@ Job job_of(const std::vector<QualitySetting>& settings, const Configuration& con
   return job;
 }
 
-void Measurer::measure(std::vector<Job> jobs, const std::string& task) {
+void Measurer::measure(std::vector<Job> jobs, StudyStage stage) {
   for (std::size_t begin = 0; begin < jobs.size();) {
     const std::size_t room = options_.group - (control_ ? 1 : 0);
     const std::size_t end = std::min(begin + std::max<std::size_t>(room, 1), jobs.size());
     share_ = {double(begin) / double(jobs.size()), double(end - begin) / double(jobs.size())};
-    task_ = task;
+    stage_ = stage;
     measure_group({jobs.begin() + std::ptrdiff_t(begin), jobs.begin() + std::ptrdiff_t(end)});
     begin = end;
   }
 }
 
 void Measurer::report_share(double fraction) const {
-  report(options_, task_, share_.first + share_.second * fraction);
+  report(options_, stage_, share_.first + share_.second * fraction);
 }
 
 std::unique_ptr<Renderer> Measurer::renderer_for(const Job& job) const {

@@ -31,7 +31,7 @@ class Measurer {
 
   /// The very first job is the defaults, the control of every later group. Throws the Renderer's
   /// errors for them. Other jobs that fail with a UsageError or a DeviceLimitError are skipped.
-  void measure(std::vector<Job> jobs, const std::string& task);
+  void measure(std::vector<Job> jobs, StudyStage stage);
 
  private:
   struct Running {
@@ -53,7 +53,7 @@ class Measurer {
   double control_ms_ = 0;
   std::pair<double, double> share_{0, 1};  // of the progress: begin and length of this group
   double made_ = 0;                        // the fraction of the group's renderers already created
-  std::string task_;
+  StudyStage stage_ = StudyStage::settings;
 };
 
 }  // namespace tureen::tradeoff

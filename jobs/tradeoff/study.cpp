@@ -50,14 +50,13 @@ void find_ranges(Panel& panel) {
 }
 
 /// After the star: all combinations of the settings that matter, and the front.
-void finish(const StudyOptions& options, const std::string& task, Measurer& measurer,
-            Panel& panel) {
+void finish(const StudyOptions& options, StudyStage stage, Measurer& measurer, Panel& panel) {
   find_ranges(panel);
   const Design rest = factorial(value_counts(panel.settings), panel.ranges,
                                 refusal_of(panel.settings), options.factorial);
   add_skipped(panel, rest);
   panel.notes = describe(rest.reduction, options.factorial);
-  measurer.measure(jobs_of(panel.settings, rest.configurations, true), task);
+  measurer.measure(jobs_of(panel.settings, rest.configurations, true), stage);
   find_front(panel);
   if (auto warning = spread_warning(panel.aa_spread)) panel.notes.push_back(*std::move(warning));
 }
@@ -68,15 +67,15 @@ RenderError ideal_error(const std::vector<ImageF>& reference, bool with_flip) {
 
 void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& study) {
   Panel& panel = study.drawing;
-  References references{oracle_pictures(scene, options, Samples::device),
-                        oracle_pictures(scene, options, Samples::exact)};
+  References references{oracle_pictures(scene, options, Samples::device, StudyStage::device_references),
+                        oracle_pictures(scene, options, Samples::exact, StudyStage::exact_references)};
   study.grid = error_between(references.exact, references.judge, options.with_flip);
   if (options.samples == Samples::exact) references.judge = references.exact;
   panel.ideal = ideal_error(references.judge, options.with_flip);
 
   const std::vector<std::uint64_t> visible = count_visible_pixels(
       scene.context, scene.soup, scene.origin, scene.counting,
-      [&](double fraction) { report(options, "visible triangles", fraction); });
+      [&](double fraction) { report(options, StudyStage::visibility, fraction); });
   panel.settings = drawing_settings(scene.soup, visible);
   const Design star = tradeoff::star(value_counts(panel.settings), refusal_of(panel.settings));
   add_skipped(panel, star);
@@ -91,25 +90,39 @@ void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& 
   jobs.insert(jobs.begin() + 1, std::move(published));
   std::vector<Job> generic = jobs_of(panel.settings, star.configurations, false);
   std::move(generic.begin(), generic.end(), std::back_inserter(jobs));
-  measurer.measure(std::move(jobs), "one setting at a time");
+  measurer.measure(std::move(jobs), StudyStage::settings);
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i)
     if (panel.outcomes[i].method == Method::published) study.published = i;
-  finish(options, "settings combined", measurer, panel);
+  finish(options, StudyStage::combined_settings, measurer, panel);
 }
 
 void study_antialiasing(const StudyScene& scene, const StudyOptions& options, Study& study) {
   Panel& panel = study.antialiasing;
-  const References references{oracle_pictures(scene, options, Samples::antialiased), {}};
+  const References references{oracle_pictures(scene, options, Samples::antialiased, StudyStage::antialiased_references), {}};
   panel.ideal = ideal_error(references.judge, options.with_flip);
   panel.settings = antialiasing_settings(options.max_samples);
   const Design star = tradeoff::star(value_counts(panel.settings), refusal_of(panel.settings));
   add_skipped(panel, star);
   Measurer measurer(scene, options, references, panel);
-  measurer.measure(jobs_of(panel.settings, star.configurations, true), "antialiasing");
-  finish(options, "antialiasing combined", measurer, panel);
+  measurer.measure(jobs_of(panel.settings, star.configurations, true), StudyStage::antialiasing);
+  finish(options, StudyStage::combined_antialiasing, measurer, panel);
 }
 
 }  // namespace
+
+const char* name_of(StudyStage stage) {
+  switch (stage) {
+    case StudyStage::device_references: return "reference images";
+    case StudyStage::exact_references: return "exact reference images";
+    case StudyStage::visibility: return "visible triangles";
+    case StudyStage::settings: return "one setting at a time";
+    case StudyStage::combined_settings: return "combined settings";
+    case StudyStage::antialiased_references: return "antialiased reference images";
+    case StudyStage::antialiasing: return "antialiasing";
+    case StudyStage::combined_antialiasing: return "combined antialiasing";
+  }
+  return "";
+}
 
 Study run_study(const StudyScene& scene, const StudyOptions& options) {
   assert(!scene.cameras.empty());

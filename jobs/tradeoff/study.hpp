@@ -20,6 +20,20 @@
 
 namespace tureen::tradeoff {
 
+enum class StudyStage {
+  device_references,  // oracle images at the device's sample points
+  exact_references,
+  visibility,
+  settings,  // one at a time
+  combined_settings,
+  antialiased_references,
+  antialiasing,
+  combined_antialiasing,
+};
+
+/// "reference images", ..: for progress.
+const char* name_of(StudyStage stage);
+
 struct StudyOptions {
   glm::vec3 background{0.0f};
   /// Samples of the reference of drawing settings: device or exact.
@@ -33,8 +47,8 @@ struct StudyOptions {
   bool with_flip = true;
   /// As BenchmarkOptions::clock.
   std::function<double()> clock = nullptr;
-  /// Called often with the current task and its fraction done; may throw to cancel the study.
-  std::function<void(const std::string& task, double fraction)> progress = {};
+  /// Called often with the current stage and its fraction done; may throw to cancel the study.
+  std::function<void(StudyStage, double fraction)> progress = {};
 };
 
 /// Reference images of all cameras.

@@ -8,8 +8,8 @@
 
 namespace tureen::tradeoff {
 
-void report(const StudyOptions& options, const std::string& task, double fraction) {
-  if (options.progress) options.progress(task, fraction);
+void report(const StudyOptions& options, StudyStage stage, double fraction) {
+  if (options.progress) options.progress(stage, fraction);
 }
 
 void on_all_cores(
@@ -45,9 +45,9 @@ void on_all_cores(
 }
 
 std::vector<ImageF> oracle_pictures(const StudyScene& scene, const StudyOptions& options,
-                                    Samples samples) {
+                                    Samples samples, StudyStage stage) {
   std::vector<ImageF> pictures(scene.cameras.size());
-  const auto progress = [&](double fraction) { report(options, "reference pictures", fraction); };
+  const auto progress = [&](double fraction) { report(options, stage, fraction); };
   on_all_cores(pictures.size(), progress, [&](std::size_t i, const auto& check) {
     pictures[i] = reference_picture(scene.soup, scene.origin, scene.cameras[i],
                                     {.samples = samples,

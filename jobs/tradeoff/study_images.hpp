@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <functional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "jobs/tradeoff/study.hpp"
@@ -12,7 +11,7 @@
 namespace tureen::tradeoff {
 
 /// Calls options.progress, if set.
-void report(const StudyOptions& options, const std::string& task, double fraction);
+void report(const StudyOptions& options, StudyStage stage, double fraction);
 
 /// Runs `work(i, check)` for 0 .. count - 1 on all cores. The work calls `check` regularly, with
 /// any argument; it throws to stop the work. The calling thread passes the fraction done to
@@ -23,7 +22,7 @@ void on_all_cores(
 
 /// One image a camera. Rethrows exceptions from options.progress with a short delay.
 std::vector<ImageF> oracle_pictures(const StudyScene& scene, const StudyOptions& options,
-                                    Samples samples);
+                                    Samples samples, StudyStage stage);
 
 /// The images rounded to 8 bits a channel, as on a screen.
 std::vector<ImageF> as_shown(std::span<const ImageF> pictures);

@@ -51,6 +51,7 @@ BenchMeasurement measurement(const std::string& configuration, const std::string
           .aa_spread = 0.02,
           .stable = true,
           .passes_ms = {},
+          .passes_gap = PassTimesGap::no_timers,
           .passes_reason = "timers mislead <here>",
           .gpu_ms = {},
           .views_ms = {0.9 * ms, ms, 1.1 * ms},

@@ -37,6 +37,7 @@ BenchResult example() {
                             .aa_spread = 0.004,
                             .stable = true,
                             .passes_ms = {{"visibility", 0.04}, {"shading", 0.05}, {"blit", 0.001}},
+                            .passes_gap = PassTimesGap::none,
                             .passes_reason = "",
                             .gpu_ms = 0.091,
                             .views_ms = {0.1, 0.2, 0.3},
@@ -46,6 +47,7 @@ BenchResult example() {
   software.configuration = "published";
   software.stable = false;
   software.passes_ms.clear();
+  software.passes_gap = PassTimesGap::no_timers;
   software.passes_reason = "timers mislead on llvmpipe";
   software.gpu_ms.reset();
   software.picture.reset();
@@ -160,8 +162,10 @@ TEST(BenchResult, MissesEveryKeyThatAllHave) {
   const std::set<std::string> optional{"/program/build", "/machine/rasteriser_threads", "/peak_mib",
                                        "/protocol/processor_time"};
   for (const auto& key : keys) {
-    // Files of earlier versions have no list of specialisations.
-    if (optional.contains(key.to_string()) || key.back() == "specialisations") continue;
+    // Files of earlier versions have no list of specialisations, and no kind of gap.
+    if (optional.contains(key.to_string()) || key.back() == "specialisations" ||
+        key.back() == "passes_gap")
+      continue;
     nlohmann::json document = complete;
     document.at(key.parent_pointer()).erase(key.back());
     SCOPED_TRACE(key.to_string());
@@ -191,6 +195,12 @@ TEST(BenchResult, NamesWhatIsWrong) {
   nlohmann::json document = to_json(example());
   document["version"] = bench_result_version + 1;
   EXPECT_THAT(refusal(document.dump()), wrong("version", bench_result_version + 1));
+  document = to_json(example());
+  document["measurements"] = nlohmann::json::array();
+  EXPECT_THAT(refusal(document.dump()), wrong("measurements"));
+  document = to_json(example());
+  document["measurements"][0]["passes_gap"] = "lunch";
+  EXPECT_THAT(refusal(document.dump()), wrong("measurements[0].passes_gap", "lunch"));
   document = to_json(example());
   document["measurements"][1]["frame_ms"]["p95"] = "fast";
   EXPECT_THAT(refusal(document.dump()), wrong("measurements[1].frame_ms.p95"));

@@ -36,6 +36,7 @@ BenchMeasurement measurement(const std::string& configuration, const std::string
                      .samples = 120};
   result.fps = 1000 / (ms + 1);
   result.aa_spread = 0.02;
+  result.passes_gap = PassTimesGap::no_timers;
   result.passes_reason = "it is told so";
   return result;
 }
@@ -105,15 +106,27 @@ TEST(BenchTable, SaysWhatMemoryIsOfWhen) {
 }
 
 TEST(BenchTable, SaysWhyPassesHaveNoTimesOnce) {
-  EXPECT_THAT(bench_table(two_sizes()), Contains(HasSubstr("it is told so")).Times(1));
+  BenchResult result = two_sizes();
+  EXPECT_THAT(bench_table(result), Contains(HasSubstr("it is told so")).Times(1));
+  result.measurements[1].passes_gap = PassTimesGap::exceeds_wall_clock;
+  result.measurements[1].passes_reason = "4 ms of 3 ms";
+  result.measurements[2].passes_gap = PassTimesGap::exceeds_wall_clock;
+  result.measurements[2].passes_reason = "5 ms of 3 ms";
+  result.measurements[3].passes_gap = PassTimesGap::one_pass;
+  result.measurements[3].passes_reason = "a copy";
+  const std::vector<std::string> lines = bench_table(result);
+  EXPECT_THAT(lines, Contains(HasSubstr("it is told so")).Times(1));
+  EXPECT_THAT(lines, Contains(HasSubstr("ms of 3 ms")).Times(1)) << "one line a kind";
+  EXPECT_THAT(lines, Contains(HasSubstr("a copy")).Times(0));
 }
 
 TEST(BenchTable, ShowsThePassesThatTheDeviceTimed) {
   BenchResult result = two_sizes();
-  for (BenchMeasurement& each : result.measurements) each.passes_reason.clear();
+  for (BenchMeasurement& each : result.measurements) each.passes_gap = PassTimesGap::none;
   result.measurements[0].passes_ms = {{"visibility", 0.1234}, {"shading", 7.891}};
   const std::vector<std::string> lines = bench_table(result);
   EXPECT_THAT(lines, Contains(HasSubstr("visibility 0.123 ms, shading 7.89 ms")));
+  result.measurements[0].passes_gap = PassTimesGap::partial;
   result.measurements[0].passes_reason = "they miss something";
   EXPECT_THAT(bench_table(result), Contains(MatchesRegex(" +they miss something")));
   EXPECT_EQ(bench_table(result).size(), lines.size() + 1) << "once, beside its row";

@@ -35,6 +35,7 @@ TEST(TimersMislead, OnSoftwareAndWithoutQueries) {
 
 TEST(BelievedPasses, AreThoseThatTheWallClockHasRoomFor) {
   const PassTimes good = believed({{"visibility", 1.0}, {"shading", 2.0}}, 3.1);
+  EXPECT_EQ(good.gap, PassTimesGap::none);
   EXPECT_EQ(good.reason, "");
   ASSERT_TRUE(good.gpu_ms);
   EXPECT_DOUBLE_EQ(*good.gpu_ms, 3.0);
@@ -42,14 +43,16 @@ TEST(BelievedPasses, AreThoseThatTheWallClockHasRoomFor) {
   EXPECT_EQ(good.ms[1].first, "shading");
 
   const PassTimes impossible = believed({{"visibility", 1.0}, {"shading", 2.6}}, 3.1);
+  EXPECT_EQ(impossible.gap, PassTimesGap::exceeds_wall_clock);
   EXPECT_THAT(impossible.reason, Names("3.600 ms", "3.100 ms"));
   EXPECT_TRUE(impossible.ms.empty());
   EXPECT_FALSE(impossible.gpu_ms);
 }
 
 TEST(BelievedPasses, SayWhereTheyAreTheLesserPartOfAFrame) {
-  EXPECT_EQ(believed({{"visibility", 0.6}, {"shading", 0.9}}, 3.0).reason, "");
+  EXPECT_EQ(believed({{"visibility", 0.6}, {"shading", 0.9}}, 3.0).gap, PassTimesGap::none);
   const PassTimes little = believed({{"forward", 0.1}}, 3.0);
+  EXPECT_EQ(little.gap, PassTimesGap::partial);
   EXPECT_THAT(little.reason, Names("0.100 ms", "3.000 ms"));
   ASSERT_EQ(little.ms.size(), 1u) << "the processor may be what the frame waits for";
   EXPECT_DOUBLE_EQ(little.gpu_ms.value_or(0), 0.1);
@@ -57,6 +60,7 @@ TEST(BelievedPasses, SayWhereTheyAreTheLesserPartOfAFrame) {
 
 TEST(BelievedPasses, AreNotThoseOfAClockThatStandsStill) {
   const PassTimes nothing = believed({{"visibility", 0.0}, {"shading", 0.0}}, 3.0);
+  EXPECT_EQ(nothing.gap, PassTimesGap::exceeds_wall_clock);
   EXPECT_THAT(nothing.reason, Names("0.000 ms", "3.000 ms"));
   EXPECT_TRUE(nothing.ms.empty());
   EXPECT_FALSE(nothing.gpu_ms);
@@ -107,6 +111,7 @@ TEST_P(DeviceTimers, AreNotUsedWhereTheyMislead) {
   const Scene scene = small_cloud();
   Renderer renderer(context, std::get<TriangleSoup>(scene.primitives), scene.origin);
   const PassTimes times = time_passes(context, renderer, scene.cameras, 2);
+  EXPECT_EQ(times.gap, PassTimesGap::no_timers);
   EXPECT_THAT(times.reason, Names(context.capabilities().renderer));
   EXPECT_TRUE(times.ms.empty());
   EXPECT_FALSE(times.gpu_ms);

@@ -91,9 +91,9 @@ export class Measuring {
     }
     const configurations = [this.ours(added)], notes = this.notes(added);
     if (request.published) {
-      const published = await this.published(sources[0]!, tell);
-      if (typeof published === 'string') notes.push(published);
-      else configurations.push(published);
+      const { configuration, failure } = await this.published(sources[0]!, tell);
+      if (configuration) configurations.push(configuration);
+      else notes.push(`The baseline (published) is missing: ${failure}`);
     }
     const measurements: Measurement[] = [];
     for (const [index, size] of request.sizes.entries())
@@ -135,15 +135,15 @@ export class Measuring {
     };
   }
 
-  /** Or the sentence that says why it does not take part. */
-  private async published(source: SceneSource, tell: Tell): Promise<Configuration | string> {
+  /** The baseline for this scene, or the reason why it cannot be drawn. */
+  private async published(source: SceneSource, tell: Tell): Promise<{ configuration?: Configuration; failure?: string }> {
     tell(`${nameOf(source)}: preparing the published pipeline`, loadingShare);
     try {
       const files = await this.files(source, tell);
-      return { name: 'published', ...await this.bench.addPublished(0, files) };
+      return { configuration: { name: 'published', ...await this.bench.addPublished(0, files) } };
     } catch (error) {
       if (!(error instanceof ViewerError) || this.bench.isLost) throw error;
-      return `The published pipeline takes no part: ${error.message}`;
+      return { failure: error.message };
     }
   }
 

@@ -18,6 +18,8 @@ const any = number((value) => Number.isInteger(value) ? count(value)
   : Math.abs(value) < 1e-3 || Math.abs(value) >= 1e6 ? value.toExponential(2) : String(+value.toPrecision(4)));
 const geometricMean = (values) => Math.exp(values.reduce((sum, each) => sum + Math.log(each), 0) / values.length);
 const unique = (values) => [...new Set(values)];
+/** The first value of each key. */
+const firstOfEach = (values, key) => values.filter((value, i) => values.findIndex((other) => key(other) === key(value)) === i);
 const base = (path) => String(path).split(/[\\/]/).pop();
 const stem = (entry) => base(entry.file).replace(/\.\w+$/, '');
 const folderName = (entry) => base(entry.file.replace(/[\\/][^\\/]*$/, ''));
@@ -200,7 +202,7 @@ function showBench(entry) {
         ['image', (r) => r.same_pixels ? 'the same' : 'another']], data.comparison.ratios)] : []),
     table('Passes by the device\'s clock', [['configuration', (r) => r.m.configuration], ['cameras', (r) => r.m.camera_set], ['size', (r) => r.m.size],
       ['pass', (r) => r.pass], ['device\'s clock (ms)', (r) => r.ms, ms]], all.flatMap((m) => (m.passes_ms ?? []).map((pass) => ({ m, ...pass })))),
-    list(unique(all.map((m) => m.passes_reason).filter(Boolean)).map((reason) => `Times of passes, incomplete or missing: ${reason}`)),
+    list(firstOfEach(all.filter((m) => m.passes_gap !== 'one_pass' && m.passes_reason), (m) => m.passes_gap).map((m) => `Times of passes, incomplete or missing: ${m.passes_reason}`)),
     images(all.filter((m) => m.picture).map((m) => [imageAddress(entry, m.picture), `${m.configuration}, ${place(m)}: the last frame timed`]), 'small'),
     fold('Configurations', (data.configurations ?? []).map(({ name, options, plan, plan_ms, upload_ms, device_mib }) => [element('h3', {}, name),
       paragraph(`${options?.length ? `tureen render ${options.join(' ')}: ` : ''}plan ${ms(plan_ms)} ms, upload ${ms(upload_ms)} ms, ${fixed(1)(device_mib)} MiB on the device`), list(plan)]).flat()),

@@ -9,7 +9,10 @@ export class SceneSection {
   private notices: string[] = [];
 
   constructor(private readonly viewer: Viewer, loading: Loading) {
-    viewer.on('scene', (scene) => this.show(scene));
+    viewer.on('scene', (scene) => {
+      this.notices = [];  // they were of the scene before
+      this.show(scene);
+    });
     viewer.on('notice', (sentence) => {
       this.notices.push(sentence);
       this.showNotes();
@@ -33,7 +36,7 @@ export class SceneSection {
 
   private showNotes(): void {
     const notes = [...(this.viewer.scene?.notes ?? []), ...this.notices];
-    fillSentences(block('notes'), [...new Set(notes)]);
+    fillSentences(block('notes'), notes);
     block('notes-part').hidden = notes.length === 0;
   }
 }
