@@ -1,4 +1,4 @@
-// Decodes UTF-8 one character at a time, for text that is inspected before printing.
+// Decodes UTF-8 one character at a time, for text that is checked before printing.
 #pragma once
 
 #include <cstddef>

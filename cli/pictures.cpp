@@ -100,14 +100,14 @@ Drawer drawer_of(Renderer& renderer, const gl::Capabilities& device) {
           .resolution_scale = renderer.plan().quality.resolution_scale};
 }
 
-Drawer drawer_of(Inspector& inspector, const gl::Capabilities& device) {
+Drawer drawer_of(DebugViewRenderer& debug_renderer, const gl::Capabilities& device) {
   return {.draw =
-              [&inspector](const Camera& camera) {
-                inspector.draw(camera);
-                inspector.finish();
+              [&debug_renderer](const Camera& camera) {
+                debug_renderer.draw(camera);
+                debug_renderer.finish();
               },
-          .read = [&inspector] { return inspector.read_color(); },
-          .tiles = [&inspector, &device] { return tiles_of(inspector, device); }};
+          .read = [&debug_renderer] { return debug_renderer.read_color(); },
+          .tiles = [&debug_renderer, &device] { return tiles_of(debug_renderer, device); }};
 }
 
 Pictures draw_pictures(const Drawer& drawer, const gl::Capabilities& device,

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/debug_views/inspector.hpp"
+#include "runtime/debug_views/debug_view_renderer.hpp"
 #include "runtime/picture_tiles.hpp"
 #include "runtime/renderer.hpp"
 
@@ -20,7 +20,7 @@ struct FrameTimes {
   double p95() const;
 };
 
-/// Whoever draws, a renderer or an inspector.
+/// What draws: a renderer, of colours or of debug views.
 struct Drawer {
   std::function<void(const Camera& camera)> draw;  // and waits for the device
   std::function<Image8()> read;
@@ -29,9 +29,9 @@ struct Drawer {
   double resolution_scale = 1.0;
 };
 
-/// `renderer`, `inspector` and `device` must outlive them.
+/// `renderer`, `debug_renderer` and `device` must outlive them.
 Drawer drawer_of(Renderer& renderer, const gl::Capabilities& device);
-Drawer drawer_of(Inspector& inspector, const gl::Capabilities& device);
+Drawer drawer_of(DebugViewRenderer& debug_renderer, const gl::Capabilities& device);
 
 struct Pictures {
   std::vector<std::string> paths;

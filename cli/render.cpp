@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
+#include "cli/debug_view_option.hpp"
 #include "cli/drawing_options.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory_option.hpp"
@@ -17,11 +18,10 @@
 #include "cli/plan_json.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
-#include "cli/show_option.hpp"
 #include "cli/values.hpp"
 #include "cli/view_options.hpp"
 #include "image/video_file.hpp"
-#include "runtime/debug_views/inspector.hpp"
+#include "runtime/debug_views/debug_view_renderer.hpp"
 #include "runtime/plan/plan_description.hpp"
 #include "runtime/renderer.hpp"
 
@@ -35,7 +35,7 @@ struct RenderOptions {
   std::string output = "out.png";
   std::string background;  // empty: the scene's own
   DrawingOptions drawing;
-  ShowOption show;
+  DebugViewOption show;
   int frames = 0;
   bool json = false;
 };
@@ -45,7 +45,7 @@ struct Drawn {
   Pictures pictures;
   std::vector<std::string> plan;
   std::vector<AppliedSpecialisation> specialisations;
-  std::vector<std::string> legend;  // of inspections
+  std::vector<std::string> legend;  // of debug views
   std::size_t device_bytes = 0;
 };
 
@@ -74,27 +74,28 @@ Drawn draw_colors(const gl::Context& context, const Scene& scene, const Triangle
   return {std::move(pictures), describe(plan), plan.applied, {}, renderer.device_bytes()};
 }
 
-Drawn draw_inspection(const gl::Context& context, const Scene& scene, const TriangleSoup& soup,
+Drawn draw_debug_view(const gl::Context& context, const Scene& scene, const TriangleSoup& soup,
                       const RenderOptions& options, glm::vec4 background, const Views& views) {
   const gl::Capabilities& device = context.capabilities();
-  Inspector inspector(context, soup, scene.origin, {.background = background});
-  inspector.show(options.show.what, options.show.features);
-  Pictures pictures = draw_views(drawer_of(inspector, device), device, views, options.output);
+  DebugViewRenderer debug_renderer(context, soup, scene.origin, {.background = background});
+  debug_renderer.show(options.show.what, options.show.features);
+  Pictures pictures = draw_views(drawer_of(debug_renderer, device), device, views, options.output);
   const std::string sentence = std::string("shows ") + name_of(options.show.what) +
                                " of the stored soup, one sample a pixel";
   return {std::move(pictures),
           {sentence},
           {},
-          legend_lines(inspector.legend()),
-          inspector.device_bytes()};
+          legend_lines(debug_renderer.legend()),
+          debug_renderer.device_bytes()};
 }
 
 /// Before a context is asked for.
-void require_shown(const ShowOption& show, const TriangleSoup& soup) {
+void require_shown(const DebugViewOption& show, const TriangleSoup& soup) {
   std::optional<std::string> refusal = why_not(show.what, soup);
-  if (!refusal && show.what == Inspection::features)
+  if (!refusal && show.what == DebugView::features)
     refusal = why_not(show.features, feature_count(soup));
-  if (refusal) throw UsageError(std::string("--show ") + name_of(show.what) + ": " + *refusal);
+  if (refusal)
+    throw UsageError(std::string("--debug-view ") + name_of(show.what) + ": " + *refusal);
 }
 
 /// Throws UsageError and OutputError.
@@ -151,7 +152,7 @@ ExitCode render(RenderOptions options) {
 
   const gl::Context context = gl::Context::create({.backend = options.drawing.backend});
   throw_if_interrupted();
-  const auto draw = options.show.what == Inspection::color ? draw_colors : draw_inspection;
+  const auto draw = options.show.what == DebugView::color ? draw_colors : draw_debug_view;
   const Drawn drawn = draw(context, scene, soup, options, background, views);
   const Pictures& pictures = drawn.pictures;
   const FrameTimes& times = pictures.times;
@@ -202,7 +203,7 @@ Examples:
                                                           the frames along a camera path
   tureen render soup.glb --supersample 4 -o smooth.png    16 samples a pixel
   tureen render soup.glb --size 40000x20000 -o poster.png larger than the device's limit, in tiles
-  tureen render soup.glb --show depth -o depth.png        or normals, texels, overdraw, ..
+  tureen render soup.glb --debug-view depth -o depth.png  or normals, texels, overdraw, ..
   tureen render soup.glb --frames 100 --json              milliseconds per frame
   tureen render soup.glb --pipeline published --frames 100 --json
                                                           against the baseline
@@ -224,7 +225,7 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
       .value_name("COLOR");
   add_drawing_options(command, options->drawing);
   add_drawing_scale(command, options->drawing);
-  Option show = add_show_option(command, options->show);
+  Option show = add_debug_view_option(command, options->show);
   for (const char* other :
        {"--supersample", "--scale", "--pipeline", "--shading", "--no-specialise", "--keep"})
     show.excludes(command.option(other));

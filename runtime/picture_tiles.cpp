@@ -87,8 +87,8 @@ PictureTiles tiles_of(Renderer& renderer, const gl::Capabilities& capabilities) 
                                       renderer.plan().quality.supersampling);
 }
 
-PictureTiles tiles_of(Inspector& inspector, const gl::Capabilities& capabilities) {
-  return tiles_drawn_by(inspector, capabilities.max_picture_side);
+PictureTiles tiles_of(DebugViewRenderer& debug_renderer, const gl::Capabilities& capabilities) {
+  return tiles_drawn_by(debug_renderer, capabilities.max_picture_side);
 }
 
 }  // namespace tureen

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <functional>
 
-#include "runtime/debug_views/inspector.hpp"
+#include "runtime/debug_views/debug_view_renderer.hpp"
 #include "runtime/renderer.hpp"
 
 namespace tureen {
@@ -39,9 +39,9 @@ void draw_in_bands(const Camera& camera, const PictureTiles& tiles, const BandSi
 /// The complete image, if memory suffices for its 4 bytes a pixel.
 Image8 draw_in_tiles(const Camera& camera, const PictureTiles& tiles);
 
-/// Tiles drawn by this renderer or inspector, which must outlive them. Throws UsageError if its
+/// Tiles drawn by this renderer, which must outlive them. Throws UsageError if its
 /// plan has a resolution scale: tiles drawn at a lower resolution would not match at their borders.
 PictureTiles tiles_of(Renderer& renderer, const gl::Capabilities& capabilities);
-PictureTiles tiles_of(Inspector& inspector, const gl::Capabilities& capabilities);
+PictureTiles tiles_of(DebugViewRenderer& debug_renderer, const gl::Capabilities& capabilities);
 
 }  // namespace tureen

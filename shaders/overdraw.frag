@@ -1,5 +1,5 @@
 // The colours of how often fragment_count.frag has drawn to a pixel; overdraw_color() of
-// runtime/debug_views/inspection.cpp.
+// runtime/debug_views/debug_view.cpp.
 #include "heat_ramp.glsl"
 
 uniform sampler2D counts;

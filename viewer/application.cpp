@@ -278,7 +278,7 @@ void Application::move(double seconds) {
 }
 
 void Application::draw(const std::vector<Event>& events, double busy_seconds) {
-  inspect_when_needed();
+  prepare_debug_view_when_needed();
   draw_picture();
   compare_when_needed();
   const double began = seconds_since_start();
@@ -317,25 +317,25 @@ void Application::draw_picture() {
 
 void Application::draw_scene() {
   const Camera camera = state_.controls.camera(state_.pixels.x, state_.pixels.y);
-  const bool inspects = state_.look.what != Inspection::color && state_.inspector;
-  // What is shown until the inspector is ready are the colours.
-  const Look look = inspects ? state_.look : Look{};
-  const bool same = picture_is_current_ && drawn_look_ == look &&
+  const bool shows_debug_view = state_.debug_view.what != DebugView::color && state_.debug_renderer;
+  // Colours until the debug view is prepared.
+  const DebugViewChoice debug_view = shows_debug_view ? state_.debug_view : DebugViewChoice{};
+  const bool same = picture_is_current_ && drawn_debug_view_ == debug_view &&
                     camera.view_from_world == drawn_camera_.view_from_world &&
                     camera.width == drawn_camera_.width && camera.height == drawn_camera_.height &&
                     camera.fx == drawn_camera_.fx && camera.fy == drawn_camera_.fy &&
                     camera.cx == drawn_camera_.cx && camera.cy == drawn_camera_.cy;
-  if (inspects && !same) {
-    state_.inspector->show(look.what, look.features);
-    state_.inspector->draw(camera);
-  } else if (!inspects && (!same || state_.draw_continuously)) {
+  if (shows_debug_view && !same) {
+    state_.debug_renderer->show(debug_view.what, debug_view.features);
+    state_.debug_renderer->draw(camera);
+  } else if (!shows_debug_view && (!same || state_.draw_continuously)) {
     frame_clock_.draw(state_.stage->renderer, camera);
   }
-  drawn_look_ = look;
+  drawn_debug_view_ = debug_view;
   drawn_camera_ = camera;
   picture_is_current_ = true;
-  if (inspects)
-    state_.inspector->blit_to(0);
+  if (shows_debug_view)
+    state_.debug_renderer->blit_to(0);
   else
     state_.stage->renderer.blit_to(0);
 }

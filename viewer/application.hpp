@@ -78,7 +78,7 @@ class Application {
   void keep_session();
   void keep_settings();
 
-  // -- requests (application_requests.cpp, application_pictures.cpp, application_looks.cpp)
+  // -- requests (application_requests.cpp, application_pictures.cpp, application_debug_views.cpp)
   void carry_out();
   void carry_out(const OpenPath& request);
   void carry_out(const OpenPhotographs& request);
@@ -100,7 +100,7 @@ class Application {
   void open_scene(const std::filesystem::path& path, bool keep_view);
   void show(std::unique_ptr<Stage> stage, bool keep_view);
   void compare_when_needed();
-  void inspect_when_needed();
+  void prepare_debug_view_when_needed();
   void watch_file();
   void write(const std::string& what, const std::filesystem::path& path,
              std::function<void(const StageRequest&)> work);
@@ -125,9 +125,9 @@ class Application {
   FileWatch watch_;
   double watched_ = 0, last_ = 0;
   int frames_wanted_ = 2;
-  bool picture_is_current_ = false, inspector_asked_ = false;
+  bool picture_is_current_ = false, debug_renderer_asked_ = false;
   Camera drawn_camera_;
-  Look drawn_look_;
+  DebugViewChoice drawn_debug_view_;
   bool quit_ = false, vsync_ = false;
   Worker worker_, writer_;  // last: their jobs may use all of the above
 };

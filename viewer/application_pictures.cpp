@@ -46,7 +46,7 @@ void Application::carry_out(const TakePicture& request) {
   const glm::ivec2 size = request.size.x > 0 ? request.size : state_.pixels;
   const PictureJob job{.scene = state_.stage->source(),
                        .camera = state_.controls.camera(size.x, size.y),
-                       .look = state_.look,
+                       .debug_view = state_.debug_view,
                        .transparent = request.transparent,
                        .path = picture_path(".png")};
   write("writing " + short_name(job.path), job.path,
@@ -139,7 +139,7 @@ void Application::carry_out(const CopyCommand&) {
     write_file(file, cameras_to_json(std::span(&camera, 1)));
   }
   window_.set_clipboard(
-      render_command(*state_.stage, state_.stage->choice, state_.look, camera, file));
+      render_command(*state_.stage, state_.stage->choice, state_.debug_view, camera, file));
   state_.messages.note("The command that draws this picture is in the clipboard", state_.now);
 }
 

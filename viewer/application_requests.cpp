@@ -76,15 +76,16 @@ void Application::show(std::unique_ptr<Stage> stage, bool keep_view) {
   state_.stage = std::move(stage);
   state_.wanted = state_.stage->choice;
   picture_is_current_ = false;
-  worker_.abandon(JobKind::inspection);
+  worker_.abandon(JobKind::debug_view);
   worker_.abandon(JobKind::comparison);
-  state_.inspector.reset();
-  inspector_asked_ = false;
+  state_.debug_renderer.reset();
+  debug_renderer_asked_ = false;
   state_.comparison.forget();
   frame_clock_.clear();
   if (same_scene) return;  // only drawn by another choice
-  state_.look.features = {};
-  if (why_not(state_.look.what, state_.stage->soup())) state_.look.what = Inspection::color;
+  state_.debug_view.features = {};
+  if (why_not(state_.debug_view.what, state_.stage->soup()))
+    state_.debug_view.what = DebugView::color;
   if (!state_.photographs && state_.recorded >= int(state_.stage->scene->cameras.size()))
     state_.recorded = -1;
   const Subject& subject = state_.stage->subject;

@@ -19,7 +19,7 @@ void draw_overlays(State& state);
 // The parts of both, in their order. They are drawn between ImGui::Begin and End.
 void scene_panel(State& state);
 void view_panel(State& state);
-void look_panel(State& state);
+void debug_view_panel(State& state);
 void drawing_panel(State& state);
 void comparison_panel(State& state);
 void picture_panel(State& state);

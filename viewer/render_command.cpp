@@ -31,10 +31,10 @@ void add_choice(std::string& command, const DrawingChoice& choice, const Scene& 
 }
 
 /// "depth"; "features:0" and "features:4-6" for a choice of them.
-std::string shown(const Look& look) {
-  std::string name = name_of(look.what);
-  if (look.what != Inspection::features) return name;
-  const int first = look.features.first, last = first + look.features.count - 1;
+std::string shown(const DebugViewChoice& debug_view) {
+  std::string name = name_of(debug_view.what);
+  if (debug_view.what != DebugView::features) return name;
+  const int first = debug_view.features.first, last = first + debug_view.features.count - 1;
   name += fmt::format(":{}", first);
   if (last > first) name += fmt::format("-{}", last);
   return name;
@@ -65,8 +65,9 @@ bool needs_camera_file(const Camera& camera) {
          std::abs(camera.fx / camera.fy - 1) * camera.width > pixels;
 }
 
-std::string render_command(const StageSource& scene, const DrawingChoice& choice, const Look& look,
-                           const Camera& camera, const std::filesystem::path& camera_file) {
+std::string render_command(const StageSource& scene, const DrawingChoice& choice,
+                           const DebugViewChoice& debug_view, const Camera& camera,
+                           const std::filesystem::path& camera_file) {
   std::string command = "tureen render " + quoted(scene.path.string());
   if (needs_camera_file(camera)) {
     command += " --camera " + quoted(camera_file.string());
@@ -80,10 +81,10 @@ std::string render_command(const StageSource& scene, const DrawingChoice& choice
                list_of(axes[1]) + fmt::format(" --fov {}", fov);
   }
   command += fmt::format(" --size {}x{}", camera.width, camera.height);
-  if (look.what == Inspection::color)
+  if (debug_view.what == DebugView::color)
     add_choice(command, choice, *scene.scene);
   else
-    command += " --show " + shown(look);
+    command += " --debug-view " + shown(debug_view);
   return command + " -o picture.png";
 }
 

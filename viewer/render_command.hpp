@@ -5,7 +5,7 @@
 #include <string>
 
 #include "scene/camera.hpp"
-#include "viewer/look.hpp"
+#include "viewer/debug_view_choice.hpp"
 #include "viewer/stage.hpp"
 
 namespace tureen::viewer {
@@ -14,8 +14,9 @@ namespace tureen::viewer {
 /// --eye,
 /// --target and --fov cannot say (a shifted principal point, two focal lengths) is asked for from
 /// `camera_file`, which the caller writes; what is needed is told by needs_camera_file().
-std::string render_command(const StageSource& scene, const DrawingChoice& choice, const Look& look,
-                           const Camera& camera, const std::filesystem::path& camera_file);
+std::string render_command(const StageSource& scene, const DrawingChoice& choice,
+                           const DebugViewChoice& debug_view, const Camera& camera,
+                           const std::filesystem::path& camera_file);
 
 bool needs_camera_file(const Camera& camera);
 

@@ -12,13 +12,13 @@
 
 #include "camera/camera_controls.hpp"
 #include "formats/dataset/dataset.hpp"
-#include "runtime/debug_views/inspector.hpp"
+#include "runtime/debug_views/debug_view_renderer.hpp"
 #include "viewer/comparison.hpp"
+#include "viewer/debug_view_choice.hpp"
 #include "viewer/files/file_list.hpp"
 #include "viewer/files/settings.hpp"
 #include "viewer/film.hpp"
 #include "viewer/frame_clock.hpp"
-#include "viewer/look.hpp"
 #include "viewer/messages.hpp"
 #include "viewer/stage.hpp"
 #include "viewer/worker.hpp"
@@ -89,8 +89,8 @@ struct State {
   Settings settings;
   std::unique_ptr<Stage> stage;  // nothing before the first scene
   DrawingChoice wanted;          // what the stage is, or is being prepared to be, drawn by
-  Look look;
-  std::unique_ptr<Inspector> inspector;  // of the stage, once something was looked at
+  DebugViewChoice debug_view;
+  std::unique_ptr<DebugViewRenderer> debug_renderer;  // of the stage, once something was looked at
   std::optional<Photographs> photographs;
   CameraControls controls;
   int recorded = -1;  // the recorded camera that was last gone to

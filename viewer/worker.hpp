@@ -17,7 +17,7 @@ namespace tureen::viewer {
 
 /// Of each kind the newest counts: a job replaces the waiting one of its kind and abandons that
 /// which runs. Only what is to be written waits its turn.
-enum class JobKind { scene, dataset, drawing, inspection, comparison, writing };
+enum class JobKind { scene, dataset, drawing, debug_view, comparison, writing };
 
 class Worker {
  public:

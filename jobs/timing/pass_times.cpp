@@ -47,7 +47,8 @@ PassTimes believed(std::vector<std::pair<std::string, double>> passes, double wa
   char text[240];
   // A sum of 0: the clock stands still.
   if (sum > 0 && sum <= wall_ms * tolerance + rounding_ms * double(passes.size())) {
-    if (sum >= wall_ms * complete) return {.ms = std::move(passes), .gap = {}, .reason = {}, .gpu_ms = sum};
+    if (sum >= wall_ms * complete)
+      return {.ms = std::move(passes), .gap = {}, .reason = {}, .gpu_ms = sum};
     std::snprintf(
         text, sizeof text,
         "the passes are %.3f ms of frames that take %.3f ms by the wall clock: the rest is "

@@ -33,7 +33,7 @@ struct PassTimes {
   /// (pass, milliseconds a frame) in frame order; empty if the device's clock is unusable.
   std::vector<std::pair<std::string, double>> ms;
   PassTimesGap gap = PassTimesGap::none;
-  std::string reason;  // the gap as a sentence; empty without one
+  std::string reason;            // the gap as a sentence; empty without one
   std::optional<double> gpu_ms;  // all passes of a frame
 };
 

@@ -67,8 +67,9 @@ RenderError ideal_error(const std::vector<ImageF>& reference, bool with_flip) {
 
 void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& study) {
   Panel& panel = study.drawing;
-  References references{oracle_pictures(scene, options, Samples::device, StudyStage::device_references),
-                        oracle_pictures(scene, options, Samples::exact, StudyStage::exact_references)};
+  References references{
+      oracle_pictures(scene, options, Samples::device, StudyStage::device_references),
+      oracle_pictures(scene, options, Samples::exact, StudyStage::exact_references)};
   study.grid = error_between(references.exact, references.judge, options.with_flip);
   if (options.samples == Samples::exact) references.judge = references.exact;
   panel.ideal = ideal_error(references.judge, options.with_flip);
@@ -98,7 +99,9 @@ void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& 
 
 void study_antialiasing(const StudyScene& scene, const StudyOptions& options, Study& study) {
   Panel& panel = study.antialiasing;
-  const References references{oracle_pictures(scene, options, Samples::antialiased, StudyStage::antialiased_references), {}};
+  const References references{
+      oracle_pictures(scene, options, Samples::antialiased, StudyStage::antialiased_references),
+      {}};
   panel.ideal = ideal_error(references.judge, options.with_flip);
   panel.settings = antialiasing_settings(options.max_samples);
   const Design star = tradeoff::star(value_counts(panel.settings), refusal_of(panel.settings));
@@ -112,14 +115,22 @@ void study_antialiasing(const StudyScene& scene, const StudyOptions& options, St
 
 const char* name_of(StudyStage stage) {
   switch (stage) {
-    case StudyStage::device_references: return "reference images";
-    case StudyStage::exact_references: return "exact reference images";
-    case StudyStage::visibility: return "visible triangles";
-    case StudyStage::settings: return "one setting at a time";
-    case StudyStage::combined_settings: return "combined settings";
-    case StudyStage::antialiased_references: return "antialiased reference images";
-    case StudyStage::antialiasing: return "antialiasing";
-    case StudyStage::combined_antialiasing: return "combined antialiasing";
+    case StudyStage::device_references:
+      return "reference images";
+    case StudyStage::exact_references:
+      return "exact reference images";
+    case StudyStage::visibility:
+      return "visible triangles";
+    case StudyStage::settings:
+      return "one setting at a time";
+    case StudyStage::combined_settings:
+      return "combined settings";
+    case StudyStage::antialiased_references:
+      return "antialiased reference images";
+    case StudyStage::antialiasing:
+      return "antialiasing";
+    case StudyStage::combined_antialiasing:
+      return "combined antialiasing";
   }
   return "";
 }

@@ -289,7 +289,7 @@ TEST_F(Program, RenderShowsWhatASoupHas) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(arguments);
   };
-  const ChildResult overdraw = shown({"--show", "overdraw", "--json"});
+  const ChildResult overdraw = shown({"--debug-view", "overdraw", "--json"});
   ASSERT_EQ(overdraw.exit_code, 0) << overdraw.err;
   EXPECT_THAT(overdraw.err, Names("overdraw", "#611366 2"));
   EXPECT_THAT(keys(nlohmann::ordered_json::parse(overdraw.out)),
@@ -315,7 +315,7 @@ TEST_F(Program, RenderShowsWhatASoupHas) {
   refused({"--show", "depth:2"}, "depth:2");
   refused({"--show", "depth", "--supersample", "2"}, "--supersample");
   refused({"--show", "depth", "--scale", "0.5"}, "--scale");
-  refused({"--show", "depth", "--frames", "5"}, "--show");
+  refused({"--show", "depth", "--frames", "5"}, "--debug-view");
 }
 
 TEST_F(Program, RenderDrawsBeyondTheDeviceInTiles) {

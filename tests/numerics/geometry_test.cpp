@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "oracle/hits.hpp"
-#include "runtime/debug_views/inspector.hpp"
+#include "runtime/debug_views/debug_view_renderer.hpp"
 #include "runtime/renderer.hpp"
 #include "scene/edit/lint.hpp"
 #include "tests/numerics/recorder.hpp"
@@ -160,10 +160,10 @@ TEST(Numerics, G2_NeedlesThatShareEdgesCoverEveryCentreOnce) {
       rays.visit_faces(
           0, side, [&](int x, int y, const oracle::Hit&) { ++count[std::size_t(y) * side + x]; });
     }
-    Inspector inspector(shared_context(), soup, glm::dvec3(0));
-    inspector.show(Inspection::overdraw);
-    inspector.draw(camera);
-    const std::vector<std::uint8_t> on_device = inspector.read_fragment_counts();
+    DebugViewRenderer debug_renderer(shared_context(), soup, glm::dvec3(0));
+    debug_renderer.show(DebugView::overdraw);
+    debug_renderer.draw(camera);
+    const std::vector<std::uint8_t> on_device = debug_renderer.read_fragment_counts();
     const trainer::kernels::View view = trainer::view_of(camera, glm::dvec3(0), 0.01, 100);
     for (std::size_t t = 0; t < corners.size(); t += 3) {
       trainer::kernels::for_each_fragment(view, trainer::kernels::project(view, &corners[t].x),

@@ -191,13 +191,13 @@ std::vector<std::string> shaders_with_a_network(bool specialise, gl::Api to) {
           .appearance;
   std::vector<std::string> shaders;
   for (const char* file :
-       {"forward.frag", "visibility.frag", "shading.frag", "shading.comp", "inspection.frag"}) {
+       {"forward.frag", "visibility.frag", "shading.frag", "shading.comp", "debug_view.frag"}) {
     // Which constants they have else changes nothing: what #if leaves out is in the text, too.
     ShaderSource source{
         .file = file,
         .constants = appearance.constants,
         .generated = {{"appearance.glsl", appearance.glsl},
-                      {"inspected_appearance.glsl", "#include \"inspection_lattice.glsl\"\n"}}};
+                      {"debug_view_appearance.glsl", "#include \"debug_view_lattice.glsl\"\n"}}};
     shaders.push_back(assemble(source, to));
   }
   return shaders;

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/scene_file.hpp"
-#include "runtime/debug_views/inspector.hpp"
+#include "runtime/debug_views/debug_view_renderer.hpp"
 #include "runtime/renderer.hpp"
 #include "tests/support/contexts.hpp"
 #include "tests/support/golden_scenes.hpp"
@@ -68,19 +68,19 @@ TEST(Golden, Example) {
 
 // Each view of the example from near by. Mistakes that the tests against the oracle share would
 // show here: colours that say nothing, lines that break.
-TEST(Golden, Inspections) {
+TEST(Golden, DebugViews) {
   const Scene scene =
-      golden_inspection_scene(read_scene(std::string(TUREEN_SOURCE_DIR) + "/examples/soup.glb"));
+      golden_debug_view_scene(read_scene(std::string(TUREEN_SOURCE_DIR) + "/examples/soup.glb"));
   for (const NamedContext& named : every_context) {
     const gl::Context context = gl::Context::create(named.request);
-    Inspector inspector(
+    DebugViewRenderer debug_renderer(
         context, std::get<TriangleSoup>(scene.primitives), scene.origin,
         {.reversed_depth = false, .background = glm::vec4(scene.info.background, 1.0f)});
     const bool is_reference = named.request.backend == gl::Backend::osmesa;
-    for (const InspectionName& name : inspection_names()) {
-      inspector.show(name.what, {4, 3});
-      inspector.draw(scene.cameras.at(0));
-      expect_golden(inspector.read_color(), std::string("inspection_") + name.name,
+    for (const DebugViewName& name : debug_view_names()) {
+      debug_renderer.show(name.what, {4, 3});
+      debug_renderer.draw(scene.cameras.at(0));
+      expect_golden(debug_renderer.read_color(), std::string("debug_view_") + name.name,
                     is_reference ? "" : named.name);
     }
   }

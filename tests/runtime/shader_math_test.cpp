@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "image/heat_map.hpp"
-#include "runtime/debug_views/inspection.hpp"
+#include "runtime/debug_views/debug_view.hpp"
 #include "runtime/gl/api.hpp"
 #include "runtime/passes/texel_store.hpp"
 #include "scene/lattice.hpp"
@@ -128,7 +128,7 @@ TEST_P(ShaderMath, RampsAreThoseOfHeatMaps) {
       EXPECT_NEAR(results[i][c], heat_ramp(inputs[i].x)[c], 1e-6) << inputs[i].x;
 }
 
-TEST_P(ShaderMath, TriangleColorsAreThoseOfInspections) {
+TEST_P(ShaderMath, TriangleColorsAreThoseOfDebugViews) {
   // Indices are floats here, exact up to 2^24.
   std::vector<glm::vec4> inputs;
   Random random(6);

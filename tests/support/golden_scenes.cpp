@@ -14,7 +14,7 @@ Scene golden_scene(Kind kind) {
   return scene;
 }
 
-Scene golden_inspection_scene(Scene example) {
+Scene golden_debug_view_scene(Scene example) {
   Camera camera = resized(example.cameras.at(golden_example_camera), 160, 120);
   camera.fx *= 6;
   camera.fy *= 6;

@@ -12,7 +12,7 @@ Scene golden_scene(Kind kind);
 
 /// A view of the example from near by, where lattices and edges can be told apart, over black:
 /// `example` with one camera, of 160 x 120 pixels.
-Scene golden_inspection_scene(Scene example);
+Scene golden_debug_view_scene(Scene example);
 
 /// Of the example's cameras the one that its golden is drawn from, at 320 x 240.
 inline constexpr std::size_t golden_example_camera = 40;

@@ -1,6 +1,6 @@
 // make_golden_scenes EXAMPLE OUT: writes the scenes of support/golden_scenes.hpp into the folder
 // OUT, for who draws them with another program: NAME.glb for tests/golden/NAME.png,
-// inspections.glb, and one soup as a DiffSoup export, in the
+// debug_views.glb, and one soup as a DiffSoup export, in the
 // folder diffsoup.
 #include <cstdio>
 #include <exception>
@@ -16,7 +16,7 @@ void write_all(const std::filesystem::path& example, const std::filesystem::path
   for (const Kind kind : all_kinds)
     write_scene(golden_scene(kind), folder / (to_string(kind) + ".glb"));
 
-  write_scene(golden_inspection_scene(read_scene(example)), folder / "inspections.glb");
+  write_scene(golden_debug_view_scene(read_scene(example)), folder / "debug_views.glb");
 
   // An export has one lattice level.
   Scene exported = golden_scene(Kind::lattice_mlp);

@@ -80,13 +80,13 @@ TEST(RenderCommand, WhatOptionsCannotSayComesFromAFile) {
 
 TEST(RenderCommand, SaysWhatIsLookedAt) {
   const Camera camera = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.8, 400, 300);
-  const auto command = [&](const Look& look) {
-    return render_command(source("a.glb"), {}, look, camera, "");
+  const auto command = [&](const DebugViewChoice& debug_view) {
+    return render_command(source("a.glb"), {}, debug_view, camera, "");
   };
-  EXPECT_THAT(command({}), Not(HasSubstr("--show")));
-  EXPECT_THAT(command({Inspection::triangle_id, {}}), HasSubstr("--show triangle-id "));
-  EXPECT_THAT(command({Inspection::features, {4, 3}}), HasSubstr("--show features:4-6 "));
-  EXPECT_THAT(command({Inspection::features, {3, 1}}), HasSubstr("--show features:3 "));
+  EXPECT_THAT(command({}), Not(HasSubstr("--debug-view")));
+  EXPECT_THAT(command({DebugView::triangle_id, {}}), HasSubstr("--debug-view triangle-id "));
+  EXPECT_THAT(command({DebugView::features, {4, 3}}), HasSubstr("--debug-view features:4-6 "));
+  EXPECT_THAT(command({DebugView::features, {3, 1}}), HasSubstr("--debug-view features:3 "));
 }
 
 TEST(RenderCommand, SaysHowItIsDrawn) {

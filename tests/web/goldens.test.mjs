@@ -38,9 +38,9 @@ test('the example on llvmpipe', drawing(llvmpipe, async ({ load, picture }) => {
 }));
 
 test('every look on llvmpipe', drawing(llvmpipe, async ({ load, picture }) => {
-  await load(scenes, ['inspections.glb']);
+  await load(scenes, ['debug_views.glb']);
   for (const look of ['alpha', 'depth', 'features', 'mlp-weight', 'normals', 'overdraw', 'texels', 'triangle-id', 'wireframe'])
-    assertSame(`inspection_${look}`, golden(`inspection_${look}`),
+    assertSame(`debug_view_${look}`, golden(`debug_view_${look}`),
                await picture({ from: 0, width: 160, height: 120, look, features: { first: 4, count: 3 } }));
 }));
 

@@ -11,7 +11,7 @@
 #include "image/png.hpp"
 #include "image/png_rows.hpp"
 #include "image/video_file.hpp"
-#include "runtime/debug_views/inspector.hpp"
+#include "runtime/debug_views/debug_view_renderer.hpp"
 #include "runtime/picture_tiles.hpp"
 
 namespace tureen::viewer {
@@ -55,11 +55,11 @@ void write_picture(const PictureJob& job, const StageRequest& request) {
   const auto progress = [&](double done) {
     request.progress(preparing_share + (1 - preparing_share) * done);
   };
-  if (job.look.what != Inspection::color) {
-    Inspector inspector(request.context, job.scene.soup(), job.scene.scene->origin,
-                        {.background = background});
-    inspector.show(job.look.what, job.look.features);
-    PictureTiles tiles = tiles_of(inspector, request.context.capabilities());
+  if (job.debug_view.what != DebugView::color) {
+    DebugViewRenderer debug_renderer(request.context, job.scene.soup(), job.scene.scene->origin,
+                                     {.background = background});
+    debug_renderer.show(job.debug_view.what, job.debug_view.features);
+    PictureTiles tiles = tiles_of(debug_renderer, request.context.capabilities());
     tiles.progress = progress;
     write_rows(job, [&](const BandSink& sink) { draw_in_bands(job.camera, tiles, sink); });
     return;

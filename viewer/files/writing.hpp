@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "camera/camera_path.hpp"
-#include "viewer/look.hpp"
+#include "viewer/debug_view_choice.hpp"
 #include "viewer/stage.hpp"
 
 namespace tureen::viewer {
@@ -13,7 +13,7 @@ namespace tureen::viewer {
 struct PictureJob {
   StageSource scene;
   Camera camera;  // with the picture's size, which may be beyond the device's
-  Look look = {};
+  DebugViewChoice debug_view = {};
   bool transparent = false;
   std::filesystem::path path;
 };

@@ -33,13 +33,13 @@ void next_up(State& state) {
   state.messages.note("Up is now " + axis_name(up_axes[next]), state.now);
 }
 
-void next_look(State& state) {
+void next_debug_view(State& state) {
   if (!state.stage) return;
-  const auto names = inspection_names();
-  std::size_t next = std::size_t(state.look.what);
+  const auto names = debug_view_names();
+  std::size_t next = std::size_t(state.debug_view.what);
   do next = (next + 1) % names.size();
   while (why_not(names[next].what, state.stage->soup()));
-  state.look.what = names[next].what;
+  state.debug_view.what = names[next].what;
 }
 
 void next_comparison(State& state) {
@@ -80,7 +80,7 @@ const std::array table = {
     Shortcut{Key::right_bracket, false, views, "the next recorded camera",
              [](State& s) { step_recorded(s, 1); }},
     Shortcut{Key::c, false, views, "photograph: off, split, alone, difference", next_comparison},
-    Shortcut{Key::v, false, views, "the next thing to look at", next_look},
+    Shortcut{Key::v, false, views, "the next debug view", next_debug_view},
     Shortcut{Key::k, false, pictures, "add this view to the camera path",
              [](State& s) { s.ask(AddKeyframe{}); }},
     Shortcut{Key::space, false, pictures, "play the camera path, or stop it",

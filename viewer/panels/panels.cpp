@@ -42,7 +42,7 @@ void draw_panels(State& state, const FrameClock& clock) {
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
   section("Scene", true, [&] { scene_panel(state); });
   section("View", true, [&] { view_panel(state); });
-  section("Look", true, [&] { look_panel(state); });
+  section("Debug view", true, [&] { debug_view_panel(state); });
   section("Drawing", false, [&] { drawing_panel(state); });
   section("Photographs", false, [&] { comparison_panel(state); });
   section("Pictures", false, [&] { picture_panel(state); });

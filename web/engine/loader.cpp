@@ -5,7 +5,7 @@
 #include "camera/up_axis.hpp"
 #include "formats/scene_file.hpp"
 #include "formats/tureen_glb/tureen_glb_preview.hpp"
-#include "runtime/debug_views/inspection.hpp"
+#include "runtime/debug_views/debug_view.hpp"
 #include "runtime/render_options.hpp"
 #include "scene/edit/edits.hpp"
 #include "web/engine/commands.hpp"
@@ -35,7 +35,7 @@ Loader& loader() {
 
 Json looks_of(const TriangleSoup& soup) {
   Json looks = Json::array();
-  for (const InspectionName& name : inspection_names()) {
+  for (const DebugViewName& name : debug_view_names()) {
     const auto reason = why_not(name.what, soup);
     looks.push_back({{"look", name.name},
                      {"title", name.title},

@@ -50,21 +50,21 @@ void PageView::set_viewport(int width, int height) {
 
 void PageView::drop_scene() {
   stage_.reset();
-  inspector_.reset();
-  look_ = Inspection::color;
+  debug_renderer_.reset();
+  look_ = DebugView::color;
 }
 
-void PageView::look(Inspection what, const FeatureChoice& features) {
-  if (what != Inspection::color) inspector_.value().show(what, features);
+void PageView::look(DebugView what, const FeatureChoice& features) {
+  if (what != DebugView::color) debug_renderer_.value().show(what, features);
   look_ = what;
 }
 
-void PageView::set_inspector(Inspector inspector) {
-  inspector_.emplace(std::move(inspector));
-  inspector_->set_background(glm::vec4(background_, 1.0f));
+void PageView::set_debug_view_renderer(DebugViewRenderer debug_renderer) {
+  debug_renderer_.emplace(std::move(debug_renderer));
+  debug_renderer_->set_background(glm::vec4(background_, 1.0f));
 }
 
-Legend PageView::legend() const { return looks_into() ? inspector_->legend() : Legend{}; }
+Legend PageView::legend() const { return looks_into() ? debug_renderer_->legend() : Legend{}; }
 
 bool PageView::moving() { return controls().moving() || flight_.direction != glm::dvec3(0.0); }
 
@@ -83,7 +83,7 @@ void PageView::set_background(glm::vec3 background) {
   background_ = background;
   for (std::optional<Stage>* stage : {&stage_, &preview_})
     if (*stage) (*stage)->renderer.set_background(glm::vec4(background, 1.0f));
-  if (inspector_) inspector_->set_background(glm::vec4(background, 1.0f));
+  if (debug_renderer_) debug_renderer_->set_background(glm::vec4(background, 1.0f));
 }
 
 void PageView::draw(int width, int height, double seconds) {
@@ -91,14 +91,14 @@ void PageView::draw(int width, int height, double seconds) {
   if (!shows_scene()) return clear_canvas(width, height);
   draw_frame(controls().camera(width, height));
   if (looks_into())
-    inspector_->blit_to(0);
+    debug_renderer_->blit_to(0);
   else
     current()->renderer.blit_to(0);
 }
 
 void PageView::draw_frame(const Camera& camera) {
   if (looks_into())
-    inspector_->draw(camera);
+    debug_renderer_->draw(camera);
   else
     current()->renderer.draw(camera);
 }
@@ -118,7 +118,7 @@ Image8 PageView::picture(int width, int height) {
 
 Image8 PageView::picture(const Camera& camera) {
   draw_frame(camera);
-  return looks_into() ? inspector_->read_color() : current()->renderer.read_color();
+  return looks_into() ? debug_renderer_->read_color() : current()->renderer.read_color();
 }
 
 }  // namespace tureen::web

@@ -7,7 +7,7 @@
 
 #include "camera/camera_controls.hpp"
 #include "image/image.hpp"
-#include "runtime/debug_views/inspector.hpp"
+#include "runtime/debug_views/debug_view_renderer.hpp"
 #include "runtime/gl/context.hpp"
 #include "runtime/renderer.hpp"
 
@@ -38,9 +38,9 @@ class PageView {
   const Renderer& renderer() const { return current()->renderer; }
 
   /// Throws UsageError with why_not()'s sentence.
-  void look(Inspection what, const FeatureChoice& features);
-  bool has_inspector() const { return inspector_.has_value(); }
-  void set_inspector(Inspector inspector);
+  void look(DebugView what, const FeatureChoice& features);
+  bool has_debug_view_renderer() const { return debug_renderer_.has_value(); }
+  void set_debug_view_renderer(DebugViewRenderer debug_renderer);
   Legend legend() const;
 
   /// Of what is shown; where nothing is, of nothing in particular.
@@ -78,13 +78,13 @@ class PageView {
   Stage make_stage(Renderer renderer, ShownScene scene) const;
   const Stage* current() const { return preview_ ? &*preview_ : stage_ ? &*stage_ : nullptr; }
   Stage* current() { return preview_ ? &*preview_ : stage_ ? &*stage_ : nullptr; }
-  bool looks_into() const { return look_ != Inspection::color && !preview_; }
+  bool looks_into() const { return look_ != DebugView::color && !preview_; }
   void draw_frame(const Camera& camera);
 
   gl::Context context_;
   std::optional<Stage> stage_, preview_;
-  std::optional<Inspector> inspector_;  // of the stage
-  Inspection look_ = Inspection::color;
+  std::optional<DebugViewRenderer> debug_renderer_;  // of the stage
+  DebugView look_ = DebugView::color;
   CameraControls idle_;
   std::optional<glm::ivec2> viewport_;
   Flight flight_;

@@ -215,18 +215,18 @@ Json background(const Json& color) {
 }
 
 /// {"folder", "paths"}: the scene again, for looks that want more of it than the renderer has.
-Json open_inspector(const Json& arguments) {
+Json open_debug_view_renderer(const Json& arguments) {
   Scene scene = read_scene(scene_path(arguments));
   opaque_soup(scene);
-  view().set_inspector(
-      Inspector(view().context(), std::get<TriangleSoup>(scene.primitives), scene.origin));
+  view().set_debug_view_renderer(
+      DebugViewRenderer(view().context(), std::get<TriangleSoup>(scene.primitives), scene.origin));
   return nullptr;
 }
 
 /// {"look", "first"?, "count"?}
 Json look(const Json& arguments) {
   const auto name = arguments.at("look").get<std::string>();
-  const auto what = inspection_named(name);
+  const auto what = debug_view_named(name);
   if (!what) throw UsageError("there is no look \"" + name + "\"");
   view().look(*what, {.first = arguments.value("first", 0), .count = arguments.value("count", 3)});
   return nullptr;
@@ -251,8 +251,9 @@ Commands viewer_commands() {
                    {"draw", draw},
                    {"picture", picture},
                    {"background", background},
-                   {"has_inspector", [](const Json&) { return Json(view().has_inspector()); }},
-                   {"open_inspector", open_inspector},
+                   {"has_debug_view_renderer",
+                    [](const Json&) { return Json(view().has_debug_view_renderer()); }},
+                   {"open_debug_view_renderer", open_debug_view_renderer},
                    {"look", look},
                    {"legend", legend}});
   return commands;

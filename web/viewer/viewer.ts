@@ -331,9 +331,9 @@ class CanvasViewer implements Viewer {
 
   async show(look: string, features = { first: 0, count: 3 }): Promise<void> {
     const mine = ++this.looksAsked;
-    if (look !== 'color' && !this.engine.call<boolean>('has_inspector')) {
+    if (look !== 'color' && !this.engine.call<boolean>('has_debug_view_renderer')) {
       if (!this.opening || this.opening.source !== this.source)
-        this.opening = { source: this.source, done: this.openInspector() };
+        this.opening = { source: this.source, done: this.openDebugViewRenderer() };
       const { opening } = this;
       try {
         await opening.done;
@@ -348,14 +348,14 @@ class CanvasViewer implements Viewer {
   }
 
   /** Reads the scene again: what a renderer holds is less than what there is to see. */
-  private async openInspector(): Promise<void> {
+  private async openDebugViewRenderer(): Promise<void> {
     const source = this.source;
     if (!source) throw new ViewerError('There is no scene to look into.', 'usage');
     const name = this.shown!.name;
     const files = 'url' in source ? oneFile(name, await download(urlOf(source), () => {}))
                                   : await openFiles(source.files, source.name ?? name);
     if (this.source !== source) throw new ViewerError('Another scene is shown by now.', 'cancelled');
-    readWith(this.engine, 'open_inspector', files);
+    readWith(this.engine, 'open_debug_view_renderer', files);
   }
 
   get stats(): FrameStats {

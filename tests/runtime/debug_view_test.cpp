@@ -1,6 +1,6 @@
-// What inspections show, held against values that the oracle's rays and the model give on the CPU,
+// What debug views show, held against values that the oracle's rays and the model give on the CPU,
 // on random soups of every appearance and on every context.
-#include "runtime/debug_views/inspection.hpp"
+#include "runtime/debug_views/debug_view.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 #include "oracle/hits.hpp"
 #include "oracle/shade.hpp"
 #include "oracle/uv_sampling.hpp"
-#include "runtime/debug_views/inspector.hpp"
+#include "runtime/debug_views/debug_view_renderer.hpp"
 #include "runtime/renderer.hpp"
 #include "scene/lattice.hpp"
 #include "tests/support/contexts.hpp"
@@ -22,7 +22,7 @@
 #include "tests/support/random_soups.hpp"
 
 namespace tureen::test {
-namespace inspection_test {
+namespace debug_view_test {
 
 using oracle::Hit;
 using testing::AllOf;
@@ -180,10 +180,10 @@ using Expected = std::function<std::optional<glm::dvec3>(int column, int row, co
 /// Compares where device and oracle name the same face. A byte may be off by `steps`; pixels that
 /// are off by more are counted: a value that float cannot tell from a threshold or from the border
 /// of a cell falls to the other side.
-void expect_shown(const Scenery& scenery, const Inspector& inspector, const Expected& expected,
-                  double steps, double most_off = 0.002) {
-  const Image8 picture = inspector.read_color();
-  const std::vector<std::uint32_t> faces = inspector.read_faces();
+void expect_shown(const Scenery& scenery, const DebugViewRenderer& debug_renderer,
+                  const Expected& expected, double steps, double most_off = 0.002) {
+  const Image8 picture = debug_renderer.read_color();
+  const std::vector<std::uint32_t> faces = debug_renderer.read_faces();
   const auto hits = all_hits(scenery);
   std::size_t compared = 0, off = 0;
   for (int row = 0; row < height; ++row)
@@ -207,12 +207,13 @@ void expect_shown(const Scenery& scenery, const Inspector& inspector, const Expe
       << "seed " << scenery.seed << ", of " << compared;
 }
 
-class Inspections : public testing::TestWithParam<NamedContext> {
+class DebugViews : public testing::TestWithParam<NamedContext> {
  protected:
   gl::Context context = gl::Context::create(GetParam().request);
 
-  Inspector inspector(const Scenery& scenery, Inspection what, FeatureChoice choice = {}) const {
-    Inspector result(context, scenery.soup, {}, {.background = glm::vec4(0.0f)});
+  DebugViewRenderer debug_renderer(const Scenery& scenery, DebugView what,
+                                   FeatureChoice choice = {}) const {
+    DebugViewRenderer result(context, scenery.soup, {}, {.background = glm::vec4(0.0f)});
     result.show(what, choice);
     result.draw(scenery.camera);
     return result;
@@ -223,38 +224,37 @@ class Inspections : public testing::TestWithParam<NamedContext> {
 /// another half where neighbours differ by everything.
 constexpr double rounding = 1.02;
 
-TEST_P(Inspections, ShowTheFacesOfTheOrdinaryFrame) {
+TEST_P(DebugViews, ShowTheFacesOfTheOrdinaryFrame) {
   std::uint64_t seed = 30;
   for (const Kind kind : all_kinds) {
     const Scenery scenery(++seed, kind);
     Renderer renderer(context, scenery.soup, {}, {.plan = {.site = ShadingSite::deferred}});
     renderer.draw(scenery.camera);
     const auto expected = renderer.read_faces();
-    for (const InspectionName& name : inspection_names()) {
-      const bool all_fragments =
-          name.what == Inspection::alpha || name.what == Inspection::overdraw;
+    for (const DebugViewName& name : debug_view_names()) {
+      const bool all_fragments = name.what == DebugView::alpha || name.what == DebugView::overdraw;
       if (why_not(name.what, scenery.soup) || all_fragments) continue;
-      const Inspector shown = inspector(scenery, name.what, {0, 1});
+      const DebugViewRenderer shown = debug_renderer(scenery, name.what, {0, 1});
       EXPECT_EQ(shown.read_faces(), expected) << name.name << ", seed " << seed;
       const Image8 picture = shown.read_color();
       std::size_t off = 0;
       for (std::size_t i = 0; i < expected.size(); ++i)
         off += (picture.pixels[i].a == 255) != (expected[i] != no_face);
       // Lines outline also what the alpha test throws away.
-      const bool same = off == 0 || name.what == Inspection::wireframe;
+      const bool same = off == 0 || name.what == DebugView::wireframe;
       EXPECT_TRUE(same) << name.name << ", seed " << seed << ": " << off << " pixels";
     }
   }
 }
 
-TEST_P(Inspections, FinalColorsAreThoseOfTheRenderer) {
+TEST_P(DebugViews, FinalColorsAreThoseOfTheRenderer) {
   std::uint64_t seed = 60;
   for (const Kind kind : all_kinds) {
     const Scenery scenery(++seed, kind);
     Renderer renderer(context, scenery.soup, {}, {.background = glm::vec4(0.0f)});
     renderer.draw(scenery.camera);
     const Image8 expected = renderer.read_color();
-    const Image8 shown = inspector(scenery, Inspection::color).read_color();
+    const Image8 shown = debug_renderer(scenery, DebugView::color).read_color();
     // What plans leave out may move a colour by half a step, which rounding makes a whole one.
     for (std::size_t i = 0; i < shown.pixels.size(); ++i)
       for (int c = 0; c < 4; ++c)
@@ -263,54 +263,54 @@ TEST_P(Inspections, FinalColorsAreThoseOfTheRenderer) {
   }
 }
 
-TEST_P(Inspections, DepthIsTheOraclesOnItsScale) {
+TEST_P(DebugViews, DepthIsTheOraclesOnItsScale) {
   const Scenery scenery(3, Kind::face_colors);
   const DepthScale scale = depth_scale(middle_bounds(scenery.soup), scenery.camera.eye());
   // Float depths of faces that are seen edge-on: 1e-5 of the depth is a hundredth of a step.
   expect_shown(
-      scenery, inspector(scenery, Inspection::depth),
+      scenery, debug_renderer(scenery, DebugView::depth),
       [&](int, int, const Hit& hit) {
         return glm::dvec3(heat_ramp(float(1 - scale.position(hit.depth))));
       },
       1.02);
 }
 
-TEST_P(Inspections, NormalsAreTurnedTowardsTheEye) {
+TEST_P(DebugViews, NormalsAreTurnedTowardsTheEye) {
   const Scenery scenery(4, Kind::vertex_colors);
   const oracle::Rays rays(scenery.soup, {}, scenery.camera);
   expect_shown(
-      scenery, inspector(scenery, Inspection::normals),
+      scenery, debug_renderer(scenery, DebugView::normals),
       [&](int column, int row, const Hit& hit) {
         return 0.5 * normal_of(scenery.soup, hit.face, rays.to_eye(column, row)) + 0.5;
       },
       0.52);
 }
 
-TEST_P(Inspections, TriangleColorsAreThoseOfTheSoupsOwnIndices) {
+TEST_P(DebugViews, TriangleColorsAreThoseOfTheSoupsOwnIndices) {
   const Scenery scenery(5, Kind::lattice);
   expect_shown(
-      scenery, inspector(scenery, Inspection::triangle_id),
+      scenery, debug_renderer(scenery, DebugView::triangle_id),
       [](int, int, const Hit& hit) { return glm::dvec3(triangle_color(hit.face)); }, 0.52, 0.0);
 }
 
-TEST_P(Inspections, LatticesShowTheNearestTexel) {
+TEST_P(DebugViews, LatticesShowTheNearestTexel) {
   for (const Kind kind : {Kind::lattice, Kind::lattice_mlp}) {
     const Scenery scenery(6, kind, 0.6);
     const auto& texture = std::get<LatticeTexture>(scenery.soup.appearance);
     // On the border of two cells either is right: at level 7 on a small face most pixels are near
     // one, and the 16 bits of barycentrics decide.
     expect_shown(
-        scenery, inspector(scenery, Inspection::texels),
+        scenery, debug_renderer(scenery, DebugView::texels),
         [&](int, int, const Hit& hit) { return nearest_texel(texture, clamped(hit)); }, 0.52, 0.02);
   }
 }
 
-TEST_P(Inspections, ImagesShowTheNearestTexel) {
+TEST_P(DebugViews, ImagesShowTheNearestTexel) {
   for (const Kind kind : {Kind::uv_textures, Kind::uv_textures_mlp}) {
     const Scenery scenery(7, kind, 0.6);
     const auto& textures = std::get<UvTextures>(scenery.soup.appearance);
     expect_shown(
-        scenery, inspector(scenery, Inspection::texels),
+        scenery, debug_renderer(scenery, DebugView::texels),
         [&](int, int, const Hit& hit) -> std::optional<glm::dvec3> {
           const Point p = clamped(hit);
           UvMaterial material = textures.materials[textures.material_of_face[p.face]];
@@ -325,12 +325,12 @@ TEST_P(Inspections, ImagesShowTheNearestTexel) {
   }
 }
 
-TEST_P(Inspections, AlphaShowsAlsoWhatIsCutOut) {
+TEST_P(DebugViews, AlphaShowsAlsoWhatIsCutOut) {
   std::uint64_t seed = 8;
   for (const Kind kind : {Kind::face_colors, Kind::vertex_colors, Kind::lattice, Kind::lattice_mlp,
                           Kind::uv_textures, Kind::uv_textures_mlp}) {
     const Scenery scenery(++seed, kind);
-    const Inspector shown = inspector(scenery, Inspection::alpha);
+    const DebugViewRenderer shown = debug_renderer(scenery, DebugView::alpha);
     const auto hits = all_hits(scenery);
     const auto faces = shown.read_faces();
     std::size_t others = 0, cut_out = 0;
@@ -352,7 +352,7 @@ TEST_P(Inspections, AlphaShowsAlsoWhatIsCutOut) {
   }
 }
 
-TEST_P(Inspections, FeaturesAreStoredValues) {
+TEST_P(DebugViews, FeaturesAreStoredValues) {
   for (const auto& [kind, choice] : {std::pair(Kind::lattice, FeatureChoice{4, 3}),
                                      {Kind::lattice_mlp, FeatureChoice{0, 3}},
                                      {Kind::lattice_mlp, FeatureChoice{5, 1}},
@@ -360,7 +360,7 @@ TEST_P(Inspections, FeaturesAreStoredValues) {
                                      {Kind::uv_textures_mlp, FeatureChoice{5, 3}}}) {
     const Scenery scenery(12, kind);
     expect_shown(
-        scenery, inspector(scenery, Inspection::features, choice),
+        scenery, debug_renderer(scenery, DebugView::features, choice),
         [&, first = std::size_t(choice.first), count = choice.count](int, int, const Hit& hit) {
           const auto values = channels(scenery.soup, clamped(hit));
           if (count == 1) return glm::dvec3(values[first]);
@@ -370,17 +370,17 @@ TEST_P(Inspections, FeaturesAreStoredValues) {
   }
 }
 
-TEST_P(Inspections, TheWeightOfTheNetworkIsItsBlendChannel) {
+TEST_P(DebugViews, TheWeightOfTheNetworkIsItsBlendChannel) {
   const Scenery scenery(13, Kind::lattice_mlp);
   expect_shown(
-      scenery, inspector(scenery, Inspection::mlp_weight),
+      scenery, debug_renderer(scenery, DebugView::mlp_weight),
       [&](int, int, const Hit& hit) { return glm::dvec3(channels(scenery.soup, clamped(hit))[3]); },
       rounding);
 }
 
-TEST_P(Inspections, OverdrawCountsEveryFragment) {
+TEST_P(DebugViews, OverdrawCountsEveryFragment) {
   const Scenery scenery(14, Kind::lattice, 0.7);
-  const Inspector shown = inspector(scenery, Inspection::overdraw);
+  const DebugViewRenderer shown = debug_renderer(scenery, DebugView::overdraw);
   const auto counts = shown.read_fragment_counts();
   const Image8 picture = shown.read_color();
   const auto hits = all_hits(scenery);
@@ -400,23 +400,23 @@ TEST_P(Inspections, OverdrawCountsEveryFragment) {
   EXPECT_LE(double(off), 1e-3 * double(counts.size())) << "seed " << scenery.seed;
 }
 
-TEST_P(Inspections, MoreFragmentsThanCanBeCountedAreTheMost) {
+TEST_P(DebugViews, MoreFragmentsThanCanBeCountedAreTheMost) {
   TriangleSoup soup;
   soup.positions = {{-9, -9, 0}, {9, -9, 0}, {0, 18, 0}};
   soup.triangles.assign(300, glm::uvec3(0, 1, 2));
   soup.appearance = FaceColors{std::vector<glm::vec4>(300, glm::vec4(1))};
-  Inspector shown(context, soup, {});
-  shown.show(Inspection::overdraw);
+  DebugViewRenderer shown(context, soup, {});
+  shown.show(DebugView::overdraw);
   shown.draw(look_at({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 0.8, 16, 16));
   for (const std::uint8_t count : shown.read_fragment_counts())
     ASSERT_EQ(int(count), most_counted_fragments);
 }
 
-TEST_P(Inspections, WireframesOutlineWholeTriangles) {
+TEST_P(DebugViews, WireframesOutlineWholeTriangles) {
   const Scenery scenery(15, Kind::face_colors, 0.5);
-  const Inspector shown = inspector(scenery, Inspection::wireframe);
+  const DebugViewRenderer shown = debug_renderer(scenery, DebugView::wireframe);
   const Image8 picture = shown.read_color();
-  const Image8 colors = inspector(scenery, Inspection::color).read_color();
+  const Image8 colors = debug_renderer(scenery, DebugView::color).read_color();
   const glm::u8vec4 line(240, 240, 240, 255);
   const auto faces = shown.read_faces();
   std::size_t lines = 0, off = 0, compared = 0;
@@ -458,43 +458,43 @@ TEST_P(Inspections, WireframesOutlineWholeTriangles) {
   EXPECT_LE(off, 5u) << "seed " << scenery.seed;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Inspections, testing::ValuesIn(every_context),
+INSTANTIATE_TEST_SUITE_P(All, DebugViews, testing::ValuesIn(every_context),
                          [](const auto& test) { return std::string(test.param.name); });
 
 // -- without a device ---------------------------------------------------------------------------
 
-TEST(InspectionNames, FindThemselves) {
-  for (const InspectionName& name : inspection_names()) {
-    EXPECT_EQ(inspection_named(name.name), name.what);
+TEST(DebugViewNames, FindThemselves) {
+  for (const DebugViewName& name : debug_view_names()) {
+    EXPECT_EQ(debug_view_named(name.name), name.what);
     EXPECT_STREQ(name_of(name.what), name.name);
   }
-  EXPECT_EQ(inspection_named("deep"), std::nullopt);
+  EXPECT_EQ(debug_view_named("deep"), std::nullopt);
 }
 
-TEST(InspectionReasons, AreThereForWhatTheSoupLacks) {
-  const auto reason = [](Inspection what, Kind kind) {
+TEST(DebugViewReasons, AreThereForWhatTheSoupLacks) {
+  const auto reason = [](DebugView what, Kind kind) {
     return why_not(what, random_soup(1, {.kind = kind})).value_or("");
   };
-  EXPECT_NE(reason(Inspection::texels, Kind::vertex_colors), "");
-  EXPECT_NE(reason(Inspection::alpha, Kind::face_harmonics), "");
-  EXPECT_NE(reason(Inspection::mlp_weight, Kind::lattice), "");
+  EXPECT_NE(reason(DebugView::texels, Kind::vertex_colors), "");
+  EXPECT_NE(reason(DebugView::alpha, Kind::face_harmonics), "");
+  EXPECT_NE(reason(DebugView::mlp_weight, Kind::lattice), "");
   // A network that there is, but makes the whole colour, has another reason.
-  EXPECT_THAT(reason(Inspection::mlp_weight, Kind::uv_textures_mlp),
-              AllOf(Ne(""), Ne(reason(Inspection::mlp_weight, Kind::uv_textures))));
-  EXPECT_NE(reason(Inspection::features, Kind::uv_textures), "");
-  for (const InspectionName& name : inspection_names())
+  EXPECT_THAT(reason(DebugView::mlp_weight, Kind::uv_textures_mlp),
+              AllOf(Ne(""), Ne(reason(DebugView::mlp_weight, Kind::uv_textures))));
+  EXPECT_NE(reason(DebugView::features, Kind::uv_textures), "");
+  for (const DebugViewName& name : debug_view_names())
     EXPECT_EQ(reason(name.what, Kind::lattice_mlp), "") << name.name;
   EXPECT_EQ(why_not(FeatureChoice{4, 3}, 7), std::nullopt);
   EXPECT_THAT(why_not(FeatureChoice{5, 3}, 7).value_or(""), Names(0, 6));
   EXPECT_TRUE(why_not(FeatureChoice{0, 4}, 7));
 }
 
-TEST(InspectionReasons, AreThrownByTheInspector) {
+TEST(DebugViewReasons, AreThrownByTheRenderer) {
   const gl::Context context = gl::Context::create(osmesa);
-  Inspector inspector(context, random_soup(1, {.kind = Kind::lattice}), {});
-  EXPECT_THROW(inspector.show(Inspection::mlp_weight), UsageError);
-  EXPECT_THROW(inspector.show(Inspection::features, {6, 2}), UsageError);
-  EXPECT_NO_THROW(inspector.show(Inspection::features, {6, 1}));
+  DebugViewRenderer debug_renderer(context, random_soup(1, {.kind = Kind::lattice}), {});
+  EXPECT_THROW(debug_renderer.show(DebugView::mlp_weight), UsageError);
+  EXPECT_THROW(debug_renderer.show(DebugView::features, {6, 2}), UsageError);
+  EXPECT_NO_THROW(debug_renderer.show(DebugView::features, {6, 1}));
 }
 
 TEST(TriangleColors, AreFarApartAndBright) {
@@ -533,16 +533,16 @@ TEST(DepthScales, FollowTheMiddleOfTheScene) {
 
 TEST(Legends, NameColorsWhereNumbersHideInThem) {
   const DepthScale scale{1, 16};
-  const Legend depth = legend(Inspection::depth, scale, {});
+  const Legend depth = legend(DebugView::depth, scale, {});
   ASSERT_EQ(depth.size(), 5u);
   EXPECT_EQ(depth[0].text, "1");
   EXPECT_EQ(depth[2].text, "4");
   EXPECT_EQ(depth[4].text, "16");
   EXPECT_EQ(depth[0].color, glm::u8vec4(255));
-  EXPECT_THAT(legend(Inspection::overdraw, scale, {}).back().text, Names(255));
-  EXPECT_EQ(legend(Inspection::features, scale, {4, 3})[2].text, "feature 6");
-  EXPECT_TRUE(legend(Inspection::color, scale, {}).empty());
+  EXPECT_THAT(legend(DebugView::overdraw, scale, {}).back().text, Names(255));
+  EXPECT_EQ(legend(DebugView::features, scale, {4, 3})[2].text, "feature 6");
+  EXPECT_TRUE(legend(DebugView::color, scale, {}).empty());
 }
 
-}  // namespace inspection_test
+}  // namespace debug_view_test
 }  // namespace tureen::test

@@ -1,4 +1,4 @@
-#include "cli/show_option.hpp"
+#include "cli/debug_view_option.hpp"
 
 #include <fmt/format.h>
 
@@ -9,11 +9,11 @@ namespace tureen::cli {
 
 namespace {
 
-Inspection inspection_of(const std::string& name) {
-  if (const auto known = inspection_named(name)) return *known;
+DebugView debug_view_of(const std::string& name) {
+  if (const auto known = debug_view_named(name)) return *known;
   std::vector<std::string> names;
-  for (const InspectionName& known : inspection_names()) names.emplace_back(known.name);
-  throw unknown_word("--show", name, names);
+  for (const DebugViewName& known : debug_view_names()) names.emplace_back(known.name);
+  throw unknown_word("--debug-view", name, names);
 }
 
 /// "3" or "4-6".
@@ -25,30 +25,32 @@ FeatureChoice parse_features(const std::string& text) {
   const int last =
       dash == std::string::npos ? first : parse_integer(text.substr(dash + 1), 0, most);
   if (last < first || last > first + 2)
-    throw UsageError("--show features:" + text +
+    throw UsageError("--debug-view features:" + text +
                      ": needs one to three consecutive features, such as 3 or 4-6");
   return {first, last - first + 1};
 }
 
 }  // namespace
 
-ShowOption parse_show(const std::string& text) {
+DebugViewOption parse_debug_view(const std::string& text) {
   const std::size_t colon = text.find(':');
-  ShowOption show{.what = inspection_of(text.substr(0, colon))};
+  DebugViewOption show{.what = debug_view_of(text.substr(0, colon))};
   if (colon == std::string::npos) return show;
-  if (show.what != Inspection::features)
-    throw UsageError("--show " + text + ": only features takes numbers, such as features:4-6");
+  if (show.what != DebugView::features)
+    throw UsageError("--debug-view " + text +
+                     ": only features takes numbers, such as features:4-6");
   show.features = parse_features(text.substr(colon + 1));
   return show;
 }
 
-Option add_show_option(Command& command, ShowOption& show) {
+Option add_debug_view_option(Command& command, DebugViewOption& show) {
   return command
       .add_option(
-          "--show", [&show](const std::string& text) { show = parse_show(text); },
+          "--debug-view,--show",
+          [&show](const std::string& text) { show = parse_debug_view(text); },
           "debug view instead of the final colour: depth, normals, triangle-id, texels, alpha, "
           "mlp-weight, features (features:3 as grey, features:4-6 as red, green, blue), overdraw "
-          "or wireframe; draws the stored soup with one sample a pixel (docs/looking.md)")
+          "or wireframe; draws the stored soup with one sample a pixel (docs/debug-views.md)")
       .value_name("NAME");
 }
 

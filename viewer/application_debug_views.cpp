@@ -1,4 +1,4 @@
-// What is looked at beside the colours, prepared when it is first asked for: inspections, and the
+// What is looked at beside the colours, prepared when it is first asked for: debug views, and the
 // comparison with a photograph.
 #include "base/error.hpp"
 #include "image/heat_map.hpp"
@@ -7,30 +7,31 @@
 
 namespace tureen::viewer {
 
-void Application::inspect_when_needed() {
-  if (state_.look.what == Inspection::color || !state_.stage || state_.inspector ||
-      inspector_asked_)
+void Application::prepare_debug_view_when_needed() {
+  if (state_.debug_view.what == DebugView::color || !state_.stage || state_.debug_renderer ||
+      debug_renderer_asked_)
     return;
-  inspector_asked_ = true;
+  debug_renderer_asked_ = true;
   const StageSource scene = state_.stage->source();
-  const InspectorOptions options{.background = glm::vec4(scene.scene->info.background, 1.0f)};
-  worker_.start({.kind = JobKind::inspection,
-                 .what = "preparing to look into " + short_name(scene.path),
+  const DebugViewOptions options{.background = glm::vec4(scene.scene->info.background, 1.0f)};
+  worker_.start({.kind = JobKind::debug_view,
+                 .what = "preparing debug views of " + short_name(scene.path),
                  .work =
                      [this, scene, options](const Worker::Progress&) {
-                       auto inspector = std::make_shared<Inspector>(window_.context(), scene.soup(),
-                                                                    scene.scene->origin, options);
-                       inspector->leave_context();
-                       return Worker::Completion([this, inspector, of = scene.scene] {
+                       auto debug_renderer = std::make_shared<DebugViewRenderer>(
+                           window_.context(), scene.soup(), scene.scene->origin, options);
+                       debug_renderer->leave_context();
+                       return Worker::Completion([this, debug_renderer, of = scene.scene] {
                          if (!state_.stage || state_.stage->scene != of) return;
-                         state_.inspector = std::make_unique<Inspector>(std::move(*inspector));
+                         state_.debug_renderer =
+                             std::make_unique<DebugViewRenderer>(std::move(*debug_renderer));
                          picture_is_current_ = false;
                        });
                      },
                  .failed =
                      [this](const std::string& reason) {
-                       state_.look.what = Inspection::color;
-                       inspector_asked_ = false;
+                       state_.debug_view.what = DebugView::color;
+                       debug_renderer_asked_ = false;
                        state_.messages.error("It cannot be looked into", reason, state_.now);
                      }});
 }

@@ -1,6 +1,6 @@
 // Debug views: quantities of a soup that a frame can show besides its final colour. Defines their
-// names, their availability for a soup, and the values behind the colours. docs/looking.md shows
-// each. runtime/debug_views/inspector.hpp draws them.
+// names, their availability for a soup, and the values behind the colours. docs/debug-views.md
+// shows each. runtime/debug_views/debug_view_renderer.hpp draws them.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace tureen {
 
-enum class Inspection {
+enum class DebugView {
   color,        // as rendered
   depth,        // along the viewing axis; near is bright
   normals,      // (n + 1) / 2, world axes, turned towards the eye
@@ -28,20 +28,20 @@ enum class Inspection {
   wireframe,    // edges over the dimmed final colour
 };
 
-struct InspectionName {
-  Inspection what;
+struct DebugViewName {
+  DebugView what;
   const char* name;     // "triangle-id", for the command line
   const char* title;    // "triangle id", for people
   const char* meaning;  // in a few words
 };
 
 /// All debug views, in the order of the enumeration.
-std::span<const InspectionName> inspection_names();
+std::span<const DebugViewName> debug_view_names();
 
-const char* name_of(Inspection what);
+const char* name_of(DebugView what);
 
 /// The debug view with this name, or nullopt.
-std::optional<Inspection> inspection_named(std::string_view name);
+std::optional<DebugView> debug_view_named(std::string_view name);
 
 /// The displayed features: one as grey, two or three as red, green and blue.
 struct FeatureChoice {
@@ -54,7 +54,7 @@ struct FeatureChoice {
 int feature_count(const TriangleSoup& soup);
 
 /// The reason why this debug view is not available for this soup, as a sentence, or nullopt.
-std::optional<std::string> why_not(Inspection what, const TriangleSoup& soup);
+std::optional<std::string> why_not(DebugView what, const TriangleSoup& soup);
 /// The same for a choice among `feature_count` features, which is above 0.
 std::optional<std::string> why_not(const FeatureChoice& choice, int feature_count);
 
@@ -90,6 +90,6 @@ glm::vec3 overdraw_color(int count);
 glm::vec3 cut_out_color(float part_of_threshold);
 
 /// Legend of the colours, shown beside the image; empty for self-explanatory colours.
-Legend legend(Inspection what, const DepthScale& scale, const FeatureChoice& choice);
+Legend legend(DebugView what, const DepthScale& scale, const FeatureChoice& choice);
 
 }  // namespace tureen

@@ -20,17 +20,18 @@ void feature_choice(FeatureChoice& choice, int count) {
 
 }  // namespace
 
-void look_panel(State& state) {
+void debug_view_panel(State& state) {
   const TriangleSoup& soup = state.stage->soup();
-  Look& look = state.look;
-  const InspectionName& current = inspection_names()[std::size_t(look.what)];
+  DebugViewChoice& debug_view = state.debug_view;
+  const DebugViewName& current = debug_view_names()[std::size_t(debug_view.what)];
   ImGui::SetNextItemWidth(14 * ImGui::GetFontSize());
   if (ImGui::BeginCombo("shown", current.title, ImGuiComboFlags_HeightLarge)) {
-    for (const InspectionName& each : inspection_names()) {
+    for (const DebugViewName& each : debug_view_names()) {
       const std::optional<std::string> reason = why_not(each.what, soup);
       {
         const Disabled disabled(reason.has_value());
-        if (ImGui::Selectable(each.title, each.what == look.what)) look.what = each.what;
+        if (ImGui::Selectable(each.title, each.what == debug_view.what))
+          debug_view.what = each.what;
       }
       if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
         ImGui::SetTooltip("%s", reason ? reason->c_str() : each.meaning);
@@ -39,8 +40,10 @@ void look_panel(State& state) {
   }
   tip("V goes on to the next");
   aside(current.meaning);
-  if (look.what == Inspection::features) feature_choice(look.features, feature_count(soup));
-  if (look.what != Inspection::color && state.inspector) legend_rows(state.inspector->legend());
+  if (debug_view.what == DebugView::features)
+    feature_choice(debug_view.features, feature_count(soup));
+  if (debug_view.what != DebugView::color && state.debug_renderer)
+    legend_rows(state.debug_renderer->legend());
 }
 
 }  // namespace tureen::viewer

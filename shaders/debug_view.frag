@@ -1,9 +1,9 @@
 // Colours the pixels that the visibility pass has named by what they are: SHOWN is one of the
-// SHOW_.. constants, Inspection in C++.
+// SHOW_.. constants, DebugView in C++.
 #include "appearance.glsl"
 #include "face_corners.glsl"
 #include "heat_ramp.glsl"
-#include "inspected_appearance.glsl"
+#include "debug_view_appearance.glsl"
 #include "stored_fragment.glsl"
 #include "triangle_color.glsl"
 #include "view_direction.glsl"
@@ -32,16 +32,16 @@ vec3 shown(uint face, vec2 b) {
 #elif SHOWN == SHOW_TRIANGLE_ID
   return triangle_color(texelFetch(soup_faces, texel_position(face), 0).r);
 #elif SHOWN == SHOW_TEXELS
-  return inspected_texel(face, b);
+  return debug_view_texel(face, b);
 #elif SHOWN == SHOW_ALPHA
-  float alpha = inspected_alpha(face, b);
-  float threshold = inspected_threshold(face);
+  float alpha = debug_view_alpha(face, b);
+  float threshold = debug_view_threshold(face);
   if (alpha >= threshold) return vec3(alpha);
-  // cut_out_color() of runtime/debug_views/inspection.cpp.
+  // cut_out_color() of runtime/debug_views/debug_view.cpp.
   return mix(vec3(0.22, 0.08, 0.36), vec3(0.78, 0.42, 0.70), max(alpha, 0.0) / threshold);
 #elif SHOWN == SHOW_MLP_WEIGHT || SHOWN == SHOW_FEATURES
   vec4 first, second;
-  inspected_features(face, b, first, second);
+  debug_view_features(face, b, first, second);
   if (features_shown == 1) return vec3(feature(first, second, first_feature));
   return vec3(feature(first, second, first_feature), feature(first, second, first_feature + 1),
               features_shown > 2 ? feature(first, second, first_feature + 2) : 0.0);

@@ -1,4 +1,4 @@
-// Draws the debug views of runtime/debug_views/inspection.hpp for a soup, frame by frame. As in
+// Draws the debug views of runtime/debug_views/debug_view.hpp for a soup, frame by frame. As in
 // Renderer, the same faces cover the same pixels, with the exceptions below.
 //
 // It has its own buffers and textures of the stored soup: no specialisation is applied, and
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "image/image.hpp"
-#include "runtime/debug_views/inspection.hpp"
+#include "runtime/debug_views/debug_view.hpp"
 #include "runtime/gl/context.hpp"
 #include "runtime/plan/plan.hpp"
 #include "scene/camera.hpp"
@@ -19,30 +19,30 @@
 
 namespace tureen {
 
-struct InspectorOptions {
+struct DebugViewOptions {
   bool reversed_depth = true;  // if the device supports it, as in PlanPreferences
   /// Colour and alpha of pixels without content.
   glm::vec4 background{0.0f, 0.0f, 0.0f, 1.0f};
 };
 
-class Inspector {
+class DebugViewRenderer {
  public:
   /// The soup is not needed afterwards. It must have no defect(). Throws DeviceLimitError if it
   /// does not fit.
-  Inspector(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
-            const InspectorOptions& options = {});
-  ~Inspector();
-  Inspector(Inspector&&) noexcept;
-  Inspector& operator=(Inspector&&) noexcept;
+  DebugViewRenderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
+                    const DebugViewOptions& options = {});
+  ~DebugViewRenderer();
+  DebugViewRenderer(DebugViewRenderer&&) noexcept;
+  DebugViewRenderer& operator=(DebugViewRenderer&&) noexcept;
 
-  /// Selects the debug view of the next frames, default Inspection::color. Throws UsageError with
+  /// Selects the debug view of the next frames, default DebugView::color. Throws UsageError with
   /// the sentence of why_not().
-  void show(Inspection what, const FeatureChoice& features = {});
+  void show(DebugView what, const FeatureChoice& features = {});
 
   void set_background(glm::vec4 background);
 
   /// As Renderer::draw. A pixel shows the face or background of an ordinary frame, with three
-  /// exceptions for fragments that the alpha test rejects. Inspection::alpha shows the nearest face
+  /// exceptions for fragments that the alpha test rejects. DebugView::alpha shows the nearest face
   /// even if it is rejected, overdraw counts every fragment, and the wireframe outlines whole
   /// triangles if nothing is in front of them.
   void draw(const Camera& camera);

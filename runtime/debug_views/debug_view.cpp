@@ -1,4 +1,4 @@
-#include "runtime/debug_views/inspection.hpp"
+#include "runtime/debug_views/debug_view.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,18 +14,18 @@ namespace tureen {
 
 namespace {
 
-constexpr std::array inspections{
-    InspectionName{Inspection::color, "color", "final colour", "as it is drawn"},
-    InspectionName{Inspection::depth, "depth", "depth", "distance along the viewing axis"},
-    InspectionName{Inspection::normals, "normals", "normals", "(n + 1) / 2, towards the eye"},
-    InspectionName{Inspection::triangle_id, "triangle-id", "triangle id", "a colour a triangle"},
-    InspectionName{Inspection::texels, "texels", "texels", "the nearest texel, not interpolated"},
-    InspectionName{Inspection::alpha, "alpha", "alpha", "also where it is cut out"},
-    InspectionName{Inspection::mlp_weight, "mlp-weight", "MLP weight",
-                   "how much of the network is blended in"},
-    InspectionName{Inspection::features, "features", "features", "what the texels store"},
-    InspectionName{Inspection::overdraw, "overdraw", "overdraw", "fragments a pixel"},
-    InspectionName{Inspection::wireframe, "wireframe", "wireframe", "edges over the dimmed colour"},
+constexpr std::array debug_views{
+    DebugViewName{DebugView::color, "color", "final colour", "as it is drawn"},
+    DebugViewName{DebugView::depth, "depth", "depth", "distance along the viewing axis"},
+    DebugViewName{DebugView::normals, "normals", "normals", "(n + 1) / 2, towards the eye"},
+    DebugViewName{DebugView::triangle_id, "triangle-id", "triangle id", "a colour a triangle"},
+    DebugViewName{DebugView::texels, "texels", "texels", "the nearest texel, not interpolated"},
+    DebugViewName{DebugView::alpha, "alpha", "alpha", "also where it is cut out"},
+    DebugViewName{DebugView::mlp_weight, "mlp-weight", "MLP weight",
+                  "how much of the network is blended in"},
+    DebugViewName{DebugView::features, "features", "features", "what the texels store"},
+    DebugViewName{DebugView::overdraw, "overdraw", "overdraw", "fragments a pixel"},
+    DebugViewName{DebugView::wireframe, "wireframe", "wireframe", "edges over the dimmed colour"},
 };
 
 const ColorMlp* network_of(const TriangleSoup& soup) {
@@ -89,12 +89,12 @@ Legend feature_legend(const FeatureChoice& choice) {
 
 }  // namespace
 
-std::span<const InspectionName> inspection_names() { return inspections; }
+std::span<const DebugViewName> debug_view_names() { return debug_views; }
 
-const char* name_of(Inspection what) { return inspections[std::size_t(what)].name; }
+const char* name_of(DebugView what) { return debug_views[std::size_t(what)].name; }
 
-std::optional<Inspection> inspection_named(std::string_view name) {
-  for (const InspectionName& known : inspections)
+std::optional<DebugView> debug_view_named(std::string_view name) {
+  for (const DebugViewName& known : debug_views)
     if (name == known.name) return known.what;
   return std::nullopt;
 }
@@ -104,22 +104,22 @@ int feature_count(const TriangleSoup& soup) {
   return network_of(soup) ? 8 : 0;
 }
 
-std::optional<std::string> why_not(Inspection what, const TriangleSoup& soup) {
+std::optional<std::string> why_not(DebugView what, const TriangleSoup& soup) {
   const ColorMlp* network = network_of(soup);
   switch (what) {
-    case Inspection::texels:
+    case DebugView::texels:
       if (!has_texels(soup)) return "There are no texels" + stored_instead(soup) + ".";
       break;
-    case Inspection::alpha:
+    case DebugView::alpha:
       if (std::holds_alternative<Harmonics>(soup.appearance))
         return "There is no alpha, every triangle is opaque" + stored_instead(soup) + ".";
       break;
-    case Inspection::mlp_weight:
+    case DebugView::mlp_weight:
       if (!network) return "There is no color MLP" + stored_instead(soup) + ".";
       if (!network->blend_channel)
         return "The color MLP is not blended with anything: it makes the whole colour.";
       break;
-    case Inspection::features:
+    case DebugView::features:
       if (feature_count(soup) == 0) return "There are no features" + stored_instead(soup) + ".";
       break;
     default:
@@ -180,24 +180,24 @@ glm::vec3 cut_out_color(float part_of_threshold) {
                   part_of_threshold);
 }
 
-Legend legend(Inspection what, const DepthScale& scale, const FeatureChoice& choice) {
+Legend legend(DebugView what, const DepthScale& scale, const FeatureChoice& choice) {
   constexpr glm::u8vec4 black{0, 0, 0, 255}, grey{128, 128, 128, 255}, white{255, 255, 255, 255};
   switch (what) {
-    case Inspection::depth:
+    case DebugView::depth:
       return depth_legend(scale);
-    case Inspection::normals:
+    case DebugView::normals:
       return {
           {{255, 128, 128, 255}, "x"}, {{128, 255, 128, 255}, "y"}, {{128, 128, 255, 255}, "z"}};
-    case Inspection::alpha:
+    case DebugView::alpha:
       return {{bytes(cut_out_color(0)), "0, cut out"},
               {bytes(cut_out_color(1)), "just cut out"},
               {grey, "just kept"},
               {white, "1"}};
-    case Inspection::mlp_weight:
+    case DebugView::mlp_weight:
       return {{black, "base colour"}, {white, "network"}};
-    case Inspection::features:
+    case DebugView::features:
       return feature_legend(choice);
-    case Inspection::overdraw:
+    case DebugView::overdraw:
       return overdraw_legend();
     default:
       return {};

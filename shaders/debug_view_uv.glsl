@@ -1,11 +1,11 @@
 // What conventional textures have to show.
 #include "texel_cell.glsl"
 
-float inspected_alpha(uint face, vec2 b) { return mask_value(material_of(face), face, b); }
+float debug_view_alpha(uint face, vec2 b) { return mask_value(material_of(face), face, b); }
 
-float inspected_threshold(uint face) { return material_of(face).mask_threshold; }
+float debug_view_threshold(uint face) { return material_of(face).mask_threshold; }
 
-void inspected_features(uint face, vec2 b, out vec4 first, out vec4 second) {
+void debug_view_features(uint face, vec2 b, out vec4 first, out vec4 second) {
 #if COLOR_MLP
   Material material = material_of(face);
   vec2 uv = corner_mix(coordinates, face, b).xy;
@@ -18,7 +18,7 @@ void inspected_features(uint face, vec2 b, out vec4 first, out vec4 second) {
 }
 
 // The texel under the point, as it is stored; the factor where a material has no image.
-vec3 inspected_texel(uint face, vec2 b) {
+vec3 debug_view_texel(uint face, vec2 b) {
   Material material = material_of(face);
   if ((material.image.w & flag_has_image) == 0u) return min(material.factor.rgb, 1.0);
   vec2 uv = corner_mix(coordinates, face, b).xy;

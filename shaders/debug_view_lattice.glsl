@@ -1,11 +1,11 @@
 // What a lattice has to show.
 #include "texel_cell.glsl"
 
-float inspected_alpha(uint face, vec2 b) { return fragment_alpha(face, b); }
+float debug_view_alpha(uint face, vec2 b) { return fragment_alpha(face, b); }
 
-float inspected_threshold(uint face) { return ALPHA_THRESHOLD; }
+float debug_view_threshold(uint face) { return ALPHA_THRESHOLD; }
 
-void inspected_features(uint face, vec2 b, out vec4 first, out vec4 second) {
+void debug_view_features(uint face, vec2 b, out vec4 first, out vec4 second) {
   LatticeFootprint at = footprint_on(face, b);
   first = lattice_sample(features0, at);
   second = lattice_sample(features1, at);
@@ -13,7 +13,7 @@ void inspected_features(uint face, vec2 b, out vec4 first, out vec4 second) {
 
 // The texel with the largest weight, features 0..2. Its neighbours in the lattice are those at (1, 0),
 // (0, 1), (-1, 1) and their opposites: x - y modulo 3 is another for each.
-vec3 inspected_texel(uint face, vec2 b) {
+vec3 debug_view_texel(uint face, vec2 b) {
   FacePatch of_face = patch_of(face);
   LatticeCell cell = lattice_cell(of_face.level, b);
   bool upper;

@@ -1,15 +1,15 @@
 // What of the soup the window shows.
 #pragma once
 
-#include "runtime/debug_views/inspection.hpp"
+#include "runtime/debug_views/debug_view.hpp"
 
 namespace tureen::viewer {
 
-struct Look {
-  Inspection what = Inspection::color;
+struct DebugViewChoice {
+  DebugView what = DebugView::color;
   FeatureChoice features = {};
 
-  bool operator==(const Look& other) const {
+  bool operator==(const DebugViewChoice& other) const {
     return what == other.what && features.first == other.features.first &&
            features.count == other.features.count;
   }

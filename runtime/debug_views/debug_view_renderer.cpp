@@ -1,4 +1,4 @@
-#include "runtime/debug_views/inspector.hpp"
+#include "runtime/debug_views/debug_view_renderer.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,8 +23,8 @@ namespace tureen {
 namespace {
 
 /// A plan that keeps all there is to see. Only how the same is computed may be chosen.
-RenderPlan make_inspection_plan(const TriangleSoup& soup, const DeviceLimits& limits,
-                                const InspectorOptions& options) {
+RenderPlan make_debug_view_plan(const TriangleSoup& soup, const DeviceLimits& limits,
+                                const DebugViewOptions& options) {
   SpecialisationSet wanted;
   wanted.add(Specialisation::weight_uniforms);
   wanted.add(Specialisation::dead_neurons);
@@ -37,14 +37,14 @@ RenderPlan make_inspection_plan(const TriangleSoup& soup, const DeviceLimits& li
 }
 
 const char* shader_of(const TriangleSoup& soup) {
-  return std::holds_alternative<LatticeTexture>(soup.appearance) ? "inspection_lattice.glsl"
-         : std::holds_alternative<UvTextures>(soup.appearance)   ? "inspection_uv.glsl"
-                                                                 : "inspection_plain.glsl";
+  return std::holds_alternative<LatticeTexture>(soup.appearance) ? "debug_view_lattice.glsl"
+         : std::holds_alternative<UvTextures>(soup.appearance)   ? "debug_view_uv.glsl"
+                                                                 : "debug_view_plain.glsl";
 }
 
-/// With what of the geometry a pixel looks up: shaders/face_corners.glsl and inspection.frag.
-AppearanceSource inspected_appearance(const TriangleSoup& soup, const RenderPlan& plan,
-                                      const TexelLayout& layout) {
+/// With what of the geometry a pixel looks up: shaders/face_corners.glsl and debug_view.frag.
+AppearanceSource debug_view_appearance(const TriangleSoup& soup, const RenderPlan& plan,
+                                       const TexelLayout& layout) {
   AppearanceSource appearance = prepare_appearance(soup, plan, layout);
   std::vector<glm::vec3> corners;
   corners.reserve(3 * plan.faces.size());
@@ -59,8 +59,8 @@ AppearanceSource inspected_appearance(const TriangleSoup& soup, const RenderPlan
 }
 
 /// SHOW_DEPTH and the like, from the names on the command line.
-std::string constant_of(const InspectionName& inspection) {
-  std::string constant = std::string("SHOW_") + inspection.name;
+std::string constant_of(const DebugViewName& debug_view) {
+  std::string constant = std::string("SHOW_") + debug_view.name;
   for (char& c : constant) c = c == '-' ? '_' : c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c;
   return constant;
 }
@@ -70,9 +70,9 @@ constexpr const char* dimmed = "0.4";
 
 }  // namespace
 
-struct Inspector::State {
+struct DebugViewRenderer::State {
   State(const gl::Capabilities& capabilities, const TriangleSoup& soup, glm::dvec3 soup_origin,
-        const InspectorOptions& options);
+        const DebugViewOptions& options);
 
   const gl::Program& geometry_program(const char* fragment, bool alpha_test);
   const gl::Program& shown_program();
@@ -92,7 +92,7 @@ struct Inspector::State {
   Bounds all, middle;
   const char* shader;
   std::optional<int> blend_channel;
-  std::array<std::optional<std::string>, 10> refusals;  // by Inspection
+  std::array<std::optional<std::string>, 10> refusals;  // by DebugView
   int features = 0;
   RenderPlan plan;
   DeviceAppearance appearance;
@@ -101,7 +101,7 @@ struct Inspector::State {
   FrontToBack order;
   std::map<std::string, gl::Program> programs;
 
-  Inspection what = Inspection::color;
+  DebugView what = DebugView::color;
   FeatureChoice choice;
   DepthScale scale;
   int width = 0, height = 0;
@@ -110,8 +110,8 @@ struct Inspector::State {
   FragmentStore store;
 };
 
-Inspector::State::State(const gl::Capabilities& capabilities, const TriangleSoup& soup,
-                        glm::dvec3 soup_origin, const InspectorOptions& options)
+DebugViewRenderer::State::State(const gl::Capabilities& capabilities, const TriangleSoup& soup,
+                                glm::dvec3 soup_origin, const DebugViewOptions& options)
     : device(capabilities),
       origin(soup_origin),
       background(options.background),
@@ -119,21 +119,22 @@ Inspector::State::State(const gl::Capabilities& capabilities, const TriangleSoup
       middle(middle_bounds(soup)),
       shader(shader_of(soup)),
       features(feature_count(soup)),
-      plan(make_inspection_plan(soup, device_limits(capabilities), options)),
-      appearance(inspected_appearance(soup, plan, TexelLayout::of(device_limits(capabilities)))),
+      plan(make_debug_view_plan(soup, device_limits(capabilities), options)),
+      appearance(debug_view_appearance(soup, plan, TexelLayout::of(device_limits(capabilities)))),
       geometry(prepare_geometry(soup, plan.faces)) {
-  for (const InspectionName& name : inspection_names())
+  for (const DebugViewName& name : debug_view_names())
     refusals[std::size_t(name.what)] = why_not(name.what, soup);
   if (const auto* texture = std::get_if<LatticeTexture>(&soup.appearance); texture && texture->mlp)
     blend_channel = texture->mlp->blend_channel;
   if (const auto* textures = std::get_if<UvTextures>(&soup.appearance); textures && textures->mlp)
     blend_channel = textures->mlp->blend_channel;
-  gl::check("Inspector");
+  gl::check("DebugViewRenderer");
 }
 
 // -- programs, each made when it is first needed ------------------------------------------------
 
-const gl::Program& Inspector::State::geometry_program(const char* fragment, bool alpha_test) {
+const gl::Program& DebugViewRenderer::State::geometry_program(const char* fragment,
+                                                              bool alpha_test) {
   const std::string key = std::string(fragment) + (alpha_test ? " tested" : "");
   const auto known = programs.find(key);
   if (known != programs.end()) return known->second;
@@ -148,20 +149,20 @@ const gl::Program& Inspector::State::geometry_program(const char* fragment, bool
   return programs.emplace(key, std::move(program)).first->second;
 }
 
-const gl::Program& Inspector::State::shown_program() {
-  const std::string key = what == Inspection::mlp_weight ? "features" : name_of(what);
+const gl::Program& DebugViewRenderer::State::shown_program() {
+  const std::string key = what == DebugView::mlp_weight ? "features" : name_of(what);
   const auto known = programs.find(key);
   if (known != programs.end()) return known->second;
   ShaderSource source{
-      .file = what == Inspection::overdraw ? "overdraw.frag" : "inspection.frag",
+      .file = what == DebugView::overdraw ? "overdraw.frag" : "debug_view.frag",
       .constants = appearance.constants,
       .generated = {{"appearance.glsl", appearance.glsl},
-                    {"inspected_appearance.glsl", std::string("#include \"") + shader + "\"\n"}}};
-  for (const InspectionName& name : inspection_names())
+                    {"debug_view_appearance.glsl", std::string("#include \"") + shader + "\"\n"}}};
+  for (const DebugViewName& name : debug_view_names())
     source.constants[constant_of(name)] = std::to_string(int(name.what));
   source.constants["SHOWN"] = std::to_string(int(what));
   source.constants["NO_FACE"] = "0xffffffffu";
-  source.constants["COLOR_SCALE"] = what == Inspection::wireframe ? dimmed : "1.0";
+  source.constants["COLOR_SCALE"] = what == DebugView::wireframe ? dimmed : "1.0";
   const ShaderSource vertex{.file = "full_screen.vert"};
   gl::Program program(assemble(vertex, device.api), assemble(source, device.api));
   return programs.emplace(key, std::move(program)).first->second;
@@ -169,7 +170,7 @@ const gl::Program& Inspector::State::shown_program() {
 
 // -- the passes ---------------------------------------------------------------------------------
 
-void Inspector::State::resize(int new_width, int new_height) {
+void DebugViewRenderer::State::resize(int new_width, int new_height) {
   width = height = 0;  // should it throw, the next frame starts anew
   color = make_target(target_formats::rgba8, new_width, new_height);
   counts = make_target(target_formats::rgba8, new_width, new_height);
@@ -182,22 +183,22 @@ void Inspector::State::resize(int new_width, int new_height) {
   height = new_height;
 }
 
-void Inspector::State::draw(const FrameCamera& frame) {
+void DebugViewRenderer::State::draw(const FrameCamera& frame) {
   gl::use_plain_rasterisation(width, height);
   if (plan.reversed_depth) gl::use_zero_to_one_depth(device.api, true);
-  if (what == Inspection::overdraw) {
+  if (what == DebugView::overdraw) {
     draw_overdraw(frame);
   } else {
     draw_visibility(frame);
     draw_shown(frame);
-    if (what == Inspection::wireframe) draw_edges(frame);
+    if (what == DebugView::wireframe) draw_edges(frame);
   }
   if (plan.reversed_depth) gl::use_zero_to_one_depth(device.api, false);
-  gl::check("Inspector::draw");
+  gl::check("DebugViewRenderer::draw");
 }
 
 /// In the order in which the ordinary frame draws them.
-void Inspector::State::draw_faces(const gl::Program& program, const FrameCamera& frame) {
+void DebugViewRenderer::State::draw_faces(const gl::Program& program, const FrameCamera& frame) {
   if (plan.clusters.empty()) return;
   program.use();
   appearance.bind(program);
@@ -219,15 +220,15 @@ void Inspector::State::draw_faces(const gl::Program& program, const FrameCamera&
   for (std::size_t i = 0; i < first.size(); ++i) glDrawArrays(GL_TRIANGLES, first[i], count[i]);
 }
 
-void Inspector::State::draw_visibility(const FrameCamera& frame) {
+void DebugViewRenderer::State::draw_visibility(const FrameCamera& frame) {
   store.begin();
   const float far = plan.reversed_depth ? 0.0f : 1.0f;
   glClearBufferfv(GL_DEPTH, 0, &far);
   glDepthFunc(plan.reversed_depth ? GL_GREATER : GL_LESS);
-  draw_faces(geometry_program("visibility.frag", what != Inspection::alpha), frame);
+  draw_faces(geometry_program("visibility.frag", what != DebugView::alpha), frame);
 }
 
-void Inspector::State::draw_shown(const FrameCamera& frame) {
+void DebugViewRenderer::State::draw_shown(const FrameCamera& frame) {
   const gl::Program& program = shown_program();
   glBindFramebuffer(GL_FRAMEBUFFER, color_framebuffer.id());
   program.use();
@@ -238,7 +239,7 @@ void Inspector::State::draw_shown(const FrameCamera& frame) {
   program.set("background", background);
   program.set("depth_scale",
               glm::vec2(std::log(scale.near), 1.0 / std::log(scale.far / scale.near)));
-  const bool weight = what == Inspection::mlp_weight;
+  const bool weight = what == DebugView::mlp_weight;
   program.set("first_feature", weight ? blend_channel.value_or(0) : choice.first);
   program.set("features_shown", weight ? 1 : choice.count);
   store.bind(program, appearance.unit_count());
@@ -247,7 +248,7 @@ void Inspector::State::draw_shown(const FrameCamera& frame) {
 
 /// Edges lie as deep as their faces: those that the picture shows pass, and those of fragments that
 /// the alpha test has thrown away in front of it.
-void Inspector::State::draw_edges(const FrameCamera& frame) {
+void DebugViewRenderer::State::draw_edges(const FrameCamera& frame) {
   glBindFramebuffer(GL_FRAMEBUFFER, color_framebuffer.id());
   glDepthMask(GL_FALSE);
   glDepthFunc(plan.reversed_depth ? GL_GEQUAL : GL_LEQUAL);
@@ -255,7 +256,7 @@ void Inspector::State::draw_edges(const FrameCamera& frame) {
   glDepthMask(GL_TRUE);
 }
 
-void Inspector::State::draw_overdraw(const FrameCamera& frame) {
+void DebugViewRenderer::State::draw_overdraw(const FrameCamera& frame) {
   glBindFramebuffer(GL_FRAMEBUFFER, counts_framebuffer.id());
   const float none[4] = {0, 0, 0, 0};
   glClearBufferfv(GL_COLOR, 0, none);
@@ -277,7 +278,7 @@ void Inspector::State::draw_overdraw(const FrameCamera& frame) {
   draw_full_screen(program);
 }
 
-void Inspector::State::draw_full_screen(const gl::Program& program) {
+void DebugViewRenderer::State::draw_full_screen(const gl::Program& program) {
   glDisable(GL_DEPTH_TEST);
   program.set("background_depth", 0.0f);
   nothing.bind();
@@ -286,7 +287,8 @@ void Inspector::State::draw_full_screen(const gl::Program& program) {
 }
 
 /// The uniforms of face_corners.glsl: window y runs up, image y down.
-void Inspector::State::set_corners(const gl::Program& program, const FrameCamera& frame) const {
+void DebugViewRenderer::State::set_corners(const gl::Program& program,
+                                           const FrameCamera& frame) const {
   const Camera& camera = frame.camera;
   const glm::dmat3 axes = camera.world_from_view_rotation();
   program.set("view_axis", glm::vec3(-axes[2]));
@@ -296,27 +298,27 @@ void Inspector::State::set_corners(const gl::Program& program, const FrameCamera
 
 // -- the class ----------------------------------------------------------------------------------
 
-Inspector::Inspector(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
-                     const InspectorOptions& options) {
+DebugViewRenderer::DebugViewRenderer(const gl::Context& context, const TriangleSoup& soup,
+                                     glm::dvec3 origin, const DebugViewOptions& options) {
   gl::use_plain_pixel_transfer();
   state_ = std::make_unique<State>(context.capabilities(), soup, origin, options);
 }
 
-Inspector::~Inspector() = default;
-Inspector::Inspector(Inspector&&) noexcept = default;
-Inspector& Inspector::operator=(Inspector&&) noexcept = default;
+DebugViewRenderer::~DebugViewRenderer() = default;
+DebugViewRenderer::DebugViewRenderer(DebugViewRenderer&&) noexcept = default;
+DebugViewRenderer& DebugViewRenderer::operator=(DebugViewRenderer&&) noexcept = default;
 
-void Inspector::show(Inspection what, const FeatureChoice& features) {
+void DebugViewRenderer::show(DebugView what, const FeatureChoice& features) {
   if (const auto& refusal = state_->refusals[std::size_t(what)]) throw UsageError(*refusal);
-  if (what == Inspection::features)
+  if (what == DebugView::features)
     if (const auto refusal = why_not(features, state_->features)) throw UsageError(*refusal);
   state_->what = what;
   state_->choice = features;
 }
 
-void Inspector::set_background(glm::vec4 background) { state_->background = background; }
+void DebugViewRenderer::set_background(glm::vec4 background) { state_->background = background; }
 
-void Inspector::draw(const Camera& camera) {
+void DebugViewRenderer::draw(const Camera& camera) {
   State& state = *state_;
   assert(camera.width > 0 && camera.height > 0);
   require_drawable(camera.width, camera.height, state.device.max_picture_side);
@@ -329,36 +331,36 @@ void Inspector::draw(const Camera& camera) {
   state.draw({camera, eye, clip_range(state.all, eye, forward_of(camera), storage)});
 }
 
-void Inspector::finish() const { glFinish(); }
+void DebugViewRenderer::finish() const { glFinish(); }
 
-Image8 Inspector::read_color() const {
+Image8 DebugViewRenderer::read_color() const {
   assert(state_->width > 0 && "no frame has been drawn");
   return read_pixels(state_->color_framebuffer.id(), state_->width, state_->height);
 }
 
-std::vector<std::uint32_t> Inspector::read_faces() const {
-  if (state_->what == Inspection::overdraw) return {};
+std::vector<std::uint32_t> DebugViewRenderer::read_faces() const {
+  if (state_->what == DebugView::overdraw) return {};
   return read_visible_faces(state_->store.framebuffer(), {state_->width, state_->height},
                             state_->plan.faces);
 }
 
-std::vector<std::uint8_t> Inspector::read_fragment_counts() const {
-  if (state_->what != Inspection::overdraw) return {};
+std::vector<std::uint8_t> DebugViewRenderer::read_fragment_counts() const {
+  if (state_->what != DebugView::overdraw) return {};
   const Image8 image = read_pixels(state_->counts_framebuffer.id(), state_->width, state_->height);
   std::vector<std::uint8_t> result(image.pixels.size());
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = image.pixels[i].r;
   return result;
 }
 
-void Inspector::blit_to(unsigned framebuffer) const {
+void DebugViewRenderer::blit_to(unsigned framebuffer) const {
   blit_color(state_->color_framebuffer.id(), framebuffer, {state_->width, state_->height});
 }
 
-Legend Inspector::legend() const {
+Legend DebugViewRenderer::legend() const {
   return tureen::legend(state_->what, state_->scale, state_->choice);
 }
 
-void Inspector::leave_context() {
+void DebugViewRenderer::leave_context() {
   finish();
   state_->geometry.leave_context();
   state_->nothing.forget();
@@ -368,7 +370,7 @@ void Inspector::leave_context() {
   state_->width = state_->height = 0;
 }
 
-std::size_t Inspector::device_bytes() const {
+std::size_t DebugViewRenderer::device_bytes() const {
   return state_->appearance.device_bytes() + state_->geometry.device_bytes();
 }
 
