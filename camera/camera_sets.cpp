@@ -80,7 +80,7 @@ int covered_cells(const std::array<glm::dvec2, 3>& p, double area) {
   return count;
 }
 
-/// Cells that a face covers in the picture.
+/// Cells that a face covers in the image.
 double cells_of(const Corners& world, const Camera& camera) {
   std::array<glm::dvec2, 3> p;
   for (int k = 0; k < 3; ++k) {

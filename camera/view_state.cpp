@@ -83,9 +83,9 @@ ViewState state_of(const Camera& camera, const glm::dvec3& up, double distance) 
   const glm::dvec3 level = backward - height * up;
   // atan2 keeps the digits near the poles, where asin loses half of them.
   state.bearing.elevation = std::atan2(height, glm::length(level));
-  // Straight down the top of the picture points away from the eye of azimuth 0, straight up towards
+  // Straight down the top of the image points away from the eye of azimuth 0, straight up towards
   // it. 1e-9: a level part as short as this keeps seven digits of the azimuth, just enough for a
-  // picture; what the recorded axes are off by may be as much.
+  // image; what the recorded axes are off by may be as much.
   const bool at_pole = glm::length(level) < 1e-9;
   const glm::dvec3 toward = at_pole ? axes[1] * (height > 0 ? -1.0 : 1.0) : level;
   state.bearing.azimuth =

@@ -13,9 +13,9 @@
 #include "cli/bench_table.hpp"
 #include "cli/bench_views.hpp"
 #include "cli/commands.hpp"
+#include "cli/image_file.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory_option.hpp"
-#include "cli/picture_file.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
@@ -40,7 +40,7 @@ struct BenchOptions {
 };
 
 /// "tureen_hemisphere-8_1280x720.png".
-std::string picture_name_of(const BenchMeasurement& measurement) {
+std::string image_name_of(const BenchMeasurement& measurement) {
   std::string name =
       measurement.configuration + "_" + measurement.camera_set + "_" + measurement.size;
   for (char& c : name)
@@ -105,8 +105,8 @@ BenchResult run(const BenchOptions& options) {
   if (!options.reports.folder.empty())
     measuring.keep_frame = [&](const BenchMeasurement& measurement, const Image8& frame) {
       const std::filesystem::path path =
-          std::filesystem::path(options.reports.folder) / picture_name_of(measurement);
-      write_picture(frame, path);
+          std::filesystem::path(options.reports.folder) / image_name_of(measurement);
+      write_image(frame, path);
       return path.string();
     };
   add_measurements(result, measure(cases, views.views, measuring));

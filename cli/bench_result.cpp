@@ -57,7 +57,7 @@ Json to_json(const BenchMeasurement& measurement) {
           {"gpu_ms", measurement.gpu_ms ? Json(*measurement.gpu_ms) : Json(nullptr)},
           {"views_ms", measurement.views_ms},
           {"pixels_hash", measurement.pixels_hash},
-          {"picture", measurement.picture ? Json(*measurement.picture) : Json(nullptr)}};
+          {"picture", measurement.image ? Json(*measurement.image) : Json(nullptr)}};
 }
 
 /// Of a frame: above 0, as ratios are made of it, and up to eleven days.
@@ -128,7 +128,7 @@ BenchMeasurement measurement(const JsonView& view) {
           .gpu_ms = unless_null(view["gpu_ms"], not_negative),
           .views_ms = list(view["views_ms"], not_negative),
           .pixels_hash = view["pixels_hash"].text(),
-          .picture = unless_null(view["picture"], text)};
+          .image = unless_null(view["picture"], text)};
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ class SetAtSizes {
       for (Camera& camera : cameras) camera = divided(camera, by);
       return cameras;
     }
-    const PictureSize pixels = parse_size(size);
+    const ImageSize pixels = parse_size(size);
     for (Camera& camera : cameras) camera = resized(camera, pixels.width, pixels.height);
     if (!cameras.empty()) return cameras;
     const Lens lens{.width = pixels.width, .height = pixels.height};

@@ -19,7 +19,7 @@ struct BenchViewOptions {
 };
 
 struct BenchViewList {
-  std::vector<BenchViews> views;   // small pictures first; at least one
+  std::vector<BenchViews> views;   // small images first; at least one
   std::vector<std::string> notes;  // on what cameras lacked
 };
 

@@ -1,4 +1,4 @@
-// `tureen compare`: how far two pictures are apart.
+// `tureen compare`: how far two images are apart.
 #include <fmt/format.h>
 
 #include <array>
@@ -9,9 +9,9 @@
 #include "base/error.hpp"
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
+#include "cli/image_file.hpp"
 #include "cli/memory_option.hpp"
 #include "cli/output_argument.hpp"
-#include "cli/picture_file.hpp"
 #include "cli/report.hpp"
 #include "cli/table.hpp"
 #include "cli/values.hpp"
@@ -67,15 +67,15 @@ Json to_json(const CompareOptions& options, const Metrics& metrics, std::optiona
   return json;
 }
 
-ExitCode compare_pictures(const CompareOptions& options) {
+ExitCode compare_images(const CompareOptions& options) {
   if (!options.diff.empty()) {
     require_png_name(options.diff);
     for (const std::string& input : {options.a, options.b}) require_not_input(options.diff, input);
     require_writable_file(options.diff);
   }
   const glm::vec3 background(parse_background(options.background));
-  const ImageF a = composited(to_float(read_picture(options.a)), background);
-  const ImageF b = composited(to_float(read_picture(options.b)), background);
+  const ImageF a = composited(to_float(read_image(options.a)), background);
+  const ImageF b = composited(to_float(read_image(options.b)), background);
   const Metrics metrics = compare(a, b, options.metrics);
 
   std::optional<bool> passed;
@@ -84,7 +84,7 @@ ExitCode compare_pictures(const CompareOptions& options) {
   if (options.tolerance)
     passed = metric.lower_is_worse ? value >= *options.tolerance : value <= *options.tolerance;
 
-  if (!options.diff.empty()) write_picture(side_by_side(a, b), options.diff);
+  if (!options.diff.empty()) write_image(side_by_side(a, b), options.diff);
   if (options.json) {
     print_json(to_json(options, metrics, passed));
   } else {
@@ -156,7 +156,7 @@ Exit codes: 0 done, 1 worse than --tolerance, 2 wrong usage, 3 an image cannot b
                   "image to write: A, B and a heat map of their differences, side by side")
       .value_name("OUT.png");
   add_memory_option(command);
-  command.does([options] { return compare_pictures(*options); });
+  command.does([options] { return compare_images(*options); });
 }
 
 }  // namespace tureen::cli

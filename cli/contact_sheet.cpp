@@ -20,15 +20,15 @@ Image8 thumbnail(const Image8& image, int cell) {
   return box_scaled(image, side(image.width), side(image.height));
 }
 
-Image8 contact_sheet(std::span<const Image8> pictures, int cell) {
+Image8 contact_sheet(std::span<const Image8> images, int cell) {
   std::vector<Image8> thumbnails;
   int width = 1, height = 1;
-  for (const Image8& picture : pictures) {
-    thumbnails.push_back(thumbnail(picture, cell));
+  for (const Image8& image : images) {
+    thumbnails.push_back(thumbnail(image, cell));
     width = std::max(width, thumbnails.back().width);
     height = std::max(height, thumbnails.back().height);
   }
-  const int count = std::max(1, int(pictures.size()));
+  const int count = std::max(1, int(images.size()));
   const int columns =
       std::clamp(int(std::lround(std::sqrt(double(count) * height / width))), 1, count);
   const int rows = (count + columns - 1) / columns;

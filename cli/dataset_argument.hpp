@@ -21,10 +21,10 @@ Option add_dataset_argument(Command& command, DatasetArgument& argument);
 /// --scale alone.
 Option add_scale_option(Command& command, DatasetArgument& argument);
 
-/// The window of the SSIM: smaller pictures cannot be measured.
+/// The window of the SSIM: smaller images cannot be measured.
 inline constexpr int ssim_window = 11;
 
-/// Bounds of a picture's sides, in pixels.
+/// Bounds of an image's sides, in pixels.
 struct SideLimits {
   int least = 1;
   int most = std::numeric_limits<int>::max();

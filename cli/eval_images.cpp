@@ -7,7 +7,7 @@
 #include "base/existing_path.hpp"
 #include "base/output.hpp"
 #include "cli/contact_sheet.hpp"
-#include "cli/picture_file.hpp"
+#include "cli/image_file.hpp"
 #include "image/heat_map.hpp"
 
 namespace tureen::cli {
@@ -34,7 +34,7 @@ void check_spared(const fs::path& spared, const fs::path& folder,
 
 }  // namespace
 
-std::vector<std::string> picture_names(std::span<const Photograph> photographs) {
+std::vector<std::string> image_names(std::span<const Photograph> photographs) {
   std::set<std::string> taken{sheet_name};
   std::vector<std::string> names;
   for (const Photograph& photograph : photographs) {
@@ -54,7 +54,7 @@ std::vector<std::string> picture_names(std::span<const Photograph> photographs) 
 
 EvalImages::EvalImages(const fs::path& folder, const fs::path& spared,
                        std::span<const Photograph> photographs)
-    : folder_(folder), names_(picture_names(photographs)), thumbnails_(photographs.size()) {
+    : folder_(folder), names_(image_names(photographs)), thumbnails_(photographs.size()) {
   check_spared(spared, folder, names_);
   make_folder(folder);
 }
@@ -63,7 +63,7 @@ void EvalImages::write(std::size_t view, const ImageF& photograph, const ImageF&
   Image8 image = side_by_side(photograph, rendering);
   // The photograph is shown over its background already.
   for (glm::u8vec4& pixel : image.pixels) pixel.a = 255;
-  write_picture(image, folder_ / names_[view]);
+  write_image(image, folder_ / names_[view]);
   thumbnails_[view] = thumbnail(image, thumbnail_side);
 }
 
@@ -72,7 +72,7 @@ std::vector<std::string> EvalImages::finish() {
   for (const std::string& name : names_) files.push_back((folder_ / name).string());
   if (names_.size() == 1) return files;
   const fs::path sheet = folder_ / sheet_name;
-  write_picture(contact_sheet(thumbnails_, thumbnail_side), sheet);
+  write_image(contact_sheet(thumbnails_, thumbnail_side), sheet);
   files.push_back(sheet.string());
   return files;
 }

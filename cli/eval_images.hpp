@@ -16,7 +16,7 @@ namespace tureen::cli {
 
 /// The names of the images in the folder: "train/r_0.png" gives "train_r_0.png". Letters other than
 /// those that every file system takes become '_', and equal names get a number.
-std::vector<std::string> picture_names(std::span<const Photograph> photographs);
+std::vector<std::string> image_names(std::span<const Photograph> photographs);
 
 class EvalImages {
  public:

@@ -1,4 +1,4 @@
-// `tureen render`: pictures of a scene.
+// `tureen render`: images of a scene.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,11 +10,11 @@
 #include "cli/commands.hpp"
 #include "cli/debug_view_option.hpp"
 #include "cli/drawing_options.hpp"
+#include "cli/image_file.hpp"
+#include "cli/images.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/memory_option.hpp"
 #include "cli/output_argument.hpp"
-#include "cli/picture_file.hpp"
-#include "cli/pictures.hpp"
 #include "cli/plan_json.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
@@ -42,21 +42,21 @@ struct RenderOptions {
 
 /// What is drawn, however, and what is said of it.
 struct Drawn {
-  Pictures pictures;
+  WrittenImages images;
   std::vector<std::string> plan;
   std::vector<AppliedSpecialisation> specialisations;
   std::vector<std::string> legend;  // of debug views
   std::size_t device_bytes = 0;
 };
 
-/// Pictures, or a film.
-Pictures draw_views(const Drawer& drawer, const gl::Capabilities& device, const Views& views,
-                    const std::string& output) {
+/// Images, or a film.
+WrittenImages draw_views(const Drawer& drawer, const gl::Capabilities& device, const Views& views,
+                         const std::string& output) {
   if (is_video_name(output))
     return draw_video(drawer, views.cameras, views.frames_per_second, output);
   // Frames of a film follow each other: a sheet of hundreds shows nothing.
   const Sheet sheet = views.frames_per_second > 0 ? Sheet::none : Sheet::of_several;
-  return draw_pictures(drawer, device, views.cameras, {output, sheet});
+  return draw_images(drawer, device, views.cameras, {output, sheet});
 }
 
 Drawn draw_colors(const gl::Context& context, const Scene& scene, const TriangleSoup& soup,
@@ -68,10 +68,10 @@ Drawn draw_colors(const gl::Context& context, const Scene& scene, const Triangle
   // What --frames refuses is said before hours of drawing.
   FrameTimes times;
   if (options.frames > 0) times = benchmark(drawer, device, views.cameras, options.frames);
-  Pictures pictures = draw_views(drawer, device, views, options.output);
-  if (options.frames > 0) pictures.times = times;
+  WrittenImages images = draw_views(drawer, device, views, options.output);
+  if (options.frames > 0) images.times = times;
   const RenderPlan& plan = renderer.plan();
-  return {std::move(pictures), describe(plan), plan.applied, {}, renderer.device_bytes()};
+  return {std::move(images), describe(plan), plan.applied, {}, renderer.device_bytes()};
 }
 
 Drawn draw_debug_view(const gl::Context& context, const Scene& scene, const TriangleSoup& soup,
@@ -79,10 +79,11 @@ Drawn draw_debug_view(const gl::Context& context, const Scene& scene, const Tria
   const gl::Capabilities& device = context.capabilities();
   DebugViewRenderer debug_renderer(context, soup, scene.origin, {.background = background});
   debug_renderer.show(options.show.what, options.show.features);
-  Pictures pictures = draw_views(drawer_of(debug_renderer, device), device, views, options.output);
+  WrittenImages images =
+      draw_views(drawer_of(debug_renderer, device), device, views, options.output);
   const std::string sentence = std::string("shows ") + name_of(options.show.what) +
                                " of the stored soup, one sample a pixel";
-  return {std::move(pictures),
+  return {std::move(images),
           {sentence},
           {},
           legend_lines(debug_renderer.legend()),
@@ -104,8 +105,8 @@ void check_output(const RenderOptions& options, const glm::vec4& background) {
     require_png_name(options.output);
     const int count = std::max(options.views.orbit, 1);
     for (int i = 0; i < count; ++i)
-      require_not_input(picture_name(options.output, i, count), options.scene.path);
-    const std::filesystem::path first = picture_name(options.output, 0, count);
+      require_not_input(image_name(options.output, i, count), options.scene.path);
+    const std::filesystem::path first = image_name(options.output, 0, count);
     // How many views a file of cameras or a film has, and so how they are called, it tells later.
     if (options.views.is_film() || !options.views.camera.empty())
       require_writable_beside(first);
@@ -124,8 +125,8 @@ void check_output(const RenderOptions& options, const glm::vec4& background) {
 }
 
 /// What was written, for people: each file, or the first and last frame.
-void say_written(const Pictures& pictures, const Views& views) {
-  const std::vector<std::string>& paths = pictures.paths;
+void say_written(const WrittenImages& images, const Views& views) {
+  const std::vector<std::string>& paths = images.paths;
   if (views.frames_per_second > 0)
     say(fmt::format("{} frames, {:.2f} s at {:g} frames per second", views.cameras.size(),
                     double(views.cameras.size()) / views.frames_per_second,
@@ -154,8 +155,8 @@ ExitCode render(RenderOptions options) {
   throw_if_interrupted();
   const auto draw = options.show.what == DebugView::color ? draw_colors : draw_debug_view;
   const Drawn drawn = draw(context, scene, soup, options, background, views);
-  const Pictures& pictures = drawn.pictures;
-  const FrameTimes& times = pictures.times;
+  const WrittenImages& images = drawn.images;
+  const FrameTimes& times = images.times;
 
   const Camera& first = views.cameras.front();
   const gl::Capabilities& device = context.capabilities();
@@ -168,7 +169,7 @@ ExitCode render(RenderOptions options) {
                   first.height, device.renderer, context.description()));
   say(fmt::format("{:.2f} ms a frame (median of {}, 95 % within {:.2f} ms)", times.median(),
                   times.ms.size(), times.p95()));
-  say_written(pictures, views);
+  say_written(images, views);
   if (options.json)
     print_json(
         {{"width", first.width},
@@ -180,7 +181,7 @@ ExitCode render(RenderOptions options) {
          {"frame_ms", {{"median", times.median()}, {"p95", times.p95()}, {"n", times.ms.size()}}},
          {"plan", drawn.plan},
          {"specialisations", specialisations_json(drawn.specialisations)},
-         {"output", pictures.paths}});
+         {"output", images.paths}});
   return ExitCode::done;
 }
 

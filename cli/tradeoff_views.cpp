@@ -45,7 +45,7 @@ std::vector<Camera> counting_views(const Scene& scene, const Lens& lens,
 
 TradeoffViews tradeoff_views(const BenchViewOptions& options, const DefaultViews& defaults,
                              const Scene& scene, const std::string& scene_path) {
-  const PictureSize size = parse_size(options.sizes.front());
+  const ImageSize size = parse_size(options.sizes.front());
   const Lens lens{.width = size.width, .height = size.height};
   TradeoffViews views;
   BenchViewOptions sets = options;

@@ -92,9 +92,9 @@ Config config_of(const TrainOptions& options, Preset otherwise, const Checkpoint
   return config;
 }
 
-void check_pictures(const TrainOptions& options, const Dataset& dataset) {
+void check_images(const TrainOptions& options, const Dataset& dataset) {
   require_sides(options.dataset, dataset,
-                {.least = ssim_window, .most = trainer::kernels::most_picture_side});
+                {.least = ssim_window, .most = trainer::kernels::most_image_side});
 }
 
 trainer::TrainingState first_state(const Dataset& dataset, const Config& config,
@@ -137,7 +137,7 @@ std::string progress_text(const trainer::SessionStatus& now) {
 
 struct Result {
   trainer::TrainingState state;
-  bool visible_at_start = false;  // a triangle, in any training picture
+  bool visible_at_start = false;  // a triangle, in any training image
   double seconds = 0;
   double trainer_psnr_db = 0;
   std::optional<Evaluation> evaluation;  // none without OpenGL
@@ -240,7 +240,7 @@ void say_beginning(const Dataset& dataset, const Config& config, const trainer::
                   counted(std::uint64_t(config.triangles)), backend.description()));
 }
 
-/// Whether some training picture shows a triangle.
+/// Whether some training image shows a triangle.
 bool shows_something(trainer::Backend& backend, std::span<const trainer::TrainingView> views) {
   return std::any_of(views.begin(), views.end(), [&](const trainer::TrainingView& view) {
     const std::vector<std::uint64_t> pixels = backend.visible_pixels({&view.camera, 1});
@@ -311,7 +311,7 @@ ExitCode train(const TrainOptions& options) {
 
   Dataset dataset =
       before_the_first_step(options, [&] { return read(options.dataset, DatasetPart::all); });
-  check_pictures(options, dataset);
+  check_images(options, dataset);
   const Config config = config_of(options, preset_for(dataset), before);
   if (options.print_config) {
     print_text(trainer::config_to_json(config));

@@ -36,7 +36,7 @@ std::optional<int> whole_number(const std::string& text, int low, int high) {
 
 }  // namespace
 
-PictureSize parse_any_size(const std::string& text) {
+ImageSize parse_any_size(const std::string& text) {
   const std::size_t times = text.find('x');
   std::optional<int> width, height;
   if (times != std::string::npos) {
@@ -49,8 +49,8 @@ PictureSize parse_any_size(const std::string& text) {
   return {*width, *height};
 }
 
-PictureSize parse_size(const std::string& text) {
-  const PictureSize size = parse_any_size(text);
+ImageSize parse_size(const std::string& text) {
+  const ImageSize size = parse_any_size(text);
   if (std::size_t(size.width) * std::size_t(size.height) > max_image_pixels)
     throw UsageError("an image of " + text + " has more than " + std::to_string(max_image_pixels) +
                      " pixels");

@@ -8,16 +8,16 @@
 
 namespace tureen::cli {
 
-struct PictureSize {
+struct ImageSize {
   int width = 0;
   int height = 0;
 };
 
 /// "1280x720"; no more pixels than one of our images has.
-PictureSize parse_size(const std::string& text);
+ImageSize parse_size(const std::string& text);
 
-/// The same for pictures that are never whole in memory: sides alone have a limit.
-PictureSize parse_any_size(const std::string& text);
+/// The same for images that are never whole in memory: sides alone have a limit.
+ImageSize parse_any_size(const std::string& text);
 
 /// "1,-2.5,3e2"; finite.
 glm::dvec3 parse_vector(const std::string& text);

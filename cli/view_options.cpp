@@ -66,7 +66,7 @@ Views film(CameraPathData data, const FrameRate& rate) {
   return {frames(path, rate), {}, rate.frames_per_second};
 }
 
-Views film_along(const fs::path& file, FrameRate rate, const std::optional<PictureSize>& size) {
+Views film_along(const fs::path& file, FrameRate rate, const std::optional<ImageSize>& size) {
   require_there(file);
   CameraPathData path = read_path(file);
   const Camera& first = path.keyframes.front().camera;
@@ -170,7 +170,7 @@ void add_view_options(Command& command, ViewOptions& options) {
 }
 
 Views resolve_views(const ViewOptions& options, const Scene& scene, const std::string& scene_path) {
-  std::optional<PictureSize> size;
+  std::optional<ImageSize> size;
   if (!options.size.empty()) size = parse_any_size(options.size);
 
   FrameRate rate;

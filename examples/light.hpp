@@ -19,7 +19,7 @@ struct LightQuality {
 };
 
 /// Diffuse light by ray casting. Every point uses the same directions: shadows are then smooth sums
-/// of many sharp ones, where random directions would leave grain in the pictures.
+/// of many sharp ones, where random directions would leave grain in the images.
 class Light {
  public:
   /// Estimates what each face throws back (two bounces). `caster` and `model` must outlive it.

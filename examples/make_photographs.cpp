@@ -24,7 +24,7 @@ struct Options {
   int threads = int(std::max(1u, std::thread::hardware_concurrency()));
 };
 
-/// The pictures first and then what names them: an interrupted split is none.
+/// The images first and then what names them: an interrupted split is none.
 void take(const Studio& studio, const Options& options, const std::string& split,
           const std::vector<Camera>& cameras) {
   const int count = int(cameras.size());

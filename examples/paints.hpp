@@ -1,5 +1,5 @@
 // What the still life is painted with: cobalt blue under white glaze, wood, lace, lemons, leaves.
-// Lengths are those of the scene; strokes are wide enough to be seen in pictures of 400 pixels a
+// Lengths are those of the scene; strokes are wide enough to be seen in images of 400 pixels a
 // side.
 #pragma once
 

@@ -11,7 +11,7 @@ namespace tureen::example {
 namespace {
 
 using std::numbers::pi;
-constexpr double soft = 0.017;  // about a pixel of a picture of 400 pixels a side
+constexpr double soft = 0.017;  // about a pixel of an image of 400 pixels a side
 constexpr double gloss = 0.6;
 
 const glm::dvec3 white(0.80, 0.79, 0.755), cobalt_deep(0.012, 0.035, 0.20),

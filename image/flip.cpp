@@ -26,7 +26,7 @@ double linear_from_srgb(double v) {
   return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
 
-/// Pictures that were read from 8 bits hold 256 values, and a power for each channel of each pixel
+/// Images that were read from 8 bits hold 256 values, and a power for each channel of each pixel
 /// would be a good part of the whole time: those values come from a table.
 class Linearise {
  public:

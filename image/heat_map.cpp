@@ -44,11 +44,11 @@ Legend difference_legend() {
 }
 
 Image8 side_by_side(const ImageF& a, const ImageF& b) {
-  const Image8 pictures[] = {quantised(a), quantised(b), difference(a, b)};
+  const Image8 images[] = {quantised(a), quantised(b), difference(a, b)};
   Image8 result(3 * a.width, a.height);
   for (int y = 0; y < a.height; ++y)
     for (int i = 0; i < 3; ++i)
-      std::copy_n(&pictures[i].at(0, y), a.width, &result.at(i * a.width, y));
+      std::copy_n(&images[i].at(0, y), a.width, &result.at(i * a.width, y));
   return result;
 }
 

@@ -33,8 +33,8 @@ void require_comparable(const ImageF& a, const ImageF& b) {
     return std::to_string(image.width) + " x " + std::to_string(image.height);
   };
   if (a.width != b.width || a.height != b.height)
-    throw UsageError("the pictures differ in size: " + size(a) + " and " + size(b));
-  if (a.pixels.empty()) throw UsageError("the pictures are empty");
+    throw UsageError("the images differ in size: " + size(a) + " and " + size(b));
+  if (a.pixels.empty()) throw UsageError("the images are empty");
 }
 
 /// The smallest value that at least 99.9 % of all are not above (nearest rank).

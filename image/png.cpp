@@ -58,9 +58,9 @@ namespace {
 /// For tables, and for the state of a decoder, which stb takes for granted.
 constexpr std::uint64_t decoder_tables = std::uint64_t(1) << 20;
 
-/// What stb holds at most for an honest picture, in bytes: the file in a buffer that doubles as it
+/// What stb holds at most for an honest image, in bytes: the file in a buffer that doubles as it
 /// grows; 8 a pixel, at 16 bits, of inflated rows in another, or 12 of a JPEG's coefficients; 8 and
-/// 4 of the picture before and after it is converted. Sides are rounded up to the blocks of at most
+/// 4 of the image before and after it is converted. Sides are rounded up to the blocks of at most
 /// 32 pixels that JPEG has. Deflated data that go on beyond this are a bomb.
 std::uint64_t decoder_limit(std::size_t file, int width, int height) {
   const auto padded = [](int side) { return std::uint64_t(side) + 32; };
@@ -97,7 +97,7 @@ Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
     if (table->in_header)
       throw InputError({name, table->byte, {}},
                        "the image is damaged: a Huffman table of more than 256 codes");
-    // Damage, or not the picture's any more: its decoder need not see that far.
+    // Damage, or not the image's any more: its decoder need not see that far.
     bytes = bytes.first(static_cast<std::size_t>(table->byte));
   }
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());

@@ -29,7 +29,7 @@ std::optional<PngDamage> png_damage(std::span<const std::byte> bytes) {
     if (chunk.size() < around || big_endian(chunk) > chunk.size() - around)
       return PngDamage{at, "it is cut short"};
     const std::size_t length = big_endian(chunk);
-    // A capital begins what no picture can do without; stb reads tRNS, too.
+    // A capital begins what no image can do without; stb reads tRNS, too.
     const bool is_critical = (std::to_integer<unsigned>(chunk[4]) & 0x20) == 0;
     if ((is_critical || is("tRNS")) &&
         crc32_of(chunk.subspan(4, 4 + length)) != big_endian(chunk.subspan(8 + length)))

@@ -56,7 +56,7 @@ double mean_similarity(const Plane& a, const Plane& b, const Window& window) {
   double sum = 0;
   for (std::size_t i = 0; i < mean_a.values.size(); ++i) {
     const double m = mean_a.values[i], n = mean_b.values[i];
-    // E[x^2] - E[x]^2 cancels where the picture is flat and may come out below zero.
+    // E[x^2] - E[x]^2 cancels where the image is flat and may come out below zero.
     const double var_a = window.variance_scale * std::max(aa.values[i] - m * m, 0.0);
     const double var_b = window.variance_scale * std::max(bb.values[i] - n * n, 0.0);
     const double covariance = window.variance_scale * (ab.values[i] - m * n);
@@ -85,7 +85,7 @@ double ssim(const ImageF& a, const ImageF& b, SsimBorder border) {
   const int side = window.border == Border::valid ? int(window.weights.size()) : 1;
   if (a.width < side || a.height < side)
     throw UsageError("SSIM with border mode " + std::string(name(border)) +
-                     " needs pictures of at least " + std::to_string(side) + " x " +
+                     " needs images of at least " + std::to_string(side) + " x " +
                      std::to_string(side) + " pixels, these are " + std::to_string(a.width) +
                      " x " + std::to_string(a.height));
   double sum = 0;

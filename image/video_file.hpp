@@ -18,7 +18,7 @@ bool is_video_name(const std::filesystem::path& path);
 /// The reason and the hint of the error if ffmpeg is missing.
 inline constexpr const char* ffmpeg_missing =
     "videos are written by ffmpeg, which is not installed (Debian and Ubuntu: ffmpeg)";
-inline constexpr const char* ffmpeg_hint = "-o frame_%04d.png writes frames as pictures without it";
+inline constexpr const char* ffmpeg_hint = "-o frame_%04d.png writes frames as images without it";
 
 /// Whether a folder of PATH contains ffmpeg.
 bool have_ffmpeg();

@@ -38,7 +38,7 @@ namespace {
 
 std::unique_ptr<Pipeline> resampled(std::unique_ptr<Pipeline> pipeline, const RenderPlan& plan,
                                     const gl::Capabilities& capabilities) {
-  const PictureLimit limit{capabilities.api, capabilities.max_picture_side};
+  const ImageLimit limit{capabilities.api, capabilities.max_image_side};
   const Quality& quality = plan.quality;
   if (quality.supersampling > 1)
     pipeline = make_supersampled(std::move(pipeline), quality.supersampling, limit);
@@ -68,7 +68,7 @@ Renderer::Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dv
   state_->bounds = bounds(soup);
   state_->origin = origin;
   state_->background = options.background;
-  state_->max_side = capabilities.max_picture_side;
+  state_->max_side = capabilities.max_image_side;
   state_->api = capabilities.api;
   gl::use_plain_pixel_transfer();
   state_->pipeline = resampled(make_published_pipeline(capabilities, limits, soup, state_->plan),
@@ -82,7 +82,7 @@ Renderer::Renderer(const gl::Context& context, PreparedSoup prepared, const Rend
   state_->bounds = prepared.bounds;
   state_->origin = prepared.origin;
   state_->background = options.background;
-  state_->max_side = capabilities.max_picture_side;
+  state_->max_side = capabilities.max_image_side;
   state_->api = capabilities.api;
   gl::use_plain_pixel_transfer();
   state_->pipeline = resampled(make_tureen_pipeline(capabilities, std::move(prepared.appearance),
@@ -136,7 +136,7 @@ std::vector<std::uint32_t> Renderer::read_faces() const {
 
 std::optional<glm::dvec3> Renderer::point_at(glm::dvec2 place) {
   const GLuint texture = state_->pipeline->depth_texture();
-  const glm::dvec2 picture(state_->width, state_->height), part = place / picture;
+  const glm::dvec2 image(state_->width, state_->height), part = place / image;
   if (!texture || !(part.x >= 0 && part.x < 1 && part.y >= 0 && part.y < 1)) return {};
   const glm::dvec2 samples(sample_size());
   const glm::ivec2 sample(part.x * samples.x, (1 - part.y) * samples.y);

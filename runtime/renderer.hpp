@@ -58,7 +58,7 @@ class Renderer {
 
   /// Draws one frame of camera.width x camera.height into its own target. Returns before the device
   /// has finished. Asserts a positive size. Throws DeviceLimitError if the size, in pixels or in
-  /// samples, exceeds Capabilities::max_picture_side.
+  /// samples, exceeds Capabilities::max_image_side.
   void draw(const Camera& camera);
 
   /// Waits for the device.

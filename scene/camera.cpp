@@ -52,7 +52,7 @@ Camera resized(const Camera& camera, int width, int height) {
 }
 
 Camera resampled(const Camera& camera, int width, int height) {
-  // (cx, cy) is measured from the picture's corner, not from a pixel's centre: it scales as it is.
+  // (cx, cy) is measured from the image's corner, not from a pixel's centre: it scales as it is.
   const double x = double(width) / camera.width, y = double(height) / camera.height;
   Camera result = camera;
   result.width = width;
@@ -64,7 +64,7 @@ Camera resampled(const Camera& camera, int width, int height) {
   return result;
 }
 
-bool in_picture(const Camera& camera, glm::dvec3 point) {
+bool in_image(const Camera& camera, glm::dvec3 point) {
   const glm::dvec4 v = camera.view_from_world * glm::dvec4(point, 1.0);
   if (!(v.z < 0)) return false;
   const double x = camera.cx + camera.fx * v.x / -v.z, y = camera.cy - camera.fy * v.y / -v.z;

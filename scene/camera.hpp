@@ -44,7 +44,7 @@ Camera resampled(const Camera& camera, int width, int height);
 
 /// Whether `point`, in world coordinates, lies in front of the camera and inside its image, edges
 /// included.
-bool in_picture(const Camera& camera, glm::dvec3 point);
+bool in_image(const Camera& camera, glm::dvec3 point);
 
 /// Clip from view. Maps the depth range [near, far] to NDC z in [-1, 1] (OpenGL's default). The y
 /// axis points up, so row 0 of a read-back image is the bottom row.

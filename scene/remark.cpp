@@ -205,7 +205,7 @@ std::string describe(const Remark& remark) {
       return "the file names no image size; " + std::to_string(counts[0]) + " x " +
              std::to_string(counts[1]) + " is assumed";
     case Kind::lens_dropped:
-      return "the lens distortion of the file is left out: pictures are those of a pinhole";
+      return "the lens distortion of the file is left out: images are those of a pinhole";
     case Kind::lens_undone:
       return "Lens distortion was undone by resampling" +
              (counts[0] + counts[1] == 0

@@ -45,7 +45,7 @@ float depth_on(uint face, vec3 normal, vec3 ray) {
   return clamp(dot(normal, from_eye[0]) / dot(normal, ray), low, high);
 }
 
-// Pixels to the nearest edge of the face, in the picture. In homogeneous coordinates around the
+// Pixels to the nearest edge of the face, in the image. In homogeneous coordinates around the
 // pixel's centre the line through two corners is their cross product, also where one of them lies
 // behind the eye.
 float pixels_to_edge(uint face, vec2 pixel) {

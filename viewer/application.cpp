@@ -62,7 +62,7 @@ std::vector<Event> take_frame(std::vector<Event>& pending) {
       if (buttons.test(std::size_t(button->button))) break;
       buttons.set(std::size_t(button->button));
     }
-    if (std::holds_alternative<WindowPictured>(pending[count])) {
+    if (std::holds_alternative<WindowScreenshot>(pending[count])) {
       ++count;
       break;
     }
@@ -279,7 +279,7 @@ void Application::move(double seconds) {
 
 void Application::draw(const std::vector<Event>& events, double busy_seconds) {
   prepare_debug_view_when_needed();
-  draw_picture();
+  draw_image();
   compare_when_needed();
   const double began = seconds_since_start();
   draw_panels(state_, frame_clock_);
@@ -289,14 +289,13 @@ void Application::draw(const std::vector<Event>& events, double busy_seconds) {
   gui_->draw();
   window_.set_pointer(gui_->pointer());
   for (const Event& event : events)
-    if (const auto* picture = std::get_if<WindowPictured>(&event))
-      save_window_picture(picture->name);
+    if (const auto* image = std::get_if<WindowScreenshot>(&event)) save_window_image(image->name);
   window_.present();
-  if (state_.stage && report_.first_picture_seconds < 0)
-    report_.first_picture_seconds = seconds_since_start();
+  if (state_.stage && report_.first_image_seconds < 0)
+    report_.first_image_seconds = seconds_since_start();
 }
 
-void Application::draw_picture() {
+void Application::draw_image() {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   gl::use_plain_rasterisation(1, 1);  // clearing heeds masks and scissors, not the viewport
   const float empty[4] = {0.06f, 0.06f, 0.07f, 1.0f};
@@ -306,8 +305,8 @@ void Application::draw_picture() {
     draw_scene();
   } catch (const DeviceLimitError& error) {
     // A window too large for so many samples a pixel, most likely.
-    state_.messages.error("The picture cannot be drawn", error.reason(), state_.now);
-    picture_is_current_ = false;
+    state_.messages.error("The image cannot be drawn", error.reason(), state_.now);
+    image_is_current_ = false;
     DrawingChoice choice = state_.stage->choice;
     if (quality_of(choice, *state_.stage->scene).supersampling == 1 || !worker_.idle()) return;
     choice.quality = Quality{};
@@ -320,7 +319,7 @@ void Application::draw_scene() {
   const bool shows_debug_view = state_.debug_view.what != DebugView::color && state_.debug_renderer;
   // Colours until the debug view is prepared.
   const DebugViewChoice debug_view = shows_debug_view ? state_.debug_view : DebugViewChoice{};
-  const bool same = picture_is_current_ && drawn_debug_view_ == debug_view &&
+  const bool same = image_is_current_ && drawn_debug_view_ == debug_view &&
                     camera.view_from_world == drawn_camera_.view_from_world &&
                     camera.width == drawn_camera_.width && camera.height == drawn_camera_.height &&
                     camera.fx == drawn_camera_.fx && camera.fy == drawn_camera_.fy &&
@@ -333,21 +332,21 @@ void Application::draw_scene() {
   }
   drawn_debug_view_ = debug_view;
   drawn_camera_ = camera;
-  picture_is_current_ = true;
+  image_is_current_ = true;
   if (shows_debug_view)
     state_.debug_renderer->blit_to(0);
   else
     state_.stage->renderer.blit_to(0);
 }
 
-void Application::save_window_picture(const std::string& name) {
+void Application::save_window_image(const std::string& name) {
   // The back buffer, before it is presented.
   glFinish();
   const glm::ivec2 size = window_.pixels();
-  const Image8 picture = read_pixels(0, size.x, size.y);
-  const std::filesystem::path folder = folder_of_pictures();
+  const Image8 image = read_pixels(0, size.x, size.y);
+  const std::filesystem::path folder = folder_of_images();
   make_folder(folder);
-  write_file(folder / name, encode_png(picture));
+  write_file(folder / name, encode_png(image));
 }
 
 }  // namespace tureen::viewer

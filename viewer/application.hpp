@@ -31,12 +31,12 @@ struct ApplicationOptions {
   std::optional<Session> replay;                  // done instead of what a person does
   std::filesystem::path record;                   // where the session is written; empty: nowhere
   std::function<bool()> interrupted = {};         // asked twice a second: end as if closed
-  std::filesystem::path pictures;                 // folder for pictures; empty: as the settings say
+  std::filesystem::path images;                   // folder for images; empty: as the settings say
 };
 
 /// What a run tells of itself.
 struct RunReport {
-  double first_picture_seconds = -1;  // from the start, before the window was opened; -1: none
+  double first_image_seconds = -1;  // from the start, before the window was opened; -1: none
   /// The longest that a frame kept the main thread outside of drawing, over frames in which
   /// something was being loaded.
   double longest_busy_ms = 0;
@@ -67,7 +67,7 @@ class Application {
   void handle(const Event& event);
   void move(double seconds);
   void draw(const std::vector<Event>& events, double busy_seconds);
-  void draw_picture();
+  void draw_image();
   void draw_scene();
   bool at_rest() const;
   double wait_seconds() const;
@@ -78,7 +78,7 @@ class Application {
   void keep_session();
   void keep_settings();
 
-  // -- requests (application_requests.cpp, application_pictures.cpp, application_debug_views.cpp)
+  // -- requests (application_requests.cpp, application_images.cpp, application_debug_views.cpp)
   void carry_out();
   void carry_out(const OpenPath& request);
   void carry_out(const OpenPhotographs& request);
@@ -86,7 +86,7 @@ class Application {
   void carry_out(const ReloadScene& request);
   void carry_out(const ChooseDrawing& request);
   void carry_out(const ShowRecorded& request);
-  void carry_out(const TakePicture& request);
+  void carry_out(const TakeImage& request);
   void carry_out(const CopyCommand& request);
   void carry_out(const ToggleFullscreen& request);
   void carry_out(const AddKeyframe& request);
@@ -105,9 +105,9 @@ class Application {
   void write(const std::string& what, const std::filesystem::path& path,
              std::function<void(const StageRequest&)> work);
   bool has_scene();
-  std::filesystem::path folder_of_pictures() const;
-  std::filesystem::path picture_path(const std::string& extension);
-  void save_window_picture(const std::string& name);
+  std::filesystem::path folder_of_images() const;
+  std::filesystem::path image_path(const std::string& extension);
+  void save_window_image(const std::string& name);
 
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   RunReport report_;
@@ -120,12 +120,12 @@ class Application {
   FrameClock frame_clock_;
   NavigationInput navigation_;
   std::optional<Recorder> recorder_;
-  std::vector<std::filesystem::path> promised_;  // names of pictures that are being written
+  std::vector<std::filesystem::path> promised_;  // names of images that are being written
   std::vector<Event> pending_;
   FileWatch watch_;
   double watched_ = 0, last_ = 0;
   int frames_wanted_ = 2;
-  bool picture_is_current_ = false, debug_renderer_asked_ = false;
+  bool image_is_current_ = false, debug_renderer_asked_ = false;
   Camera drawn_camera_;
   DebugViewChoice drawn_debug_view_;
   bool quit_ = false, vsync_ = false;

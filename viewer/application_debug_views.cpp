@@ -25,7 +25,7 @@ void Application::prepare_debug_view_when_needed() {
                          if (!state_.stage || state_.stage->scene != of) return;
                          state_.debug_renderer =
                              std::make_unique<DebugViewRenderer>(std::move(*debug_renderer));
-                         picture_is_current_ = false;
+                         image_is_current_ = false;
                        });
                      },
                  .failed =
@@ -41,7 +41,7 @@ void Application::compare_when_needed() {
   const Photograph* photograph = state_.photograph();
   if (!photograph || comparison.show == Comparison::Show::off || !state_.stage) return;
   if (comparison.photograph != state_.recorded) {
-    comparison.texture = PictureTexture(photograph->image);
+    comparison.texture = ImageTexture(photograph->image);
     comparison.photograph = state_.recorded;
     comparison.forget();
   }
@@ -52,33 +52,33 @@ void Application::compare_when_needed() {
     renderer.draw(photograph->camera);
   } catch (const DeviceLimitError& error) {
     comparison.show = Comparison::Show::off;
-    picture_is_current_ = false;  // the window's went with its targets
+    image_is_current_ = false;  // the window's went with its targets
     state_.messages.error("The photograph cannot be compared", error.reason(), state_.now);
     return;
   }
   const int ticket = comparison.ticket;
   auto drawn = std::make_shared<Image8>(renderer.read_color());
-  picture_is_current_ = false;  // the window's comes next
+  image_is_current_ = false;  // the window's comes next
   auto held = std::make_shared<Image8>(photograph->image);
   const glm::vec3 background = state_.stage->scene->info.background;
-  worker_.start(
-      {.kind = JobKind::comparison,
-       .what = "comparing",
-       .work =
-           [this, drawn, held, background, ticket](const Worker::Progress&) {
-             const ImageF ours = composited(to_float(*drawn), background);
-             const ImageF theirs = composited(to_float(*held), background);
-             const Metrics metrics = compare(ours, theirs, {.with_flip = false});
-             auto map = std::make_shared<Image8>(difference(ours, theirs));
-             return Worker::Completion([this, metrics, map, ticket] {
-               if (state_.comparison.ticket != ticket) return;  // the view has moved on
-               state_.comparison.result = Comparison::Result{metrics, PictureTexture(*map)};
-             });
-           },
-       .failed =
-           [this](const std::string& reason) {
-             state_.messages.error("The photograph cannot be compared", reason, state_.now);
-           }});
+  worker_.start({.kind = JobKind::comparison,
+                 .what = "comparing",
+                 .work =
+                     [this, drawn, held, background, ticket](const Worker::Progress&) {
+                       const ImageF ours = composited(to_float(*drawn), background);
+                       const ImageF theirs = composited(to_float(*held), background);
+                       const Metrics metrics = compare(ours, theirs, {.with_flip = false});
+                       auto map = std::make_shared<Image8>(difference(ours, theirs));
+                       return Worker::Completion([this, metrics, map, ticket] {
+                         if (state_.comparison.ticket != ticket) return;  // the view has moved on
+                         state_.comparison.result = Comparison::Result{metrics, ImageTexture(*map)};
+                       });
+                     },
+                 .failed =
+                     [this](const std::string& reason) {
+                       state_.messages.error("The photograph cannot be compared", reason,
+                                             state_.now);
+                     }});
 }
 
 }  // namespace tureen::viewer

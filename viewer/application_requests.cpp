@@ -75,7 +75,7 @@ void Application::show(std::unique_ptr<Stage> stage, bool keep_view) {
   const bool other_path = !state_.stage || state_.stage->path != stage->path;
   state_.stage = std::move(stage);
   state_.wanted = state_.stage->choice;
-  picture_is_current_ = false;
+  image_is_current_ = false;
   worker_.abandon(JobKind::debug_view);
   worker_.abandon(JobKind::comparison);
   state_.debug_renderer.reset();

@@ -1,4 +1,4 @@
-// The picture held against the photograph of the camera that it is drawn from: side by side, as a
+// The image held against the photograph of the camera that it is drawn from: side by side, as a
 // map of differences, and in numbers.
 #pragma once
 
@@ -23,15 +23,15 @@ PlacedPhotograph place(const Camera& photograph, const Camera& view, double poin
 struct Comparison {
   enum class Show { off, split, photograph, difference };
   Show show = Show::off;
-  double divider = 0.5;  // of the picture's width; left of it is the photograph
+  double divider = 0.5;  // of the image's width; left of it is the photograph
 
   int photograph = -1;  // the index of the one that `texture` shows
-  PictureTexture texture;
+  ImageTexture texture;
 
   /// Of the scene as it is drawn now against that photograph, at the photograph's size.
   struct Result {
     Metrics metrics;
-    PictureTexture difference;
+    ImageTexture difference;
   };
   std::optional<Result> result;
   bool asked = false;  // a result is being made

@@ -11,7 +11,7 @@ namespace tureen::viewer {
 struct Film {
   CameraPath path;
   bool plays = false;
-  bool scrubbed = false;  // the slider is held: the picture follows
+  bool scrubbed = false;  // the slider is held: the image follows
   double seconds = 0;     // where it plays, from the first keyframe
   int selected = -1;      // keyframe
   std::string file;       // of the JSON

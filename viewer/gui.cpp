@@ -72,7 +72,7 @@ void load_font(ImGuiIO& io, const GuiOptions& options) {
   io.Fonts->AddFontDefault(&config);
 }
 
-/// Quiet greys, so that the picture is what has colour.
+/// Quiet greys, so that the image is what has colour.
 void dress(double scale) {
   ImGui::StyleColorsDark();
   ImGuiStyle& style = ImGui::GetStyle();

@@ -65,7 +65,7 @@ void GuiDrawing::draw(const ImDrawData& data) {
   program_.use();
   program_.set("origin", glm::vec2(data.DisplayPos.x, data.DisplayPos.y));
   program_.set("extent", glm::vec2(data.DisplaySize.x, data.DisplaySize.y));
-  program_.set("picture", 0);
+  program_.set("image", 0);
   glActiveTexture(GL_TEXTURE0);
   gl::use_texture_sampling(0);
   glBindVertexArray(vertex_array_.id());

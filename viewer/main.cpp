@@ -31,7 +31,7 @@ volatile std::sig_atomic_t was_interrupted = 0;
 extern "C" void note_interrupt(int) { was_interrupted = 1; }
 
 struct Arguments {
-  std::string scene, dataset, api = "gl", size, replay, record, pictures;
+  std::string scene, dataset, api = "gl", size, replay, record, images;
   std::string pipeline = "auto";
   bool no_specialise = false, no_settings = false, report = false;
 };
@@ -52,7 +52,7 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
   program.add_flag("--no-specialise", arguments.no_specialise,
                    "apply no specialisation: also draw and compute the parts that the scene does "
                    "not need");
-  program.add_option("--pictures", arguments.pictures, "folder for saved images")
+  program.add_option("--images,--pictures", arguments.images, "folder for saved images")
       ->option_text("FOLDER");
   program
       .add_option_function<std::string>(
@@ -88,7 +88,7 @@ int run(const Arguments& arguments) {
   options.api = arguments.api == "es" ? gl::Api::es : gl::Api::desktop;
   options.window = parse_size(arguments.size);
   options.record = arguments.record;
-  options.pictures = arguments.pictures;
+  options.images = arguments.images;
   if (arguments.pipeline == "published") options.drawing.plan.pipeline = PipelineKind::published;
   options.drawing.plan.specialise = !arguments.no_specialise;
   if (!arguments.replay.empty()) options.replay = read_session(arguments.replay);
@@ -101,7 +101,7 @@ int run(const Arguments& arguments) {
   application.run();
   if (arguments.report)
     std::fprintf(stderr, "first image after %.2f s; longest frame while loading %.1f ms\n",
-                 application.report().first_picture_seconds, application.report().longest_busy_ms);
+                 application.report().first_image_seconds, application.report().longest_busy_ms);
   if (arguments.replay.empty()) return int(ExitCode::done);
   const std::vector<std::string> errors = application.errors();
   for (const std::string& error : errors)

@@ -1,4 +1,4 @@
-// The panels around the picture. Each is a file in panels/ that reads the state, changes settings
+// The panels around the image. Each is a file in panels/ that reads the state, changes settings
 // in it and asks for what must be done (viewer/state.hpp).
 #pragma once
 
@@ -13,7 +13,7 @@ double panels_width(const State& state, double window_width);
 /// The column at the right with everything in it.
 void draw_panels(State& state, const FrameClock& clock);
 
-/// What lies over the picture with or without the panels: photographs, progress, messages, keys.
+/// What lies over the image with or without the panels: photographs, progress, messages, keys.
 void draw_overlays(State& state);
 
 // The parts of both, in their order. They are drawn between ImGui::Begin and End.
@@ -22,7 +22,7 @@ void view_panel(State& state);
 void debug_view_panel(State& state);
 void drawing_panel(State& state);
 void comparison_panel(State& state);
-void picture_panel(State& state);
+void image_panel(State& state);
 void path_panel(State& state);
 void times_panel(State& state, const FrameClock& clock);
 

@@ -85,7 +85,7 @@ std::string render_command(const StageSource& scene, const DrawingChoice& choice
     add_choice(command, choice, *scene.scene);
   else
     command += " --debug-view " + shown(debug_view);
-  return command + " -o picture.png";
+  return command + " -o image.png";
 }
 
 }  // namespace tureen::viewer

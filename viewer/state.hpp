@@ -42,11 +42,11 @@ struct ChooseDrawing {
 struct ShowRecorded {
   int index = 0;
 };
-struct TakePicture {
+struct TakeImage {
   glm::ivec2 size{0};  // (0, 0): the window's
   bool transparent = false;
 };
-/// The command that draws this picture without a window goes to the clipboard.
+/// The command that draws this image without a window goes to the clipboard.
 struct CopyCommand {};
 struct ToggleFullscreen {};
 struct AddKeyframe {};
@@ -61,14 +61,14 @@ struct LoadPath {
   std::filesystem::path file;
 };
 struct WriteFilm {};
-/// Of pictures and films.
+/// Of images and films.
 struct StopWriting {};
 struct Quit {};
 
 using Request =
     std::variant<OpenPath, OpenPhotographs, CloseDataset, ReloadScene, ChooseDrawing, ShowRecorded,
-                 TakePicture, CopyCommand, ToggleFullscreen, AddKeyframe, ShowKeyframe,
-                 MakeTurntable, SavePath, LoadPath, WriteFilm, StopWriting, Quit>;
+                 TakeImage, CopyCommand, ToggleFullscreen, AddKeyframe, ShowKeyframe, MakeTurntable,
+                 SavePath, LoadPath, WriteFilm, StopWriting, Quit>;
 
 /// The photographs at hand; those to train on first.
 struct Photographs {
@@ -78,8 +78,8 @@ struct Photographs {
   std::vector<std::string> notes;
 };
 
-/// The picture-taking panel's fields.
-struct PictureWish {
+/// The image-taking panel's fields.
+struct ImageWish {
   bool window_size = true;
   glm::ivec2 size{3840, 2160};
   bool transparent = false;
@@ -97,14 +97,14 @@ struct State {
   Comparison comparison;
   Film film;
   Messages messages;
-  PictureWish picture;
+  ImageWish image;
   bool show_interface = true;
   bool show_keys = false;
   FileList files;
   bool show_files = false;  // the window to pick a file in
   bool draw_continuously = false;
   std::optional<Worker::Status> busy, writing;
-  /// Of the picture, which leaves room for the panels at its right.
+  /// Of the image, which leaves room for the panels at its right.
   glm::ivec2 points{1, 1}, pixels{1, 1};
   double now = 0;  // seconds of the window's clock
 

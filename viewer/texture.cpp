@@ -6,7 +6,7 @@
 
 namespace tureen::viewer {
 
-PictureTexture::PictureTexture(const Image8& image)
+ImageTexture::ImageTexture(const Image8& image)
     : texture_(gl::Texture::create()), size_(image.width, image.height) {
   gl::use_plain_pixel_transfer();
   glBindTexture(GL_TEXTURE_2D, texture_.id());
@@ -18,7 +18,7 @@ PictureTexture::PictureTexture(const Image8& image)
                image.pixels.data());
 }
 
-void* PictureTexture::id() const {
+void* ImageTexture::id() const {
   // NOLINTNEXTLINE(performance-no-int-to-ptr): the interface hands names on as pointers
   return reinterpret_cast<void*>(static_cast<std::uintptr_t>(texture_.id()));
 }

@@ -1,4 +1,4 @@
-// A picture on the device for the interface to show: a photograph, a heat map.
+// An image on the device for the interface to show: a photograph, a heat map.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -8,12 +8,12 @@
 
 namespace tureen::viewer {
 
-class PictureTexture {
+class ImageTexture {
  public:
-  PictureTexture() = default;
-  /// Filtered linearly. Pictures wider or higher than the device's textures are refused by GL and
+  ImageTexture() = default;
+  /// Filtered linearly. Images wider or higher than the device's textures are refused by GL and
   /// show black.
-  explicit PictureTexture(const Image8& image);
+  explicit ImageTexture(const Image8& image);
 
   explicit operator bool() const { return static_cast<bool>(texture_); }
   glm::ivec2 size() const { return size_; }

@@ -22,7 +22,7 @@ std::string last_reason() {
 [[noreturn]] void fail(const std::string& what) {
   throw ContextError(what + " (" + last_reason() +
                          "): tureen-view needs a display and OpenGL 3.3 or OpenGL ES 3.0",
-                     "without a display, tureen render draws pictures: tureen render SCENE -o "
+                     "without a display, tureen render draws images: tureen render SCENE -o "
                      "picture.png");
 }
 

@@ -151,19 +151,19 @@ void require_photographs(const Outline& outline, const DatasetOptions& options) 
   refuse(outline.test, DatasetPart::train, "test");
 }
 
-/// The pictures of all frames, or an InputError with the names of those that are missing.
-std::vector<fs::path> find_pictures(const std::string& file,
-                                    const std::vector<const DatasetFrame*>& frames,
-                                    const DatasetOptions& options) {
+/// The images of all frames, or an InputError with the names of those that are missing.
+std::vector<fs::path> find_images(const std::string& file,
+                                  const std::vector<const DatasetFrame*>& frames,
+                                  const DatasetOptions& options) {
   constexpr std::size_t named = 12;
-  std::vector<fs::path> pictures;
+  std::vector<fs::path> images;
   std::string missing;
   std::size_t missing_count = 0;
   for (const DatasetFrame* frame : frames) {
     try {
-      const std::optional<fs::path> picture = find_picture(*frame, options.images_folder);
-      if (picture)
-        pictures.push_back(*picture);
+      const std::optional<fs::path> image = find_image(*frame, options.images_folder);
+      if (image)
+        images.push_back(*image);
       else if (missing_count++ < named)
         missing += (missing.empty() ? "" : ", ") + frame->file;
     } catch (const UriError& error) {
@@ -177,7 +177,7 @@ std::vector<fs::path> find_pictures(const std::string& file,
                          " photographs are missing in " +
                          (frames[0]->folder.empty() ? "." : frames[0]->folder.string()) + ": " +
                          missing);
-  return pictures;
+  return images;
 }
 
 /// Says so at once where the dataset tells its sizes, and not after a minute of decoding.
@@ -213,24 +213,24 @@ Dataset read_dataset(const fs::path& path, const DatasetOptions& options) {
   std::vector<const DatasetFrame*> frames;
   for (const DatasetFrame& frame : outline.train) frames.push_back(&frame);
   for (const DatasetFrame& frame : outline.test) frames.push_back(&frame);
-  const std::vector<fs::path> pictures = find_pictures(outline.file, frames, options);
+  const std::vector<fs::path> images = find_images(outline.file, frames, options);
   require_budget(outline.file, frames, options, budget);
 
   Dataset dataset = std::move(outline.dataset);
   bool distorted = false;
-  glm::ivec2 first_size(0);  // of pictures whose size the dataset does not give
+  glm::ivec2 first_size(0);  // of images whose size the dataset does not give
   int lost_columns = 0, lost_rows = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (options.progress) options.progress(double(i) / double(frames.size()));
-    ReadPhotograph read = read_photograph(*frames[i], pictures[i], options, budget);
-    // An angle of view without a size says something only where all pictures of a split are alike.
+    ReadPhotograph read = read_photograph(*frames[i], images[i], options, budget);
+    // An angle of view without a size says something only where all images of a split are alike.
     if (i == outline.train.size()) first_size = glm::ivec2(0);
     if (!frames[i]->size) {
       const Camera& camera = read.photograph.camera;
       if (first_size.x == 0) first_size = glm::ivec2(camera.width, camera.height);
       if (first_size != glm::ivec2(camera.width, camera.height))
-        throw InputError({pictures[i].string(), {}, {}},
-                         "the picture is " + std::to_string(camera.width) + " x " +
+        throw InputError({images[i].string(), {}, {}},
+                         "the image is " + std::to_string(camera.width) + " x " +
                              std::to_string(camera.height) + ", the first one " +
                              std::to_string(first_size.x) + " x " + std::to_string(first_size.y) +
                              (options.scale == 1 ? "" : " (after scaling)") +

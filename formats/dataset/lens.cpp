@@ -17,7 +17,7 @@ glm::dvec2 Lens::distorted(glm::dvec2 point) const {
 }
 
 bool Lens::sees(glm::dvec2 point) const {
-  // The picture folds where the determinant of the Jacobian is no longer positive. Its radial part
+  // The image folds where the determinant of the Jacobian is no longer positive. Its radial part
   // along r is 1 + 3 k1 r^2 + 5 k2 r^4 + 7 k3 r^6, whose first root is anywhere between the axis
   // and the point: a few steps find it, because it turns at most three times.
   constexpr int steps = 8;
@@ -124,7 +124,7 @@ class Crop {
     }
   }
 
-  /// Empty where it holds less than half of the picture, or a hole.
+  /// Empty where it holds less than half of the image, or a hole.
   PixelRectangle known_pixels() const {
     const std::size_t area =
         std::size_t(area_.right - area_.left) * std::size_t(area_.bottom - area_.top);

@@ -17,7 +17,7 @@ std::string size_text(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height);
 }
 
-/// The camera of the same view where its picture is resized to width x height.
+/// The camera of the same view where its image is resized to width x height.
 Camera stretched(Camera camera, int width, int height) {
   const double x = double(width) / camera.width, y = double(height) / camera.height;
   camera.fx *= x;
@@ -29,7 +29,7 @@ Camera stretched(Camera camera, int width, int height) {
   return camera;
 }
 
-/// The camera of a picture of this size from a folder whose images are `shrunk` times smaller than
+/// The camera of an image of this size from a folder whose images are `shrunk` times smaller than
 /// those that the dataset speaks of.
 Camera camera_for(const DatasetFrame& frame, const Image8& image, int shrunk,
                   const std::string& file) {
@@ -38,13 +38,13 @@ Camera camera_for(const DatasetFrame& frame, const Image8& image, int shrunk,
   // What does not divide was rounded, by whoever made the folder, up or down.
   const auto fits = [&](int have, int want) { return std::abs(have * shrunk - want) < shrunk; };
   if (!fits(image.width, full.x) || !fits(image.height, full.y))
-    throw InputError({file, {}, {}}, "the picture is " + size_text(image.width, image.height) +
+    throw InputError({file, {}, {}}, "the image is " + size_text(image.width, image.height) +
                                          ", but its camera's is " + size_text(full.x, full.y) +
                                          (shrunk > 1 ? " / " + std::to_string(shrunk) : ""));
   return stretched(frame.camera(full.x, full.y), image.width, image.height);
 }
 
-/// Pixels of the scaled picture whose area lies within `known` of a picture of this size.
+/// Pixels of the scaled image whose area lies within `known` of an image of this size.
 PixelRectangle scaled_rectangle(const PixelRectangle& known, glm::ivec2 from, glm::ivec2 to) {
   // 64 bits: sides go to 2^16.
   const auto up = [](std::int64_t a, std::int64_t b, std::int64_t c) {
@@ -64,7 +64,7 @@ Image8 cropped(const Image8& image, const PixelRectangle& area) {
 
 }  // namespace
 
-std::optional<std::filesystem::path> find_picture(const DatasetFrame& frame, int images_folder) {
+std::optional<std::filesystem::path> find_image(const DatasetFrame& frame, int images_folder) {
   std::error_code ignored;
   if (!frame.folder.empty() && !std::filesystem::is_directory(frame.folder, ignored)) return {};
   const auto exists = [&](const std::string& name) -> std::optional<std::filesystem::path> {
@@ -84,25 +84,25 @@ std::optional<std::filesystem::path> find_picture(const DatasetFrame& frame, int
 
 int scaled_side(int side, double scale) { return std::max(1, int(std::lround(side * scale))); }
 
-ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem::path& picture,
+ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem::path& file,
                                const DatasetOptions& options, const MemoryBudget& budget) {
   PassingMemory passing(budget);
-  Input input = Input::open(picture, budget);
+  Input input = Input::open(file, budget);
   Image8 image = read_image(input);
   Camera camera = camera_for(frame, image, options.images_folder, input.name());
   const glm::ivec2 full(image.width, image.height);
   PixelRectangle known{0, 0, full.x, full.y};
   if (!frame.lens.is_pinhole()) {
-    // The same picture in floats, with a border, and without its lens.
+    // The same image in floats, with a border, and without its lens.
     input.take_memory(std::uint64_t(full.x + 4) * std::uint64_t(full.y + 4),
-                      sizeof(glm::vec4) + sizeof(glm::u8vec4) + 1, "the picture without its lens");
+                      sizeof(glm::vec4) + sizeof(glm::u8vec4) + 1, "the image without its lens");
     Undistorted without_lens = undistorted(image, camera, frame.lens);
     image = std::move(without_lens.image);
     known = without_lens.known;
     if (known.right == 0)
       throw InputError({input.name(), {}, {}},
                        "the distortion of its lens cannot be undone: less than half of the "
-                       "picture would be left");
+                       "image would be left");
   }
   const glm::ivec2 size(scaled_side(full.x, options.scale), scaled_side(full.y, options.scale));
   known = scaled_rectangle(known, full, size);
@@ -113,7 +113,7 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem:
   camera = stretched(std::move(camera), size.x, size.y);
   // Scaled, and perhaps cropped once more.
   input.take_memory(std::uint64_t(size.x) * std::uint64_t(size.y), 2 * sizeof(glm::u8vec4),
-                    "the scaled picture");
+                    "the scaled image");
   image = box_scaled(image, size.x, size.y);
 
   ReadPhotograph result;

@@ -14,7 +14,7 @@ namespace tureen {
 /// NeRF-synthetic omits (.png, .jpg, .jpeg, in lower or upper case). In a folder of smaller images
 /// another extension may replace the name's own. Throws UriError for a name outside the frame's
 /// folder.
-std::optional<std::filesystem::path> find_picture(const DatasetFrame& frame, int images_folder);
+std::optional<std::filesystem::path> find_image(const DatasetFrame& frame, int images_folder);
 
 /// The width or height of an image with `side` pixels at this scale: rounded, at least 1.
 int scaled_side(int side, double scale);
@@ -25,10 +25,10 @@ struct ReadPhotograph {
   int lost_columns = 0, lost_rows = 0;
 };
 
-/// Decodes `picture` and scales it by `options.scale`. Throws InputError with the image: it cannot
+/// Decodes `image` and scales it by `options.scale`. Throws InputError with the image: it cannot
 /// be decoded, its size is not the camera's, the lens leaves less than half of it, or the budget is
 /// exceeded. Charges the photograph's memory to the budget.
-ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem::path& picture,
+ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem::path& image,
                                const DatasetOptions& options, const MemoryBudget& budget);
 
 }  // namespace tureen

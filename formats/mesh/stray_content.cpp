@@ -31,7 +31,7 @@ std::optional<StrayContent> stray_content(std::span<const std::byte> head) {
           "a page of the web and no scene: most likely what a server sent in place of the file",
           ""};
   if (text.substr(0, 4) == "\x89PNG" || text.substr(0, 3) == "\xFF\xD8\xFF")
-    return StrayContent{"a picture and no scene", ""};
+    return StrayContent{"an image and no scene", ""};
   if (text.substr(0, 2) == "\x1F\x8B") return StrayContent{"compressed by gzip", "gunzip it first"};
   return std::nullopt;
 }

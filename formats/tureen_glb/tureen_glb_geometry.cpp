@@ -8,10 +8,10 @@ namespace tureen {
 
 namespace {
 
-/// Pictures of any other size cannot be drawn, and a driver may do worse than say so.
+/// Images of any other size cannot be drawn, and a driver may do worse than say so.
 int side(const JsonView& view) {
   const std::uint64_t pixels = view.natural(max_image_side);
-  if (pixels == 0) view.fail("a picture without pixels");
+  if (pixels == 0) view.fail("an image without pixels");
   return int(pixels);
 }
 

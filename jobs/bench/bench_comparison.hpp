@@ -18,7 +18,7 @@ struct BenchRatio {
   std::optional<double> spread = {};  // spread_between() the two, with the larger A/A spread
   Verdict verdict = Verdict::unknown;
   int rounds = 0;            // of the shorter of the two
-  bool same_pixels = false;  // the two drew the same picture, bit for bit
+  bool same_pixels = false;  // the two drew the same image, bit for bit
 };
 
 /// Why times of two results say nothing of each other.

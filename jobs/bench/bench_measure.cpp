@@ -19,7 +19,7 @@ void add_proof(BenchMeasurement& measurement, const BenchCase& bench_case,
                const MeasureOptions& options) {
   const Image8 frame = bench_case.last_frame();
   measurement.pixels_hash = pixels_hash(frame);
-  if (options.keep_frame) measurement.picture = options.keep_frame(measurement, frame);
+  if (options.keep_frame) measurement.image = options.keep_frame(measurement, frame);
 }
 
 BenchMeasurement described(const CaseResult& timed, const BenchmarkResult& result,
@@ -80,7 +80,7 @@ std::vector<BenchMeasurement> measure(const BenchCases& cases, const std::vector
       if (options.progress) options.progress((double(i) + fraction) / count, detail);
     };
     if (options.max_seconds > 0) {
-      // What small pictures leave of their share is the larger ones', which come later.
+      // What small images leave of their share is the larger ones', which come later.
       const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start;
       const double left = (options.max_seconds - used.count()) / (count - double(i));
       benchmark.max_seconds = std::max(left, 1e-3);  // a round is always made

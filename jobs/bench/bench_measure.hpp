@@ -18,7 +18,7 @@ struct MeasureOptions {
   /// Called often with the fraction done, 0..1, and what is being timed; may throw to end it.
   std::function<void(double fraction, const std::string& what)> progress = {};
   /// Called with the last frame timed for a measurement; returns the file that holds it, for
-  /// BenchMeasurement::picture.
+  /// BenchMeasurement::image.
   std::function<std::string(const BenchMeasurement&, const Image8&)> keep_frame = {};
 };
 

@@ -87,9 +87,9 @@ struct BenchMeasurement {
   /// All passes together by the device's own clock, to be held against frame_ms.
   std::optional<double> gpu_ms;
 
-  std::vector<double> views_ms;        // the median of each view
-  std::string pixels_hash;             // of the last frame that was timed; 16 hexadecimal digits
-  std::optional<std::string> picture;  // its PNG, where one was asked for
+  std::vector<double> views_ms;      // the median of each view
+  std::string pixels_hash;           // of the last frame that was timed; 16 hexadecimal digits
+  std::optional<std::string> image;  // its PNG, where one was asked for
 };
 
 struct BenchResult {

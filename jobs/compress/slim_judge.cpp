@@ -61,9 +61,9 @@ SlimJudge::SlimJudge(const gl::Context& context, const Scene& scene,
     views_.around = cameras_.size() - views_.cameras;
   }
   std::vector<double> errors;
-  draw(std::get<TriangleSoup>(scene.primitives), [&](std::size_t i, const ImageF& picture) {
-    pictures_.push_back(picture);
-    if (!photographs_.empty()) errors.push_back(mean_squared_error(photographs_[i], picture));
+  draw(std::get<TriangleSoup>(scene.primitives), [&](std::size_t i, const ImageF& image) {
+    images_.push_back(image);
+    if (!photographs_.empty()) errors.push_back(mean_squared_error(photographs_[i], image));
   });
   if (photographs_.empty()) return;
   model_db_ = model_db(errors);
@@ -78,11 +78,11 @@ SlimJudge::SlimJudge(const gl::Context& context, const Scene& scene,
 SlimLoss SlimJudge::loss(const TriangleSoup& soup) const {
   double squared = 0, pixels = 0;
   std::vector<double> errors;
-  draw(soup, [&](std::size_t i, const ImageF& picture) {
+  draw(soup, [&](std::size_t i, const ImageF& image) {
     const auto weight = double(cameras_[i].width) * cameras_[i].height;
-    squared += weight * mean_squared_error(pictures_[i], picture);
+    squared += weight * mean_squared_error(images_[i], image);
     pixels += weight;
-    if (!photographs_.empty()) errors.push_back(mean_squared_error(photographs_[i], picture));
+    if (!photographs_.empty()) errors.push_back(mean_squared_error(photographs_[i], image));
   });
   SlimLoss result;
   result.render_psnr_db = psnr_from_mse(squared / pixels);

@@ -65,7 +65,7 @@ class SlimJudge {
   glm::vec3 background_;
   std::vector<Camera> cameras_;
   std::vector<ImageF> photographs_;  // composited over the background
-  std::vector<ImageF> pictures_;     // of the original scene
+  std::vector<ImageF> images_;       // of the original scene
   SlimViews views_;
   double model_db_ = assumed_model_db;
 };

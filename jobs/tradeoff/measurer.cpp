@@ -131,13 +131,13 @@ void Measurer::compare(std::vector<Running>& running, std::size_t first) {
     }
     if (errors.size() >= most) take(errors.size() - most);
     errors.push_back(std::async(std::launch::async, [this, drawn = std::move(drawn)] {
-      std::vector<ImageF> pictures;
-      for (const Image8& picture : drawn)
-        pictures.push_back(composited(to_float(picture), options_.background));
+      std::vector<ImageF> images;
+      for (const Image8& image : drawn)
+        images.push_back(composited(to_float(image), options_.background));
       // Where a pixel is covered in part, the device says with which colour and how much of it; a
       // screen shows 8 bits of the mixture.
-      pictures = as_shown(pictures);
-      return errors_of(references_, pictures, options_.with_flip);
+      images = as_shown(images);
+      return errors_of(references_, images, options_.with_flip);
     }));
   }
   for (std::size_t i = 0; i < errors.size(); ++i)

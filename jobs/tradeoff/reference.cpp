@@ -38,11 +38,11 @@ int device_subpixel_bits() {
   return bits >= 1 && bits <= 16 ? bits : 8;
 }
 
-ImageF reference_picture(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera,
-                         const ReferenceOptions& options) {
+ImageF reference_image(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera,
+                       const ReferenceOptions& options) {
   const bool antialiased = options.samples == Samples::antialiased;
   const int n = antialiased ? antialiased_samples : 1;
-  // A snapped picture is not cut: where a triangle is clipped depends on the picture's border.
+  // A snapped image is not cut: where a triangle is clipped depends on the image's border.
   const int rows = antialiased
                        ? std::clamp(int(rays_in_a_strip / (n * n) / camera.width), 1, camera.height)
                        : camera.height;
@@ -53,7 +53,7 @@ ImageF reference_picture(const TriangleSoup& soup, glm::dvec3 origin, const Came
     oracle.rays.coverage = oracle::Coverage::snapped;
     oracle.rays.subpixel_bits = options.subpixel_bits;
   }
-  ImageF picture(camera.width, camera.height);
+  ImageF image(camera.width, camera.height);
   for (int first = 0; first < camera.height; first += rows) {
     const Camera strip = strip_of(camera, first, std::min(rows, camera.height - first));
     if (options.progress)
@@ -62,9 +62,9 @@ ImageF reference_picture(const TriangleSoup& soup, glm::dvec3 origin, const Came
       };
     OracleImage image = render_oracle(soup, origin, strip, oracle);
     set_coverage(image, n);
-    std::copy(image.color.pixels.begin(), image.color.pixels.end(), &picture.at(0, first));
+    std::copy(image.color.pixels.begin(), image.color.pixels.end(), &image.at(0, first));
   }
-  return picture;
+  return image;
 }
 
 }  // namespace tureen::tradeoff

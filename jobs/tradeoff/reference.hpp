@@ -38,7 +38,7 @@ struct ReferenceOptions {
 
 /// The image over the background; alpha is coverage, the fraction of rays with a hit. Memory in
 /// addition to the image: 12 bytes a ray, in strips of at most about 4 million rays.
-ImageF reference_picture(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera,
-                         const ReferenceOptions& options);
+ImageF reference_image(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera,
+                       const ReferenceOptions& options);
 
 }  // namespace tureen::tradeoff

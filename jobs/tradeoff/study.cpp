@@ -68,8 +68,8 @@ RenderError ideal_error(const std::vector<ImageF>& reference, bool with_flip) {
 void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& study) {
   Panel& panel = study.drawing;
   References references{
-      oracle_pictures(scene, options, Samples::device, StudyStage::device_references),
-      oracle_pictures(scene, options, Samples::exact, StudyStage::exact_references)};
+      oracle_images(scene, options, Samples::device, StudyStage::device_references),
+      oracle_images(scene, options, Samples::exact, StudyStage::exact_references)};
   study.grid = error_between(references.exact, references.judge, options.with_flip);
   if (options.samples == Samples::exact) references.judge = references.exact;
   panel.ideal = ideal_error(references.judge, options.with_flip);
@@ -100,8 +100,7 @@ void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& 
 void study_antialiasing(const StudyScene& scene, const StudyOptions& options, Study& study) {
   Panel& panel = study.antialiasing;
   const References references{
-      oracle_pictures(scene, options, Samples::antialiased, StudyStage::antialiased_references),
-      {}};
+      oracle_images(scene, options, Samples::antialiased, StudyStage::antialiased_references), {}};
   panel.ideal = ideal_error(references.judge, options.with_flip);
   panel.settings = antialiasing_settings(options.max_samples);
   const Design star = tradeoff::star(value_counts(panel.settings), refusal_of(panel.settings));

@@ -44,23 +44,23 @@ void on_all_cores(
   }
 }
 
-std::vector<ImageF> oracle_pictures(const StudyScene& scene, const StudyOptions& options,
-                                    Samples samples, StudyStage stage) {
-  std::vector<ImageF> pictures(scene.cameras.size());
+std::vector<ImageF> oracle_images(const StudyScene& scene, const StudyOptions& options,
+                                  Samples samples, StudyStage stage) {
+  std::vector<ImageF> images(scene.cameras.size());
   const auto progress = [&](double fraction) { report(options, stage, fraction); };
-  on_all_cores(pictures.size(), progress, [&](std::size_t i, const auto& check) {
-    pictures[i] = reference_picture(scene.soup, scene.origin, scene.cameras[i],
-                                    {.samples = samples,
-                                     .subpixel_bits = options.subpixel_bits,
-                                     .background = options.background,
-                                     .progress = check});
+  on_all_cores(images.size(), progress, [&](std::size_t i, const auto& check) {
+    images[i] = reference_image(scene.soup, scene.origin, scene.cameras[i],
+                                {.samples = samples,
+                                 .subpixel_bits = options.subpixel_bits,
+                                 .background = options.background,
+                                 .progress = check});
   });
-  return pictures;
+  return images;
 }
 
-std::vector<ImageF> as_shown(std::span<const ImageF> pictures) {
+std::vector<ImageF> as_shown(std::span<const ImageF> images) {
   std::vector<ImageF> rounded;
-  for (const ImageF& picture : pictures) rounded.push_back(to_float(quantised(picture)));
+  for (const ImageF& image : images) rounded.push_back(to_float(quantised(image)));
   return rounded;
 }
 

@@ -21,11 +21,11 @@ void on_all_cores(
     const std::function<void(std::size_t i, const std::function<void(double)>& check)>& work);
 
 /// One image a camera. Rethrows exceptions from options.progress with a short delay.
-std::vector<ImageF> oracle_pictures(const StudyScene& scene, const StudyOptions& options,
-                                    Samples samples, StudyStage stage);
+std::vector<ImageF> oracle_images(const StudyScene& scene, const StudyOptions& options,
+                                  Samples samples, StudyStage stage);
 
 /// The images rounded to 8 bits a channel, as on a screen.
-std::vector<ImageF> as_shown(std::span<const ImageF> pictures);
+std::vector<ImageF> as_shown(std::span<const ImageF> images);
 
 /// The error over all images; both spans have the same length.
 RenderError error_between(std::span<const ImageF> reference, std::span<const ImageF> drawn,

@@ -16,9 +16,9 @@ namespace {
 
 /// Calls visit(view, faces) with the face of each pixel of each view.
 template <class Visit>
-void visit_pictures(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
-                    std::span<const Camera> views, const std::function<void(double)>& progress,
-                    const Visit& visit) {
+void visit_images(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
+                  std::span<const Camera> views, const std::function<void(double)>& progress,
+                  const Visit& visit) {
   // Forward plans name no faces.
   Renderer renderer(context, soup, origin, {.plan = {.site = ShadingSite::deferred}});
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -35,11 +35,11 @@ std::vector<std::uint64_t> count_visible_pixels(const gl::Context& context,
                                                 std::span<const Camera> views,
                                                 const std::function<void(double)>& progress) {
   std::vector<std::uint64_t> pixels(soup.triangles.size(), 0);
-  visit_pictures(context, soup, origin, views, progress,
-                 [&](const Camera&, const std::vector<std::uint32_t>& faces) {
-                   for (const std::uint32_t face : faces)
-                     if (face != no_face) ++pixels[face];
-                 });
+  visit_images(context, soup, origin, views, progress,
+               [&](const Camera&, const std::vector<std::uint32_t>& faces) {
+                 for (const std::uint32_t face : faces)
+                   if (face != no_face) ++pixels[face];
+               });
   return pixels;
 }
 
@@ -48,11 +48,11 @@ std::vector<std::uint64_t> count_covered_pixels(const gl::Context& context,
                                                 std::span<const Camera> views,
                                                 const std::function<void(double)>& progress) {
   std::vector<std::uint64_t> pixels;
-  visit_pictures(context, soup, origin, views, progress,
-                 [&](const Camera&, const std::vector<std::uint32_t>& faces) {
-                   const auto empty = std::count(faces.begin(), faces.end(), no_face);
-                   pixels.push_back(faces.size() - std::size_t(empty));
-                 });
+  visit_images(context, soup, origin, views, progress,
+               [&](const Camera&, const std::vector<std::uint32_t>& faces) {
+                 const auto empty = std::count(faces.begin(), faces.end(), no_face);
+                 pixels.push_back(faces.size() - std::size_t(empty));
+               });
   return pixels;
 }
 
@@ -62,21 +62,20 @@ std::vector<float> count_visible_texels(const gl::Context& context, const Triang
   const auto& texture = std::get<LatticeTexture>(soup.appearance);
   // Millions of small weights: in floats their sum would stop growing.
   std::vector<double> shown(texture.texel_count(), 0.0);
-  visit_pictures(context, soup, origin, views, progress,
-                 [&](const Camera& view, const std::vector<std::uint32_t>& faces) {
-                   assert(faces.size() == std::size_t(view.width) * std::size_t(view.height));
-                   const oracle::Rays rays(soup, origin, view);
-                   rays.visit_faces(
-                       0, view.height, [&](int column, int row, const oracle::Hit& hit) {
-                         const std::size_t pixel =
-                             std::size_t(row) * std::size_t(view.width) + std::size_t(column);
-                         if (faces[pixel] != hit.face) return;
-                         const LatticePatch& patch = texture.patches[hit.face];
-                         const auto at = lattice::footprint(int(patch.level), hit.b0, hit.b1);
-                         for (std::size_t k = 0; k < 3; ++k)
-                           shown[patch.first_texel + at.texels[k]] += std::max(at.weights[k], 0.0);
-                       });
+  visit_images(context, soup, origin, views, progress,
+               [&](const Camera& view, const std::vector<std::uint32_t>& faces) {
+                 assert(faces.size() == std::size_t(view.width) * std::size_t(view.height));
+                 const oracle::Rays rays(soup, origin, view);
+                 rays.visit_faces(0, view.height, [&](int column, int row, const oracle::Hit& hit) {
+                   const std::size_t pixel =
+                       std::size_t(row) * std::size_t(view.width) + std::size_t(column);
+                   if (faces[pixel] != hit.face) return;
+                   const LatticePatch& patch = texture.patches[hit.face];
+                   const auto at = lattice::footprint(int(patch.level), hit.b0, hit.b1);
+                   for (std::size_t k = 0; k < 3; ++k)
+                     shown[patch.first_texel + at.texels[k]] += std::max(at.weights[k], 0.0);
                  });
+               });
   return {shown.begin(), shown.end()};
 }
 

@@ -246,7 +246,7 @@ void DebugViewRenderer::State::draw_shown(const FrameCamera& frame) {
   draw_full_screen(program);
 }
 
-/// Edges lie as deep as their faces: those that the picture shows pass, and those of fragments that
+/// Edges lie as deep as their faces: those that the image shows pass, and those of fragments that
 /// the alpha test has thrown away in front of it.
 void DebugViewRenderer::State::draw_edges(const FrameCamera& frame) {
   glBindFramebuffer(GL_FRAMEBUFFER, color_framebuffer.id());
@@ -321,7 +321,7 @@ void DebugViewRenderer::set_background(glm::vec4 background) { state_->backgroun
 void DebugViewRenderer::draw(const Camera& camera) {
   State& state = *state_;
   assert(camera.width > 0 && camera.height > 0);
-  require_drawable(camera.width, camera.height, state.device.max_picture_side);
+  require_drawable(camera.width, camera.height, state.device.max_image_side);
   if (camera.width != state.width || camera.height != state.height)
     state.resize(camera.width, camera.height);
   const glm::dvec3 eye = camera.eye() - state.origin;

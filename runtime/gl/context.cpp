@@ -134,7 +134,7 @@ Capabilities query_capabilities(Api api) {
   result.max_texture_size = integer_of(GL_MAX_TEXTURE_SIZE);
   GLint viewport[2] = {0, 0};
   glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
-  result.max_picture_side = std::min(
+  result.max_image_side = std::min(
       {result.max_texture_size, integer_of(GL_MAX_RENDERBUFFER_SIZE), viewport[0], viewport[1]});
   result.max_array_layers = integer_of(GL_MAX_ARRAY_TEXTURE_LAYERS);
   result.compute_shaders = has_compute_shaders(api, version);

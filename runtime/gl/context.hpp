@@ -34,7 +34,7 @@ struct Capabilities {
       false;              // timestamps are available but can be misleading (see gl::timers_mislead)
   bool software = false;  // draws_in_software: timer queries are misleading there
   int max_texture_size = 0;
-  int max_picture_side = 0;  // largest width and height of a frame
+  int max_image_side = 0;  // largest width and height of a frame
   int max_array_layers = 0;
   bool compute_shaders = false;  // with writable images: OpenGL 4.3, ES 3.1
 };

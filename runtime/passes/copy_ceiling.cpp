@@ -61,7 +61,7 @@ void CopyCeiling::draw(int width, int height) {
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, state.from.id());
   gl::use_texture_sampling(0);
-  state.program.set("picture", 0);
+  state.program.set("image", 0);
   glBindVertexArray(state.nothing.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   gl::check("CopyCeiling");

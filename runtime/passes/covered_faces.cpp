@@ -10,7 +10,7 @@ namespace {
 /// Faces that are looked at together: loops over them are what a compiler vectorises.
 constexpr std::size_t block_size = 64;
 
-/// Corners further out than this many pictures to a side are somebody else's: clipping makes new
+/// Corners further out than this many images to a side are somebody else's: clipping makes new
 /// ones of them.
 constexpr float guard = 1.0f;
 
@@ -155,7 +155,7 @@ bool CoveredFaces::begin_frame(const FrameCamera& frame, int subpixel_bits) {
            .margin = 0};
   // A corner is snapped to the subpixel grid, by a unit at most; and comes there through a dozen
   // floats, here and on the device, each rounded by 2^-24 of what is at most the focal length and
-  // the guarded picture.
+  // the guarded image.
   const double sizes = camera.fx + camera.fy + 4.0 * (camera.width + camera.height) +
                        std::abs(camera.cx) + std::abs(camera.cy);
   view_.margin = float(std::ldexp(1.0, -subpixel_bits) + 16 * 0x1p-24 * sizes);

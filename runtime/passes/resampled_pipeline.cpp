@@ -18,8 +18,8 @@ namespace {
 /// Another pipeline's frame, of a size of its own, and the filter that makes ours of it.
 class ResampledPipeline : public Pipeline {
  public:
-  ResampledPipeline(std::unique_ptr<Pipeline> pipeline, const PictureLimit& limit,
-                    const char* filter, const std::map<std::string, std::string>& constants)
+  ResampledPipeline(std::unique_ptr<Pipeline> pipeline, const ImageLimit& limit, const char* filter,
+                    const std::map<std::string, std::string>& constants)
       : pipeline_(std::move(pipeline)),
         limit_(limit),
         filter_(assemble({.file = "full_screen.vert"}, limit.api),
@@ -28,10 +28,10 @@ class ResampledPipeline : public Pipeline {
   void resize(int width, int height) final {
     const glm::ivec2 size = size_to_draw({width, height});
     if (std::max(size.x, size.y) > limit_.max_side)
-      throw DeviceLimitError("a picture of " + std::to_string(width) + "x" +
-                             std::to_string(height) + " needs samples of " +
-                             std::to_string(size.x) + "x" + std::to_string(size.y) +
-                             ": this device draws " + std::to_string(limit_.max_side) + " a side");
+      throw DeviceLimitError("an image of " + std::to_string(width) + "x" + std::to_string(height) +
+                             " needs samples of " + std::to_string(size.x) + "x" +
+                             std::to_string(size.y) + ": this device draws " +
+                             std::to_string(limit_.max_side) + " a side");
     pipeline_->resize(size.x, size.y);
     size_ = {width, height};
     drawn_size_ = size;
@@ -83,7 +83,7 @@ class ResampledPipeline : public Pipeline {
 
  private:
   std::unique_ptr<Pipeline> pipeline_;
-  PictureLimit limit_;
+  ImageLimit limit_;
   gl::Program filter_;
   gl::LocalVertexArray nothing_;
   glm::ivec2 size_{0}, drawn_size_{0};
@@ -93,7 +93,7 @@ class ResampledPipeline : public Pipeline {
 
 class SupersampledPipeline final : public ResampledPipeline {
  public:
-  SupersampledPipeline(std::unique_ptr<Pipeline> pipeline, int n, const PictureLimit& limit)
+  SupersampledPipeline(std::unique_ptr<Pipeline> pipeline, int n, const ImageLimit& limit)
       : ResampledPipeline(std::move(pipeline), limit, "box_filter.frag",
                           {{"SAMPLES_PER_AXIS", std::to_string(n)}}),
         n_(n) {}
@@ -106,7 +106,7 @@ class SupersampledPipeline final : public ResampledPipeline {
 
 class UpscaledPipeline final : public ResampledPipeline {
  public:
-  UpscaledPipeline(std::unique_ptr<Pipeline> pipeline, double scale, const PictureLimit& limit)
+  UpscaledPipeline(std::unique_ptr<Pipeline> pipeline, double scale, const ImageLimit& limit)
       : ResampledPipeline(std::move(pipeline), limit, "upscale.frag", {}), scale_(scale) {}
 
  private:
@@ -124,12 +124,12 @@ int scaled_size(int size, double scale) {
 }
 
 std::unique_ptr<Pipeline> make_supersampled(std::unique_ptr<Pipeline> pipeline, int n,
-                                            const PictureLimit& limit) {
+                                            const ImageLimit& limit) {
   return std::make_unique<SupersampledPipeline>(std::move(pipeline), n, limit);
 }
 
 std::unique_ptr<Pipeline> make_upscaled(std::unique_ptr<Pipeline> pipeline, double scale,
-                                        const PictureLimit& limit) {
+                                        const ImageLimit& limit) {
   return std::make_unique<UpscaledPipeline>(std::move(pipeline), scale, limit);
 }
 

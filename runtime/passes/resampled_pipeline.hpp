@@ -12,7 +12,7 @@
 namespace tureen {
 
 /// Largest image that a device draws, in pixels a side.
-struct PictureLimit {
+struct ImageLimit {
   gl::Api api = gl::Api::desktop;
   int max_side = 0;
 };
@@ -21,7 +21,7 @@ struct PictureLimit {
 /// their mean (a box filter). resize() throws DeviceLimitError if n times the size exceeds the
 /// device's limit.
 std::unique_ptr<Pipeline> make_supersampled(std::unique_ptr<Pipeline> pipeline, int n,
-                                            const PictureLimit& limit);
+                                            const ImageLimit& limit);
 
 /// The rendered size for an image of `size` pixels at `scale`, 0 < scale <= 1: rounded, at least 1.
 int scaled_size(int size, double scale);
@@ -29,6 +29,6 @@ int scaled_size(int size, double scale);
 /// Draws the same image at scaled_size() of both sides, edge to edge, and interpolates bilinearly
 /// between its sample centres. Pixels beyond the outermost centres repeat those samples.
 std::unique_ptr<Pipeline> make_upscaled(std::unique_ptr<Pipeline> pipeline, double scale,
-                                        const PictureLimit& limit);
+                                        const ImageLimit& limit);
 
 }  // namespace tureen

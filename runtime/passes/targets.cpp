@@ -57,7 +57,7 @@ void require_complete_framebuffer() {
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
   gl::throw_if_lost();
   throw DeviceLimitError(
-      "the device has no memory for the targets of a picture of this size: a smaller one would "
+      "the device has no memory for the targets of an image of this size: a smaller one would "
       "fit");
 }
 
@@ -108,7 +108,7 @@ void blit_color(GLuint from, GLuint to, glm::ivec2 size, glm::ivec2 corner) {
 
 void require_drawable(int width, int height, int max_side) {
   if (std::max(width, height) > max_side)
-    throw DeviceLimitError("a picture of " + std::to_string(width) + "x" + std::to_string(height) +
+    throw DeviceLimitError("an image of " + std::to_string(width) + "x" + std::to_string(height) +
                            " is larger than this device draws: " + std::to_string(max_side) +
                            " pixels a side");
 }

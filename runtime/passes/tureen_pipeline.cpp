@@ -217,7 +217,7 @@ class TureenPipeline final : public Pipeline {
   std::vector<std::uint32_t> vertices_;  // of the last frame's
   int subpixel_bits_ = 0;
   /// Looking for a face between pixels costs a part of what not drawing it saves: where most faces
-  /// are seen, the next frames draw all of them, which is the same picture.
+  /// are seen, the next frames draw all of them, which is the same image.
   static constexpr double worthwhile = 0.7;
   static constexpr int rested_frames = 30;  // the search is then a thirtieth of what it was
   int search_rests_ = 0;                    // frames

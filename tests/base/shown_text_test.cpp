@@ -15,7 +15,7 @@ using testing::StartsWith;
 
 TEST(ShownText, LeavesWhatTerminalsShow) {
   EXPECT_EQ(shown_text(""), "");
-  for (const char* text : {"a picture.png", "C:\\scenes\\new",
+  for (const char* text : {"an image.png", "C:\\scenes\\new",
                            "Sch\u00fcssel, \u4e09\u89d2, "
                            "\U0001F372"})
     EXPECT_EQ(shown_text(text), text);

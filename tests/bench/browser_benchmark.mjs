@@ -46,27 +46,27 @@ const measured = (browser, site, query) => inPage(browser, `${site}bench.html?${
   return page.evaluate(() => window.tureenBench);
 });
 
-/** Milliseconds from the beginning of the visit until a first picture stands on the screen, and until the
+/** Milliseconds from the beginning of the visit until a first image stands on the screen, and until the
  *  whole scene does, in a profile that has nothing stored. The page tells when; asking it again and again
  *  would make it draw. */
 const opened = (browser, site, scene) => inPage(browser, `${site}?${scene}`, async (page, open) => {
   await page.addInitScript(() => {
-    const pictures = {};
+    const images = {};
     for (const which of ['first', 'whole'])
-      pictures[which] = new Promise((resolve) => { pictures[`${which}IsThere`] = resolve; });
+      images[which] = new Promise((resolve) => { images[`${which}IsThere`] = resolve; });
     // The frame after next begins when this one has been drawn.
     const drawn = (tell) => requestAnimationFrame(() => requestAnimationFrame(() => tell(performance.now())));
     new MutationObserver(() => {
       const { body } = document, loading = document.getElementById('loading');
       if (!body || !loading || body.classList.contains('empty')) return;
-      drawn(pictures.firstIsThere);
-      if (loading.hidden) drawn(pictures.wholeIsThere);
+      drawn(images.firstIsThere);
+      if (loading.hidden) drawn(images.wholeIsThere);
     }).observe(document, { subtree: true, childList: true, attributes: true });
-    window.pictures = pictures;
+    window.images = images;
   });
   await page.waitForTimeout(restMs);
   await open();
-  return page.evaluate(async () => ({ first: await window.pictures.first, whole: await window.pictures.whole }));
+  return page.evaluate(async () => ({ first: await window.images.first, whole: await window.images.whole }));
 });
 
 /** The site with the scenes beside it, and nothing else of the disk. */

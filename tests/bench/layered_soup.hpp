@@ -1,5 +1,5 @@
 // A soup whose cost is known beforehand: layers behind each other that fill the same part of a
-// picture, so that triangles, fragments and shaded pixels can be set one by one.
+// image, so that triangles, fragments and shaded pixels can be set one by one.
 #pragma once
 
 #include <cstddef>

@@ -54,8 +54,8 @@ constexpr Stage stages[] = {
     {"faces", &StageTimes::faces, &StageTimes::fragments, "fragment"},
 };
 
-/// Pictures of another cloud: there is always something to learn.
-std::vector<trainer::TrainingView> pictures(const Scene& scene, const trainer::Config& config) {
+/// Images of another cloud: there is always something to learn.
+std::vector<trainer::TrainingView> images(const Scene& scene, const trainer::Config& config) {
   trainer::TrainingState state;
   state.model = trainer::from_scene(scene, {.min_level = 2, .max_level = 3});
   state.moments.reset_faces(state.model);
@@ -76,7 +76,7 @@ int run(int width, int height, int steps, int level) {
   const Scene shown = cutout_cloud({.seed = 2, .width = width, .height = height});
   trainer::Config config = trainer::preset(trainer::Preset::object);
   config.background[0] = config.background[1] = config.background[2] = 0;
-  const std::vector<trainer::TrainingView> views = pictures(shown, config);
+  const std::vector<trainer::TrainingView> views = images(shown, config);
   trainer::TrainingState state;
   state.model = trainer::from_scene(learned, {.min_level = std::min(2, level), .max_level = level});
   state.moments.reset_faces(state.model);

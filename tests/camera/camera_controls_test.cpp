@@ -196,7 +196,7 @@ TEST(CameraControls, TheSceneFollowsThePointerWhenOrbiting) {
   const glm::dvec3 pixel = pixel_of(shown(controls), near_point);
   EXPECT_GT(pixel.x, 0.5 * width);
   EXPECT_GT(pixel.y, 0.5 * height);
-  // The picture's height is half a turn.
+  // The image's height is half a turn.
   CameraControls half = stiff();
   half.look_from(NamedView::front);
   half.orbit(height, 0);
@@ -230,7 +230,7 @@ TEST(CameraControls, PanFollowsThePointerExactly) {
     controls.set_up(random.direction());
     if (random.chance(0.5)) controls.adopt(random_camera(random, size));  // with a roll
     const Camera before = shown(controls);
-    // A point at the target's depth, anywhere in the picture.
+    // A point at the target's depth, anywhere in the image.
     const double depth = controls.distance();
     const glm::dmat3 axes = before.world_from_view_rotation();
     const glm::dvec3 point = controls.target() + depth * (random.uniform(-0.4, 0.4) * axes[0] +
@@ -318,7 +318,7 @@ TEST(CameraControls, FlyingGoesWhereTheCameraLooks) {
   EXPECT_NEAR(controls.speed(), 1.44 * speed, 1e-12);
 }
 
-TEST(CameraControls, ChangingTheModeChangesNoPicture) {
+TEST(CameraControls, ChangingTheModeChangesNoImage) {
   for (unsigned seed = 1; seed <= 50; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     Random random(seed);

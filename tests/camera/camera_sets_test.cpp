@@ -153,7 +153,7 @@ TEST_P(Adversarial, InsideHasGeometryOnAllSides) {
   }
 }
 
-TEST_P(Adversarial, FarShowsTheBoxInATwentiethOfThePicture) {
+TEST_P(Adversarial, FarShowsTheBoxInATwentiethOfTheImage) {
   glm::dvec2 low(1e9), high(-1e9);
   for (const glm::vec3& p : soup.positions) {
     const glm::dvec4 clip = clip_from_view(views[1], 1e-3, 1e6) * views[1].view_from_world *
@@ -162,7 +162,7 @@ TEST_P(Adversarial, FarShowsTheBoxInATwentiethOfThePicture) {
     low = glm::min(low, glm::dvec2(clip) / clip.w);
     high = glm::max(high, glm::dvec2(clip) / clip.w);
   }
-  // In halves of the picture; a twentieth of a framed box, which may be anything up to all of it.
+  // In halves of the image; a twentieth of a framed box, which may be anything up to all of it.
   EXPECT_LT(std::max(high.x - low.x, high.y - low.y) / 2, 0.06);
   EXPECT_GT(std::max(high.x - low.x, high.y - low.y) / 2, 0.02);
 }

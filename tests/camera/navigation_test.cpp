@@ -11,7 +11,7 @@ namespace navigation_test {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Where a point of the world falls, in fractions of the half picture: inside within -1..1.
+/// Where a point of the world falls, in fractions of the half image: inside within -1..1.
 glm::dvec2 ndc_of(const Camera& camera, glm::dvec3 world) {
   const glm::dvec4 clip =
       clip_from_view(camera, 1e-3, 1e3) * camera.view_from_world * glm::dvec4(world, 1.0);
@@ -56,7 +56,7 @@ TEST(Navigation, TheFrontIsPlusZUnderYAndMinusYUnderZ) {
   EXPECT_LT(glm::length(direction_of({0, 0, 1}, {0, pi / 2}) - glm::dvec3(0, 0, 1)), 1e-12);
 }
 
-TEST(Navigation, UpIsUpInTheFramedPicture) {
+TEST(Navigation, UpIsUpInTheFramedImage) {
   for (const glm::dvec3 up : {glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0)}) {
     const Subject subject{glm::dvec3(-1), glm::dvec3(1), up};
     const Camera camera = frame(subject, three_quarter_view, Lens{});

@@ -56,7 +56,7 @@ BenchMeasurement measurement(const std::string& configuration, const std::string
           .gpu_ms = {},
           .views_ms = {0.9 * ms, ms, 1.1 * ms},
           .pixels_hash = "0123456789abcdef",
-          .picture = {}};
+          .image = {}};
 }
 
 BenchResult result() {

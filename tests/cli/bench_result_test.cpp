@@ -42,7 +42,7 @@ BenchResult example() {
                             .gpu_ms = 0.091,
                             .views_ms = {0.1, 0.2, 0.3},
                             .pixels_hash = "0123456789abcdef",
-                            .picture = "out/tureen_640x360.png"};
+                            .image = "out/tureen_640x360.png"};
   BenchMeasurement software = hardware;
   software.configuration = "published";
   software.stable = false;
@@ -50,7 +50,7 @@ BenchResult example() {
   software.passes_gap = PassTimesGap::no_timers;
   software.passes_reason = "timers mislead on llvmpipe";
   software.gpu_ms.reset();
-  software.picture.reset();
+  software.image.reset();
   return {.date = "2026-01-02T03:04:05Z",
           .program = {.version = "0.1.0",
                       .commit = "abc1234",

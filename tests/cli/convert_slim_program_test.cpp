@@ -77,7 +77,7 @@ TEST_F(ConvertSlim, MakesTheExampleFourTimesSmallerForATenthOfADecibel) {
   EXPECT_EQ(json["scene_bytes"], fs::file_size(folder / "slim.glb"));
 }
 
-// The search looks at nothing but how near pictures come to the photographs.
+// The search looks at nothing but how near images come to the photographs.
 TEST_F(ConvertSlim, PhotographsOfAnotherSceneAreRefused) {
   Scene scene = read_scene(example);
   auto& soup = std::get<TriangleSoup>(scene.primitives);

@@ -13,10 +13,10 @@ std::vector<Photograph> named(const std::vector<std::string>& names) {
   return photographs;
 }
 
-TEST(PictureNames, AreFlatSafeAndDistinct) {
+TEST(ImageNames, AreFlatSafeAndDistinct) {
   EXPECT_THAT(
-      picture_names(named({"./test/r_0", "images/IMG_7.JPG", "images/IMG_7.png", "../../etc/x.png",
-                           "a b:c.png", ".hidden.png", "", "contact_sheet.jpg"})),
+      image_names(named({"./test/r_0", "images/IMG_7.JPG", "images/IMG_7.png", "../../etc/x.png",
+                         "a b:c.png", ".hidden.png", "", "contact_sheet.jpg"})),
       ElementsAre("test_r_0.png", "images_IMG_7.png", "images_IMG_7_2.png", "etc_x.png",
                   "a_b_c.png", "hidden.png", "view.png", "contact_sheet_2.png"));
 }

@@ -27,7 +27,7 @@ class Eval : public test::ProgramWithPhotographs {
   }
 };
 
-TEST_F(Eval, TheScenesOwnPicturesAreMetExactly) {
+TEST_F(Eval, TheScenesOwnImagesAreMetExactly) {
   photograph(example);
   const ChildResult result = eval({"-o", "views"});
   ASSERT_EQ(result.exit_code, 0) << result.err;

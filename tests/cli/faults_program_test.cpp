@@ -88,7 +88,7 @@ TEST_F(Faults, AFullDiskLeavesWhatWasThere) {
   // So small that it fails when the last of it is flushed.
   expect("out.ply", {"convert", "scene.off", "out.ply", "--force"}, 200);
 
-  // Pictures: one, the first of several, and their contact sheet, which is larger than each.
+  // Images: one, the first of several, and their contact sheet, which is larger than each.
   const std::vector<std::string> orbit{"render",  "scene.off", "--size", "160x120",
                                        "--orbit", "3",         "-o",     "view_%d.png"};
   ASSERT_EQ(run({"render", "scene.off", "-o", "picture.png"}).exit_code, 0);
@@ -105,7 +105,7 @@ TEST_F(Faults, AFullDiskLeavesWhatWasThere) {
     largest = std::max(largest, fs::file_size(folder / ("view_" + std::to_string(i) + ".png")));
   ASSERT_GT(fs::file_size(folder / "contact_sheet.png"), largest);
   expect("contact_sheet.png", orbit, largest);
-  EXPECT_EQ(views(), before) << "the same pictures again, whole";
+  EXPECT_EQ(views(), before) << "the same images again, whole";
 }
 
 TEST_F(Faults, ADiskWithoutSpaceLeavesWhatWasThere) {

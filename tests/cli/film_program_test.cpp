@@ -1,4 +1,4 @@
-// Films from outside: frames along a path or around the scene, as pictures and as videos.
+// Films from outside: frames along a path or around the scene, as images and as videos.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ class Film : public test::Program {
       if (entry.path().extension() != ".txt") result.push_back(entry.path().filename().string());
     return result;
   }
-  bool same_picture(const std::string& a, const std::string& b) const {
+  bool same_image(const std::string& a, const std::string& b) const {
     return read_png(a).pixels == read_png(b).pixels;
   }
 };
@@ -58,10 +58,10 @@ TEST_F(Film, FramesAlongAPathPassTheViewsOfItsKeyframes) {
         run({"render", "scene.off", "--camera", "path.json:" + std::to_string(i), "-o", "key.png"})
             .exit_code,
         0);
-    EXPECT_TRUE(same_picture("key.png", "frame_000" + std::to_string(4 * i) + ".png")) << i;
+    EXPECT_TRUE(same_image("key.png", "frame_000" + std::to_string(4 * i) + ".png")) << i;
   }
-  EXPECT_FALSE(same_picture("frame_0000.png", "frame_0001.png"));
-  EXPECT_FALSE(same_picture("frame_0001.png", "frame_0002.png"));
+  EXPECT_FALSE(same_image("frame_0000.png", "frame_0001.png"));
+  EXPECT_FALSE(same_image("frame_0001.png", "frame_0002.png"));
 }
 
 TEST_F(Film, ALoopDoesNotShowItsFirstFrameTwice) {
@@ -74,7 +74,7 @@ TEST_F(Film, ALoopDoesNotShowItsFirstFrameTwice) {
   EXPECT_EQ(json["output"].size(), 12u);
   EXPECT_EQ(json["output"][11], "f_11.png");
   EXPECT_EQ(json["width"], 20);
-  EXPECT_FALSE(same_picture("f_00.png", "f_11.png"));
+  EXPECT_FALSE(same_image("f_00.png", "f_11.png"));
 }
 
 TEST_F(Film, ATurntableTurnsOnce) {
@@ -85,7 +85,7 @@ TEST_F(Film, ATurntableTurnsOnce) {
             0);
   EXPECT_THAT(names(), UnorderedElementsAre("scene.off", "turn_0.png", "turn_1.png", "turn_2.png",
                                             "turn_3.png"));
-  // From an eye of one's own the first frame is that eye's picture.
+  // From an eye of one's own the first frame is that eye's image.
   ASSERT_EQ(run({"render", "scene.off", "--turntable", "2", "--fps", "2", "--size", "40x30",
                  "--eye", "1,-5,2", "--target", "0,0,0", "--up", "0,0,1", "-o", "eye_%d.png"})
                 .exit_code,
@@ -94,8 +94,8 @@ TEST_F(Film, ATurntableTurnsOnce) {
                  "--up", "0,0,1", "-o", "still.png"})
                 .exit_code,
             0);
-  EXPECT_TRUE(same_picture("eye_0.png", "still.png"));
-  EXPECT_FALSE(same_picture("eye_2.png", "still.png"));
+  EXPECT_TRUE(same_image("eye_0.png", "still.png"));
+  EXPECT_FALSE(same_image("eye_2.png", "still.png"));
 }
 
 TEST_F(Film, AVideoIsWrittenWhole) {

@@ -17,7 +17,7 @@ class MaxMemory : public Program {
   void SetUp() override {
     Program::SetUp();
     write_scene();
-    test::write_picture(folder / "photographs/a.png", test::a_picture(64, 48));
+    test::write_image(folder / "photographs/a.png", test::an_image(64, 48));
     const std::string frame = R"({"file_path": "a.png",
       "transform_matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,2],[0,0,0,1]]})";
     write("photographs/transforms.json",

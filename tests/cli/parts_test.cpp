@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "base/suggestion.hpp"
 #include "cli/contact_sheet.hpp"
-#include "cli/picture_file.hpp"
+#include "cli/image_file.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/values.hpp"
@@ -54,16 +54,16 @@ TEST(Values, ReadWhatIsMeantAndRefuseTheRest) {
   EXPECT_THROW(parse_background("0,0.5,1.5"), UsageError);
 }
 
-TEST(PictureName, NumbersSeveralPictures) {
-  EXPECT_EQ(picture_name("a/out.png", 0, 1), "a/out.png");
-  EXPECT_EQ(picture_name("a/out.png", 3, 8), "a/out_03.png");
-  EXPECT_EQ(picture_name("out.png", 7, 1000), "out_007.png");
-  EXPECT_EQ(picture_name("v%d.png", 12, 20), "v12.png");
-  EXPECT_EQ(picture_name("v%03d.png", 12, 20), "v012.png");
-  EXPECT_EQ(picture_name("v%03d.png", 0, 1), "v000.png");
-  EXPECT_EQ(picture_name("100%%.png", 0, 1), "100%.png");
+TEST(ImageName, NumbersSeveralImages) {
+  EXPECT_EQ(image_name("a/out.png", 0, 1), "a/out.png");
+  EXPECT_EQ(image_name("a/out.png", 3, 8), "a/out_03.png");
+  EXPECT_EQ(image_name("out.png", 7, 1000), "out_007.png");
+  EXPECT_EQ(image_name("v%d.png", 12, 20), "v12.png");
+  EXPECT_EQ(image_name("v%03d.png", 12, 20), "v012.png");
+  EXPECT_EQ(image_name("v%03d.png", 0, 1), "v000.png");
+  EXPECT_EQ(image_name("100%%.png", 0, 1), "100%.png");
   for (const char* bad : {"%s.png", "%", "%n.png", "%d%d.png", "%100d.png", "%-3d.png"})
-    EXPECT_THROW(picture_name(bad, 0, 2), UsageError) << bad;
+    EXPECT_THROW(image_name(bad, 0, 2), UsageError) << bad;
 }
 
 TEST(Report, WritesNumbersForPeople) {
@@ -118,15 +118,15 @@ TEST(Progress, SaysMoreBesideAShorterBar) {
   EXPECT_EQ(progress_text(false, {{6, 0.25}}, "7/28"), "working: 25 %, 7/28\n");
 }
 
-TEST(ContactSheet, HoldsEveryPictureInAGrid) {
-  std::vector<Image8> pictures;
-  for (int i = 0; i < 5; ++i) pictures.emplace_back(640, 320, glm::u8vec4(10 * i, 0, 0, 255));
-  const Image8 sheet = contact_sheet(pictures);
+TEST(ContactSheet, HoldsEveryImageInAGrid) {
+  std::vector<Image8> images;
+  for (int i = 0; i < 5; ++i) images.emplace_back(640, 320, glm::u8vec4(10 * i, 0, 0, 255));
+  const Image8 sheet = contact_sheet(images);
   // Five of 320 x 160 stand best in two columns and three rows.
   EXPECT_EQ(sheet.width, 2 * 328 + 8);
   EXPECT_EQ(sheet.height, 3 * 168 + 8);
   for (int i = 0; i < 5; ++i)
-    EXPECT_EQ(sheet.at(8 + (i % 2) * 328, 8 + (i / 2) * 168), pictures[std::size_t(i)].at(0, 0));
+    EXPECT_EQ(sheet.at(8 + (i % 2) * 328, 8 + (i / 2) * 168), images[std::size_t(i)].at(0, 0));
   EXPECT_EQ(sheet.at(0, 0), glm::u8vec4(0));
 }
 

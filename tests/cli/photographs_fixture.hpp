@@ -16,7 +16,7 @@ class ProgramWithPhotographs : public Program {
   }
 
   /// The dataset "data", as NeRF-synthetic has them: two views to test, and some to train, all of
-  /// them pictures that the program draws of `scene`.
+  /// them images that the program draws of `scene`.
   void photograph(const std::string& scene, int training_views = 1) const {
     std::filesystem::create_directories(folder / "data/test");
     std::filesystem::create_directories(folder / "data/train");

@@ -155,7 +155,7 @@ TEST_F(Program, CompareShowsWhereAndRefusesOtherSizes) {
   EXPECT_THAT(result.err, Names("20 x 10", "20 x 11"));
 }
 
-TEST_F(Program, CompareLooksAtPicturesOnTheirBackground) {
+TEST_F(Program, CompareLooksAtImagesOnTheirBackground) {
   write_png("clear.png", Image8(16, 16, glm::u8vec4(255, 255, 255, 0)));
   write_png("black.png", Image8(16, 16, glm::u8vec4(0, 0, 0, 255)));
   const auto mae = [&](const std::string& background) {
@@ -243,12 +243,12 @@ TEST_F(Program, RenderDrawsAndReports) {
   EXPECT_GT(json["frame_ms"]["median"].get<double>(), 0);
   EXPECT_GE(json["frame_ms"]["p95"].get<double>(), json["frame_ms"]["median"].get<double>());
   EXPECT_EQ(json["output"], nlohmann::ordered_json({"picture.png"}));
-  const Image8 picture = read_png("picture.png");
-  EXPECT_EQ(picture.width, 64);
-  EXPECT_EQ(picture.height, 48);
+  const Image8 image = read_png("picture.png");
+  EXPECT_EQ(image.width, 64);
+  EXPECT_EQ(image.height, 48);
   // From the front the red triangle hides the green one; the corners are background.
-  EXPECT_EQ(picture.at(32, 24), glm::u8vec4(255, 0, 0, 255));
-  EXPECT_EQ(picture.at(0, 0), glm::u8vec4(0, 0, 0, 255));
+  EXPECT_EQ(image.at(32, 24), glm::u8vec4(255, 0, 0, 255));
+  EXPECT_EQ(image.at(0, 0), glm::u8vec4(0, 0, 0, 255));
   EXPECT_THAT(result.err, Names("picture.png"));
 }
 
@@ -261,11 +261,11 @@ TEST_F(Program, RenderSmoothsAndScalesWithoutChangingTheSize) {
     arguments.insert(arguments.end(), option.begin(), option.end());
     const ChildResult result = run(arguments);
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    const Image8 picture = read_png("picture.png");
-    EXPECT_EQ(picture.width, 64);
-    EXPECT_EQ(picture.height, 48);
+    const Image8 image = read_png("picture.png");
+    EXPECT_EQ(image.width, 64);
+    EXPECT_EQ(image.height, 48);
     std::size_t between = 0;  // pixels that are neither red nor background
-    for (const glm::u8vec4& pixel : picture.pixels) between += pixel.r > 0 && pixel.r < 255;
+    for (const glm::u8vec4& pixel : image.pixels) between += pixel.r > 0 && pixel.r < 255;
     return between;
   };
   EXPECT_EQ(draw({}), 0u);
@@ -326,11 +326,11 @@ TEST_F(Program, RenderDrawsBeyondTheDeviceInTiles) {
       "0,0,0",  "--fov",     "10",     "--context", "osmesa", "--background", "transparent"};
   const ChildResult result = run(view);
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  const Image8 picture = read_png("out.png");
-  ASSERT_EQ(picture.width, 20000);
-  ASSERT_EQ(picture.height, 50);
-  EXPECT_EQ(picture.at(10000, 25), glm::u8vec4(255, 0, 0, 255));
-  EXPECT_EQ(picture.at(0, 0), glm::u8vec4(0));
+  const Image8 image = read_png("out.png");
+  ASSERT_EQ(image.width, 20000);
+  ASSERT_EQ(image.height, 50);
+  EXPECT_EQ(image.at(10000, 25), glm::u8vec4(255, 0, 0, 255));
+  EXPECT_EQ(image.at(0, 0), glm::u8vec4(0));
   std::vector<std::string> timed = view;
   timed.insert(timed.end(), {"--frames", "3"});
   const ChildResult refused = run(timed);
@@ -403,7 +403,7 @@ TEST_F(Program, RenderTakesCamerasOfOtherPrograms) {
   }
 }
 
-TEST_F(Program, NothingIsLeftWhereAPictureCannotBeWritten) {
+TEST_F(Program, NothingIsLeftWhereAImageCannotBeWritten) {
   write_scene();
   const ChildResult result =
       run({"render", "scene.off", "--size", "8x8", "-o", "nowhere/out.png", "--context", "osmesa"});

@@ -109,7 +109,7 @@ TEST_F(Tradeoff, MeasuresWritesAndKeepsTheChoice) {
   ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
 }
 
-// The photographs are the scene's own pictures: what draws it as it is meets them exactly.
+// The photographs are the scene's own images: what draws it as it is meets them exactly.
 TEST_F(Tradeoff, PhotographsHaveAnErrorOfTheirOwn) {
   write_soup();
   photograph("soup.glb");
@@ -120,11 +120,11 @@ TEST_F(Tradeoff, PhotographsHaveAnErrorOfTheirOwn) {
   EXPECT_EQ(json["e_model"]["photographs"], 2);
   int faithful = 0, coarse = 0, published = 0;
   for (const auto& each : json["drawing"]["configurations"]) {
-    // Generic twins draw the pictures of another one.
+    // Generic twins draw the images of another one.
     EXPECT_EQ(each["e_model"].is_null(), each["method"] == "tureen --no-specialise");
     if (each["e_model"].is_null()) continue;
     if (each["method"] == "published") {
-      // It truncates what the photographs here do not, but draws the same soup: a wrong picture of
+      // It truncates what the photographs here do not, but draws the same soup: a wrong image of
       // this one has less than 30 dB, as lattice level 0 has.
       EXPECT_LT(each["e_model"]["psnr_db"], 100);
       EXPECT_GT(each["e_model"]["psnr_db"], 35);

@@ -193,7 +193,7 @@ TEST_F(TrainFaults, ASignalAtAnyMomentLeavesTheOldOrTheNewAndIsAsIfItHadNotBeen)
 }
 
 TEST_F(TrainFaults, AFullDiskLeavesTheOldSoupAndTheLastCheckpoint) {
-  // What is said and the log take less, a checkpoint, a picture and a soup more.
+  // What is said and the log take less, a checkpoint, an image and a soup more.
   constexpr rlim_t little = 2000;
   const auto expect_full = [&](const std::vector<std::string>& more, const std::string& file,
                                rlim_t room) {
@@ -214,10 +214,10 @@ TEST_F(TrainFaults, AFullDiskLeavesTheOldSoupAndTheLastCheckpoint) {
   expect_full(often, "ball.checkpoint", little);
 
   fs::create_directory(folder / "ball.previews");
-  const std::string picture = "ball.previews/step_010.png";
-  write(picture, "an older picture");
-  expect_full({"--preview-every", "10"}, picture, little);
-  EXPECT_EQ(bytes(picture), "an older picture");
+  const std::string image = "ball.previews/step_010.png";
+  write(image, "an older image");
+  expect_full({"--preview-every", "10"}, image, little);
+  EXPECT_EQ(bytes(image), "an older image");
 
   ASSERT_GT(after.size(), 2 * little);
   expect_full({}, "ball.glb", after.size() - 1);
@@ -225,7 +225,7 @@ TEST_F(TrainFaults, AFullDiskLeavesTheOldSoupAndTheLastCheckpoint) {
   // Over the checkpoint of a run that goes on: that stays, too, and the run after it ends as if
   // the disk had never been full.
   put_old();
-  // This one ends behind the third of six: where its picture of step 100 should be is a folder.
+  // This one ends behind the third of six: where its image of step 100 should be is a folder.
   fs::create_directories(folder / "ball.previews/step_100.png");
   std::vector<std::string> until_100 = often;
   until_100.insert(until_100.end(), {"--preview-every", "100"});

@@ -19,7 +19,7 @@ class Train : public Program {
   static constexpr int size = 32;
 
   /// The unit ball, its colour the direction of its surface; one ray a pixel.
-  static Image8 picture(const Camera& camera, bool with_alpha) {
+  static Image8 image(const Camera& camera, bool with_alpha) {
     Image8 image(size, size, with_alpha ? glm::u8vec4(0) : glm::u8vec4(0, 0, 0, 255));
     const glm::dmat3 axes = camera.world_from_view_rotation();
     const glm::dvec3 eye = camera.eye();
@@ -45,7 +45,7 @@ class Train : public Program {
       const Camera camera = look_at({4 * std::cos(angle), 4 * std::sin(angle), i % 2 ? 1.5 : -0.5},
                                     {0, 0, 0}, {0, 0, 1}, 0.7, size, size);
       const std::string name = split + "/r_" + std::to_string(i) + ".png";
-      write_png("ball/" + name, picture(camera, with_alpha));
+      write_png("ball/" + name, image(camera, with_alpha));
       if (i == 0) document = transforms_of(camera);
       document["frames"].push_back(frame_of(name, camera));
     }

@@ -329,7 +329,7 @@ TEST_F(Train, ExportsAFolderWhateverItsName) {
   EXPECT_TRUE(exists("web_0.5/meta.json"));
 }
 
-TEST_F(Train, SaysThatNoPictureShowsATriangle) {
+TEST_F(Train, SaysThatNoImageShowsATriangle) {
   make_dataset();
   write("far.off", "OFF\n3 1 0\n1000 1000 1000\n1001 1000 1000\n1000 1001 1000\n3 0 1 2\n");
   const auto visible = [&](std::vector<std::string> more) {

@@ -446,7 +446,7 @@ TEST_F(Gltf, ReadsCameras) {
   EXPECT_NEAR(2 * std::atan(0.5 * camera.height / camera.fy), 0.8, 1e-12);
   EXPECT_NEAR(glm::length(camera.eye() - glm::dvec3(0, 0, 4)), 0.0, 1e-12);
 
-  // Wider than any picture: 720 rows of this shape have 68,400 columns.
+  // Wider than any image: 720 rows of this shape have 68,400 columns.
   b.document["cameras"][0]["perspective"]["aspectRatio"] = 95;
   EXPECT_TRUE(read(b).cameras.empty());
 }

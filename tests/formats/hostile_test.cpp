@@ -136,7 +136,7 @@ TEST(HostileCrashes, FoundByFuzzersEndInAnErrorOrAScene) {
 
 // ---- What unfolds
 
-TEST(HostileBombs, APictureThatUnfoldsBeyondItsPixels) {
+TEST(HostileBombs, AImageThatUnfoldsBeyondItsPixels) {
   // A pixel, and 64 MB of zeros behind it that are a few kilobytes in the file.
   const Bytes bomb = fuzz::PngFixture{.rows = std::string(64 << 20, '\0')}.bytes();
   EXPECT_LT(bomb.size(), 100u << 10);
@@ -150,7 +150,7 @@ TEST(HostileBombs, APictureThatUnfoldsBeyondItsPixels) {
       "bomb");
 }
 
-TEST(HostileBombs, APictureOfMorePixelsThanMemory) {
+TEST(HostileBombs, AImageOfMorePixelsThanMemory) {
   // 6,000 x 6,000 pixels of nothing: 144 MB that are some kB in the file.
   const Bytes large =
       fuzz::PngFixture{
@@ -179,14 +179,14 @@ TEST(HostileBombs, APictureOfMorePixelsThanMemory) {
               ErrorIn("longer.png", 20000000, 1));
 }
 
-TEST(HostileBombs, ManyPicturesInOneScene) {
+TEST(HostileBombs, ManyImagesInOneScene) {
   // Each would fit; a hundred do not.
-  const Bytes picture =
+  const Bytes image =
       fuzz::PngFixture{
           .width = 1000, .height = 1000, .color_type = 0, .rows = std::string(1001u * 1000u, '\0')}
           .bytes();
   const TemporaryFolder folder;
-  test::write_bytes(folder / "a.png", picture);
+  test::write_bytes(folder / "a.png", image);
   nlohmann::json gltf = nlohmann::json::parse(R"({"asset": {"version": "2.0"},
     "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
     "accessors": [{"componentType": 5126, "count": 3, "type": "VEC3"},
@@ -298,9 +298,9 @@ std::string gltf_with_uri(const std::string& list, const std::string& uri) {
 class HostileNames : public ::testing::Test {
  protected:
   void SetUp() override {
-    test::write_picture(folder / "outside.png", test::a_picture(8, 6));
+    test::write_image(folder / "outside.png", test::an_image(8, 6));
     test::write_bytes(folder / "outside.bin", Bytes(36));
-    test::write_picture(folder / "scene/inside.png", test::a_picture(8, 6));
+    test::write_image(folder / "scene/inside.png", test::an_image(8, 6));
     test::write_bytes(folder / "scene/inside.bin", Bytes(36));
     fs::create_symlink(folder / "outside.png", folder / "scene/link.png");
     fs::create_symlink(folder / "outside.bin", folder / "scene/link.bin");
@@ -310,7 +310,7 @@ class HostileNames : public ::testing::Test {
 };
 
 TEST_F(HostileNames, OfAGltfDoNotLeadOutOfItsFolder) {
-  const Tripwire picture(folder / "outside.png"), bytes(folder / "outside.bin");
+  const Tripwire image(folder / "outside.png"), bytes(folder / "outside.bin");
   test::write_text(folder / "scene/a.gltf", gltf_with_uri("images", "inside.png"));
   EXPECT_EQ(error_of([&] { read_scene(folder / "scene/a.gltf"); }), std::nullopt);
   for (const auto& [list, extension] : {std::pair("images", ".png"), std::pair("buffers", ".bin")})
@@ -323,7 +323,7 @@ TEST_F(HostileNames, OfAGltfDoNotLeadOutOfItsFolder) {
       EXPECT_THAT(error_of([&] { read_scene(folder / "scene/a.gltf"); }), ErrorIn("a.gltf", list))
           << name;
     }
-  EXPECT_FALSE(picture.was_opened());
+  EXPECT_FALSE(image.was_opened());
   EXPECT_FALSE(bytes.was_opened());
 }
 
@@ -352,7 +352,7 @@ TEST_F(HostileNames, OfAFolderOfFixedNamesDoNotLeadOutOfIt) {
 }
 
 TEST_F(HostileNames, OfPhotographsDoNotLeadOutOfTheDataset) {
-  const Tripwire picture(folder / "outside.png");
+  const Tripwire image(folder / "outside.png");
   for (const char* name : {"../outside.png", "x/../../outside.png", "link.png", "up/outside.png"}) {
     const std::string frame = std::string(R"({"file_path": ")") + name + R"(",
       "transform_matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,2],[0,0,0,1]]})";
@@ -368,7 +368,7 @@ TEST_F(HostileNames, OfPhotographsDoNotLeadOutOfTheDataset) {
                 Names(std::string("../") + name));
     fs::remove_all(folder / "scene/sparse");
   }
-  EXPECT_FALSE(picture.was_opened());
+  EXPECT_FALSE(image.was_opened());
 }
 
 TEST_F(HostileNames, ThatAreNotUtf8EndInAnErrorOrAreReadAsTheyAre) {
@@ -386,7 +386,7 @@ TEST_F(HostileNames, ThatAreNotUtf8EndInAnErrorOrAreReadAsTheyAre) {
   model.images[0].name = "\xff\xfe.png";
   test::write_binary(folder / "scene/sparse/0", model);
   for (const std::string& name : {model.images[0].name, model.images[1].name})
-    test::write_picture(folder / ("scene/images/" + name), test::a_picture(8, 6));
+    test::write_image(folder / ("scene/images/" + name), test::an_image(8, 6));
   const Dataset dataset = read_dataset(folder / "scene");
   EXPECT_EQ(dataset.test.size() + dataset.train.size(), 2u);
   cameras_to_json(std::array{dataset.train[0].camera, dataset.test[0].camera});

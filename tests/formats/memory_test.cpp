@@ -121,10 +121,10 @@ TEST(DecoderMemory, MovesWhatIsThere) {
   EXPECT_EQ(budget.taken(), 0u);
 }
 
-TEST(DecoderMemory, OfAPictureKeepsThePictureAlone) {
+TEST(DecoderMemory, OfAImageKeepsTheImageAlone) {
   MemoryBudget budget;
-  const Image8 picture(30, 20, glm::u8vec4(1, 2, 3, 255));
-  decode_image(encode_png(picture), "a.png", budget);
+  const Image8 image(30, 20, glm::u8vec4(1, 2, 3, 255));
+  decode_image(encode_png(image), "a.png", budget);
   EXPECT_EQ(budget.taken(), 30u * 20 * 4);
 }
 
@@ -153,7 +153,7 @@ TEST(MaxMemory, EveryReaderKeepsToItAndSaysSo) {
         const std::uint64_t middle = (read + refused) / 2;
         (is_read(fixture, target, middle) ? read : refused) = middle;
       }
-      // A fixture has a few kilobytes; a picture's decoder asks for tables of one megabyte.
+      // A fixture has a few kilobytes; an image's decoder asks for tables of one megabyte.
       EXPECT_LT(read, 8u << 20);
       for (const std::uint64_t limit : {refused / 3, refused / 2, refused - 1})
         EXPECT_FALSE(is_read(fixture, target, limit));

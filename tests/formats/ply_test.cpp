@@ -321,7 +321,7 @@ TEST(Ply, X1_ZeroFacesAreNoSceneUnlessThereIsNothingAtAll) {
     const TemporaryFolder folder;
     write_ply(empty, folder / "empty.ply");
     EXPECT_TRUE(soup_of(read_ply(folder / "empty.ply")).triangles.empty());
-    // As in every format: a picture of nothing would leave open what is wrong.
+    // As in every format: an image of nothing would leave open what is wrong.
     EXPECT_THAT(error_of([&] { read_scene(folder / "empty.ply"); }), ErrorAt("empty.ply"));
   }
 }

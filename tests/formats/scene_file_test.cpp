@@ -41,7 +41,7 @@ TEST(SceneFile, AsksTheNameWhereTheContentSaysNothing) {
   EXPECT_THAT(error_of([&] { read_scene(folder / "a.OFF"); }), ErrorAt("a.OFF:2"));
 }
 
-/// A picture of nothing would leave open whether the file or the view is to blame.
+/// An image of nothing would leave open whether the file or the view is to blame.
 TEST(SceneFile, RefusesFilesWithoutTrianglesAlikeInEveryFormat) {
   const TemporaryFolder folder;
   write_text(folder / "a.off", "OFF\n1 0 0\n0 0 0\n");

@@ -282,7 +282,7 @@ void add_cameras(Collection& all) {
   all.add("colmap_text", "points", with_first_byte(2, content(test::text_points(model))));
 }
 
-// ---- Pictures
+// ---- Images
 
 /// A progressive JPEG of 8 x 8 grey pixels, by hand: stb writes none.
 Content progressive_jpeg() {
@@ -303,18 +303,18 @@ Content progressive_jpeg() {
 }
 
 Content baseline_jpeg() {
-  const Image8 picture = test::a_picture(20, 12, 3);
+  const Image8 image = test::an_image(20, 12, 3);
   std::string text;
   stbi_write_jpg_to_func(
       [](void* to, void* data, int size) {
         static_cast<std::string*>(to)->append(static_cast<const char*>(data), std::size_t(size));
       },
-      &text, picture.width, picture.height, 4, picture.pixels.data(), 80);
+      &text, image.width, image.height, 4, image.pixels.data(), 80);
   return content(text);
 }
 
 void add_images(Collection& all) {
-  all.add("image", "rgba.png", encode_png(test::a_picture(9, 7)));
+  all.add("image", "rgba.png", encode_png(test::an_image(9, 7)));
   std::string row;
   for (int i = 0; i < 8 * 5; ++i) row += static_cast<char>(37 * i);
   all.add(
@@ -365,11 +365,11 @@ constexpr char session_text[] = R"({ "tureen_session": 1, "window": [640, 480], 
   { "at": 0.2, "wheel": [0, -1] }, { "at": 0.3, "key": "A", "down": false },
   { "at": 0.4, "code_point": 228 }, { "at": 0.4, "drop": ["soup.glb"] },
   { "at": 0.5, "resize": [800, 600] }, { "at": 0.6, "focus": true }, { "at": 0.7, "await": true },
-  { "at": 0.8, "picture": "end" }, { "at": 1, "close": true } ] })";
+  { "at": 0.8, "image": "end" }, { "at": 1, "close": true } ] })";
 
 constexpr char settings_text[] =
     R"({ "window": [1280, 800], "vsync": true, "smooth_motion": false,
-  "recent": ["/scenes/soup.glb", "/scenes/\u00e4.ply"], "pictures": "/pictures" })";
+  "recent": ["/scenes/soup.glb", "/scenes/\u00e4.ply"], "images": "/images" })";
 
 // ---- Benchmarks
 

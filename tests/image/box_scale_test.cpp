@@ -50,7 +50,7 @@ glm::dvec4 mean_over(const Image8& image, double left, double top, double right,
   return {alpha > 0 ? color / alpha : glm::dvec3(0), alpha / ((right - left) * (bottom - top))};
 }
 
-TEST(BoxScale, AgreesWithItsDefinitionOnRandomPictures) {
+TEST(BoxScale, AgreesWithItsDefinitionOnRandomImages) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     std::mt19937 random(seed);

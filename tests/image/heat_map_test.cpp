@@ -1,4 +1,4 @@
-// The scale of differences, and where pictures differ.
+// The scale of differences, and where images differ.
 #include "image/heat_map.hpp"
 
 #include <gtest/gtest.h>

@@ -78,11 +78,11 @@ TEST(JpegTables, AreRefusedBeforeAnythingIsDecoded) {
     EXPECT_FALSE(oversized_huffman_table(fixture.bytes)) << fixture.name;
 }
 
-TEST(JpegTables, BehindAPictureAreNoneOfIt) {
-  int pictures = 0;
+TEST(JpegTables, BehindAImageAreNoneOfIt) {
+  int images = 0;
   for (const fuzz::Fixture& fixture : fuzz::fixtures()) {
     if (fixture.target != "image" || fixture.bytes.at(0) != std::byte(0xff)) continue;
-    ++pictures;
+    ++images;
     // As of a telephone that appends a film.
     std::vector<std::byte> with_film = fixture.bytes;
     const auto film = bytes_of(table(257) + Bytes(100, 0x5a));
@@ -91,7 +91,7 @@ TEST(JpegTables, BehindAPictureAreNoneOfIt) {
               decode_image(fixture.bytes, "still.jpg").pixels)
         << fixture.name;
   }
-  EXPECT_GT(pictures, 0);
+  EXPECT_GT(images, 0);
 }
 
 }  // namespace jpeg_tables_test

@@ -21,7 +21,7 @@ ImageF constant(int width, int height, glm::vec3 color) {
   return ImageF(width, height, glm::vec4(color, 1.0f));
 }
 
-/// A picture with flat parts, steps and waves, in 8 bits. tests/image/metrics_reference.py draws
+/// An image with flat parts, steps and waves, in 8 bits. tests/image/metrics_reference.py draws
 /// the same one.
 ImageF pattern(int shift, double gain) {
   Image8 image(64, 48);
@@ -40,7 +40,7 @@ ImageF pattern(int shift, double gain) {
   return to_float(image);
 }
 
-/// The picture of the border-mode measurements: 320 x 240, grey.
+/// The image of the border-mode measurements: 320 x 240, grey.
 double measured_value(int x, int y) {
   const double steps = (x / 12 + y / 9) % 2 ? 0.15 : -0.15;
   const double value = 0.5 + 0.2 * std::sin(x * 0.07) * std::cos(y * 0.05) +
@@ -48,7 +48,7 @@ double measured_value(int x, int y) {
   return std::min(1.0, std::max(0.0, value));
 }
 
-ImageF measured_picture(double shift) {
+ImageF measured_image(double shift) {
   ImageF image(320, 240);
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
@@ -60,7 +60,7 @@ ImageF measured_picture(double shift) {
   return image;
 }
 
-TEST(Metrics, EqualPicturesArePerfect) {
+TEST(Metrics, EqualImagesArePerfect) {
   const ImageF image = pattern(0, 1);
   const Metrics m = compare(image, image);
   EXPECT_EQ(m.mae, 0);
@@ -74,7 +74,7 @@ TEST(Metrics, EqualPicturesArePerfect) {
   EXPECT_EQ(m.failing_fraction, 0);
 }
 
-TEST(Metrics, ConstantPicturesGiveTheClosedForms) {
+TEST(Metrics, ConstantImagesGiveTheClosedForms) {
   const Metrics m =
       compare(constant(20, 12, {0.5f, 0.25f, 1.0f}), constant(20, 12, {0.25f, 0.25f, 0.5f}));
   EXPECT_DOUBLE_EQ(m.mae, (0.25 + 0 + 0.5) / 3);
@@ -84,11 +84,11 @@ TEST(Metrics, ConstantPicturesGiveTheClosedForms) {
   EXPECT_DOUBLE_EQ(m.failing_fraction, 1);
 }
 
-TEST(Metrics, AnUnpaddedSsimOfConstantPicturesIsTheLuminanceTerm) {
+TEST(Metrics, AnUnpaddedSsimOfConstantImagesIsTheLuminanceTerm) {
   const double c1 = 1e-4, a = 0.5, b = 0.25;
   const double expected = (2 * a * b + c1) / (a * a + b * b + c1);
   const ImageF x = constant(20, 20, glm::vec3(0.5f)), y = constant(20, 20, glm::vec3(0.25f));
-  // Flat pictures have no variance: any that cancellation leaves would move the result.
+  // Flat images have no variance: any that cancellation leaves would move the result.
   EXPECT_NEAR(ssim(x, y, SsimBorder::valid), expected, 1e-12);
   EXPECT_NEAR(ssim(x, y, SsimBorder::uniform7), expected, 1e-12);
 }
@@ -106,7 +106,7 @@ TEST(Metrics, TheNumberBordersTookInTheMeasurements) {
   };
   for (const Case& c :
        {Case{1.0, 23.273, 0.7448, 0.7327, 0.7528}, Case{0.5, 29.294, 0.9273, 0.9237, 0.9265}}) {
-    const ImageF a = measured_picture(0), b = measured_picture(c.shift);
+    const ImageF a = measured_image(0), b = measured_image(c.shift);
     // Half a unit of the last digit that was noted down.
     EXPECT_NEAR(psnr_from_mse(mean_squared_error(a, b)), c.psnr_db, 0.0006);
     EXPECT_NEAR(ssim(a, b, SsimBorder::zero_pad), c.zero_pad, 0.00006);
@@ -137,7 +137,7 @@ TEST(Metrics, AgreeWithIndependentImplementations) {
   EXPECT_NEAR(result.map[47 * 64 + 63], 0.45113496224308575, 1e-6);
 }
 
-TEST(Flip, ConstantPicturesHaveNoFeaturesAndAClosedForm) {
+TEST(Flip, ConstantImagesHaveNoFeaturesAndAClosedForm) {
   const glm::vec3 black(0), white(1), green(0, 1, 0), blue(0, 0, 1);
   // Black and white lie 100 units of lightness apart; green and blue lie farthest of all.
   const double largest = 41.276570439672035, knee = 0.4 * largest;

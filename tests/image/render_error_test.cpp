@@ -22,7 +22,7 @@ TEST(RenderError, PoolsSquaredErrorsNotDecibels) {
   for (const double db : {20.0, 30.0, 40.0})
     meter.add(gray(16, 16, 0.5f), gray(16, 16, float(0.5 + std::pow(10.0, -db / 20))));
   const RenderError error = meter.result();
-  // Float pictures keep the differences to 1e-7 or so.
+  // Float images keep the differences to 1e-7 or so.
   EXPECT_NEAR(error.mean_psnr_db, 30, 1e-4);
   EXPECT_NEAR(error.worst_psnr_db, 20, 1e-4);
   EXPECT_NEAR(error.mse, (1e-2 + 1e-3 + 1e-4) / 3, 1e-8);
@@ -81,7 +81,7 @@ TEST(RenderError, TheHighPercentileIsThatOfAllViewsTogether) {
   EXPECT_NEAR(other.result().p999_abs, 0.5, 1.0 / 65536);
 }
 
-TEST(RenderError, EqualPicturesAndPicturesThatDoNotFit) {
+TEST(RenderError, EqualImagesAndImagesThatDoNotFit) {
   RenderErrorMeter meter;
   meter.add(gray(16, 16, 0.3f), gray(16, 16, 0.3f));
   EXPECT_EQ(meter.result().psnr_db, 100);

@@ -130,24 +130,24 @@ TEST_P(Ceilings, TrianglesWithoutColoursLeaveTheBackground) {
       {.plan = {.site = ShadingSite::nowhere}, .background = glm::vec4(0.2f, 0.4f, 0.6f, 1.0f)});
   EXPECT_EQ(renderer.plan().site, ShadingSite::nowhere);
   renderer.draw(scene.cameras[0]);
-  const Image8 picture = renderer.read_color();
-  EXPECT_THAT(picture.pixels, testing::Each(glm::u8vec4(51, 102, 153, 255)));
+  const Image8 image = renderer.read_color();
+  EXPECT_THAT(image.pixels, testing::Each(glm::u8vec4(51, 102, 153, 255)));
   EXPECT_TRUE(renderer.read_faces().empty());
 }
 
-TEST_P(Ceilings, TheCopyIsAPicturesWorthOfPixels) {
+TEST_P(Ceilings, TheCopyIsAImagesWorthOfPixels) {
   const gl::Context context = gl::Context::create(GetParam().request);
   CopyCeiling copy(context);
   for (const int width : {64, 200, 37}) {
     copy.draw(width, 48);
-    const Image8 picture = copy.read_copy();
-    ASSERT_EQ(picture.width, width);
-    ASSERT_EQ(picture.height, 48);
-    // Row 0 of the picture is the highest of 64 rows of cells that grow greener upwards.
-    EXPECT_GT(picture.at(0, 0).g, 240);
-    EXPECT_LT(picture.at(0, 47).g, 10);
-    EXPECT_GT(picture.at(width - 1, 0).r, 240);
-    EXPECT_LT(picture.at(0, 0).r, 10);
+    const Image8 image = copy.read_copy();
+    ASSERT_EQ(image.width, width);
+    ASSERT_EQ(image.height, 48);
+    // Row 0 of the image is the highest of 64 rows of cells that grow greener upwards.
+    EXPECT_GT(image.at(0, 0).g, 240);
+    EXPECT_LT(image.at(0, 47).g, 10);
+    EXPECT_GT(image.at(width - 1, 0).r, 240);
+    EXPECT_LT(image.at(0, 0).r, 10);
   }
 }
 

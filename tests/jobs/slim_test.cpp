@@ -32,7 +32,7 @@ Scene with_cameras(Scene scene, std::vector<Camera> cameras) {
   return scene;
 }
 
-/// The scene's own pictures, every pixel off by `off` one way or the other.
+/// The scene's own images, every pixel off by `off` one way or the other.
 std::vector<Photograph> own_photographs(const Scene& scene, int off) {
   const gl::Context context = gl::Context::create({});
   Renderer renderer(context, std::get<TriangleSoup>(scene.primitives), scene.origin,

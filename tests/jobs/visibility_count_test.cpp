@@ -142,7 +142,7 @@ TEST(VisibilityCount, LeavingOutWhatIsNotSeenChangesNothing) {
   for (const Camera& view : views) {
     const auto all = test::draw(context(), soup, glm::dvec3(0), view);
     const auto some = test::draw(context(), fewer, glm::dvec3(0), view);
-    // Other clusters, the same pictures.
+    // Other clusters, the same images.
     EXPECT_TRUE(all.color.pixels == some.color.pixels);
   }
 }

@@ -30,7 +30,7 @@ class Comparison {
 
   /// `moved`: how far roundings may move a corner, in pixels. Edges sweep the centres of twice that
   /// part of the pixels along them in the mean, for the reasons that swept() of relations_test.cpp
-  /// has; chance has more, but not more than the 1e-4 of the picture that H10 has for everything.
+  /// has; chance has more, but not more than the 1e-4 of the image that H10 has for everything.
   void add(double at, const TriangleSoup& soup, const Camera& camera, double moved) {
     const OracleImage expected = snapped_oracle(soup, glm::dvec3(0), camera);
     const Drawn drawn = draw(shared_context(), soup, glm::dvec3(0), camera);
@@ -61,7 +61,7 @@ TEST(Numerics, C1_FieldsOfViewFromATenthTo179Degrees) {
   constexpr int width = 320, height = 240;
   for (const double degrees : {0.1, 1.0, 10.0, 60.0, 120.0, 170.0, 179.0}) {
     const double half = glm::radians(degrees) / 2;
-    // From where the unit ball fills the picture, or else from within it.
+    // From where the unit ball fills the image, or else from within it.
     const double distance = std::max(1.1 / std::tan(half), 0.05);
     Random random(1);
     const Camera camera =
@@ -73,8 +73,8 @@ TEST(Numerics, C1_FieldsOfViewFromATenthTo179Degrees) {
   }
 }
 
-TEST(Numerics, C2_PrincipalPointsOutsideThePicture) {
-  Comparison comparison("principal points outside of the picture",
+TEST(Numerics, C2_PrincipalPointsOutsideTheImage) {
+  Comparison comparison("principal points outside of the image",
                         "its distance from the middle / widths");
   constexpr int width = 320, height = 240;
   // With a network, which sees where it is seen from.
@@ -87,7 +87,7 @@ TEST(Numerics, C2_PrincipalPointsOutsideThePicture) {
     camera.view_from_world[3] += glm::dvec4(-shift / camera.fx * 4, 0, 0, 0);
     // What a corner's place beside the axis and what the principal point make of its x are `shift`
     // each, and nearly cancel: five roundings of both. Those of its depth are of what lies in the
-    // picture, those of the corner less the eye of `shift`. All together they are at most as many
+    // image, those of the corner less the eye of `shift`. All together they are at most as many
     // of a coordinate of shift + width.
     comparison.add(widths, soup, camera, vertex_rounding(shift + width));
   }
@@ -104,7 +104,7 @@ TEST(Numerics, C2b_WhatLiesFarOffTheAxisIsNotClipped) {
     for (const double degrees : {0.0, 45.0, 70.0, 80.0, 85.0, 89.0, 89.9}) {
       Camera camera = straight_camera(side, side, side);
       const double off = 5 * std::tan(glm::radians(degrees));
-      // In the middle of the picture: 32 pixels of 64 both ways.
+      // In the middle of the image: 32 pixels of 64 both ways.
       camera.cx -= camera.fx * off / 5;
       const auto corner = [&](double x, double y) { return glm::vec3(off + x, y, -5); };
       const double a = 1.25;
@@ -126,8 +126,8 @@ TEST(Numerics, C2b_WhatLiesFarOffTheAxisIsNotClipped) {
     }
 }
 
-TEST(Numerics, C3_PicturesOfOnePixelAndOfOneRow) {
-  Comparison comparison("pictures of 1x1, 1x4096, 4096x1 and 16384x16 pixels", "pixels");
+TEST(Numerics, C3_ImagesOfOnePixelAndOfOneRow) {
+  Comparison comparison("images of 1x1, 1x4096, 4096x1 and 16384x16 pixels", "pixels");
   struct Size {
     int width, height;
   };
@@ -144,7 +144,7 @@ TEST(Numerics, C3_PicturesOfOnePixelAndOfOneRow) {
     shown = shown_pixels(faces_of_oracle(soup, resampled(narrow, 1, 1)));
   }
   for (const auto& [width, height] : {Size{1, 1}, Size{1, 4096}, Size{4096, 1}, Size{16384, 16}}) {
-    // The very same picture on other pixels.
+    // The very same image on other pixels.
     const Camera camera = resampled(narrow, width, height);
     // A coordinate's roundings are of the side that it is counted along; edges run either way.
     comparison.add(double(width) * height, soup, camera,

@@ -18,7 +18,7 @@ namespace depth_test {
 constexpr int side = 16;
 constexpr float extent = 60;  // of the scene, so that the eye is within it
 
-/// Two squares at z = 0 and z = -apart that fill any picture, and something at the scene's ends.
+/// Two squares at z = 0 and z = -apart that fill any image, and something at the scene's ends.
 /// Faces 0 and 1 are the rear one's where `rear_first`.
 TriangleSoup two_walls(float apart, bool rear_first) {
   std::vector<glm::vec3> corners;

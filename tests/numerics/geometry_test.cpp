@@ -23,7 +23,7 @@
 #include "tests/trainer/stages.hpp"
 #include "trainer/common/kernels/fragments.hpp"
 #include "trainer/diffsoup/backend.hpp"
-#include "trainer/diffsoup/cuda/device_picture.hpp"
+#include "trainer/diffsoup/cuda/device_image.hpp"
 
 namespace tureen::test {
 namespace geometry_test {

@@ -12,7 +12,7 @@
 #include "tests/numerics/recorder.hpp"
 #include "tests/numerics/scenes.hpp"
 #include "tests/support/shader_probe.hpp"
-#include "trainer/diffsoup/cuda/device_picture.hpp"
+#include "trainer/diffsoup/cuda/device_image.hpp"
 
 namespace tureen::test {
 namespace large_faces_test {
@@ -84,7 +84,7 @@ class TexelOnDevice {
 };
 
 TEST(Numerics, T7b_FacesBeyondTwoToThe24KeepTheirNames) {
-  Recorder recorder({.stressed = "the name of a face from its vertex to the picture: geometry.vert "
+  Recorder recorder({.stressed = "the name of a face from its vertex to the image: geometry.vert "
                                  "and visibility.frag; on to its texels at level 0; and in a key "
                                  "of the trainer on a GPU",
                      .parameter = "face",

@@ -105,7 +105,7 @@ std::vector<glm::vec3> random_faces(Random& random, int count) {
 }
 
 TEST(Numerics, S3_DrawsDoNotDependOnTheOrderOfFragments) {
-  Recorder recorder({.stressed = "the same picture with its tiles and faces taken in another order",
+  Recorder recorder({.stressed = "the same image with its tiles and faces taken in another order",
                      .parameter = "faces",
                      .unit = "of 9216 pixels show another face",
                      .naive = "a generator's numbers in the order of fragments"});
@@ -115,9 +115,9 @@ TEST(Numerics, S3_DrawsDoNotDependOnTheOrderOfFragments) {
   for (const int count : {10, 100, 1000}) {
     const std::vector<glm::vec3> corners = random_faces(random, count);
     const trainer::test::Faces faces(corners, 0.0f);
-    trainer::Picture forwards = trainer::test::make_picture(camera);
+    trainer::BatchImage forwards = trainer::test::make_image(camera);
     forwards.draw_key = trainer::kernels::draw_key(3, 1, 0);
-    trainer::Picture backwards = forwards;
+    trainer::BatchImage backwards = forwards;
     faces.find(forwards, trainer::Masking::stochastic);
     trainer::bin_faces(backwards, faces.model);
     for (std::size_t tile = 0; tile + 1 < backwards.bin_begin.size(); ++tile)
@@ -161,20 +161,20 @@ TEST(Numerics, S4_PixelsOfTheBackgroundTeachOpacity) {
   constexpr int side = 48, steps = 400;
   for (const double alpha : {0.1, 0.5, 0.9}) {
     trainer::test::Faces faces({{-9, -8, -2}, {9, -7, -2}, {0.5f, 12, -2.3f}}, logit_of(alpha));
-    std::vector<trainer::Picture> pictures{
-        trainer::test::make_picture(straight_camera(side, side, side / 2.0))};
-    trainer::Picture& picture = pictures[0];
+    std::vector<trainer::BatchImage> images{
+        trainer::test::make_image(straight_camera(side, side, side / 2.0))};
+    trainer::BatchImage& image = images[0];
     Moments gradient, naive;
     for (int step = 0; step < steps; ++step) {
-      picture.draw_key = trainer::kernels::draw_key(4, std::uint32_t(step), 0);
-      faces.find(picture, trainer::Masking::stochastic);
+      image.draw_key = trainer::kernels::draw_key(4, std::uint32_t(step), 0);
+      faces.find(image, trainer::Masking::stochastic);
       double winners = 0;
-      for (std::size_t i = 0; i < picture.visible.size(); ++i) {
-        const bool background = picture.visible[i].face == no_face;
-        picture.loss[i] = background ? 1.0f : 0.0f;
-        winners += background ? 0 : double(picture.loss[i]) / alpha;
+      for (std::size_t i = 0; i < image.visible.size(); ++i) {
+        const bool background = image.visible[i].face == no_face;
+        image.loss[i] = background ? 1.0f : 0.0f;
+        winners += background ? 0 : double(image.loss[i]) / alpha;
       }
-      faces.gather(pictures, 0);
+      faces.gather(images, 0);
       double sum = 0;
       for (std::size_t texel = 0; texel < 3; ++texel)
         sum += faces.by_logit(0, texel, trainer::alpha_channel);
@@ -199,19 +199,19 @@ TEST(Numerics, S5_LossAndScoreShareTheirDraw) {
   constexpr int side = 48, steps = 400;
   for (const double alpha : {0.1, 0.3, 0.5, 0.7, 0.9}) {
     trainer::test::Faces faces({{-9, -8, -2}, {9, -7, -2}, {0.5f, 12, -2.3f}}, logit_of(alpha));
-    std::vector<trainer::Picture> pictures{
-        trainer::test::make_picture(straight_camera(side, side, side / 2.0))};
-    trainer::Picture& picture = pictures[0];
+    std::vector<trainer::BatchImage> images{
+        trainer::test::make_image(straight_camera(side, side, side / 2.0))};
+    trainer::BatchImage& image = images[0];
     const auto draw = [&](int number) {
-      picture.draw_key = trainer::kernels::draw_key(5, std::uint32_t(number), 0);
-      faces.find(picture, trainer::Masking::stochastic);
+      image.draw_key = trainer::kernels::draw_key(5, std::uint32_t(number), 0);
+      faces.find(image, trainer::Masking::stochastic);
     };
     const auto take_loss = [&] {
-      for (std::size_t i = 0; i < picture.visible.size(); ++i)
-        picture.loss[i] = picture.visible[i].face == no_face ? 1.0f : 0.2f;
+      for (std::size_t i = 0; i < image.visible.size(); ++i)
+        image.loss[i] = image.visible[i].face == no_face ? 1.0f : 0.2f;
     };
     const auto gathered = [&] {
-      faces.gather(pictures, 0);
+      faces.gather(images, 0);
       double sum = 0;
       for (std::size_t texel = 0; texel < 3; ++texel)
         sum += faces.by_logit(0, texel, trainer::alpha_channel);

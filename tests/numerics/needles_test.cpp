@@ -160,12 +160,12 @@ TEST(Numerics, T1b_NeedlesShowNothingBeyondTheirTexels) {
         shared_context().make_current();
         Renderer renderer(shared_context(), soup, glm::dvec3(0), options);
         renderer.draw(camera);
-        const Image8 picture = renderer.read_color();
+        const Image8 image = renderer.read_color();
         int by_needles = 0, compared = 0;
         double off = 0;
         for (int y = 0; y < side; ++y)
           for (int x = 0; x < side; ++x) {
-            const glm::u8vec4 pixel = picture.at(x, y);
+            const glm::u8vec4 pixel = image.at(x, y);
             for (int c = 0; c < 3; ++c) ours = worse(ours, beyond_all_texels(pixel[c] / 255.0));
             // Right of the large face, whatever is not grey.
             by_needles += x > 75 && std::abs(pixel.r - 127.5) > 2;
@@ -180,7 +180,7 @@ TEST(Numerics, T1b_NeedlesShowNothingBeyondTheirTexels) {
         EXPECT_GT(compared, 20);
         // Half a step of 8 bits; two barycentrics of 16 bits, which the visibility buffer has; and
         // the rounding of the planes of two barycentrics, which rise by 1 over the width of a
-        // needle, at the far side of the picture.
+        // needle, at the far side of the image.
         const double tolerance = 0.5 / 255 + (high - low) * (0x1p-16 + 2 * side / width * epsilon);
         EXPECT_LE(off, tolerance) << path.what << ' ' << width;
       }

@@ -35,7 +35,7 @@ kernels::AdamStep step_at(double t, float rate = 1) {
   return kernels::adam_step(rate, defaults.beta1, defaults.beta2, defaults.epsilon, t);
 }
 
-/// Adam on noise: a run's own schedule, moments and state, of gradients that are none of a picture.
+/// Adam on noise: a run's own schedule, moments and state, of gradients that are none of an image.
 /// Takes note of how long steps are.
 class NoiseBackend final : public trainer::Backend {
  public:
@@ -279,7 +279,7 @@ TEST(Numerics, O4_StepsTurnWithTheAxes) {
 TEST(Numerics, O5_APixelThatIsNoNumberIsMaskedAndCounted) {
   Recorder recorder({.stressed =
                          "the network's gradient where pixels are no numbers, against that of "
-                         "the same pictures without them: both backends",
+                         "the same images without them: both backends",
                      .parameter = "pixels that are none, of 1280",
                      .unit = "largest difference of a derivative, in the largest of them",
                      .naive = "the derivatives of all pixels added up"});
@@ -406,13 +406,12 @@ TEST(Numerics, O6_SumsDoNotDependOnTheirOrder) {
   }
 }
 
-TEST(Numerics, O7_FlatPicturesHaveNoNegativeVariance) {
-  Recorder recorder({.stressed =
-                         "1 - SSIM of flat pictures that differ by 1/255 in brightness: the "
-                         "loss in floats",
+TEST(Numerics, O7_FlatImagesHaveNoNegativeVariance) {
+  Recorder recorder({.stressed = "1 - SSIM of flat images that differ by 1/255 in brightness: the "
+                                 "loss in floats",
                      .parameter = "brightness",
                      .unit = "relative error",
-                     .naive = "E[x^2] - E[x]^2 of both pictures in floats"});
+                     .naive = "E[x^2] - E[x]^2 of both images in floats"});
   constexpr int side = 24;
   for (const int level : {1, 32, 128, 200, 254}) {
     std::vector<float> rendered(3 * side * side), gradient(3 * side * side);
@@ -473,7 +472,7 @@ TEST(Numerics, O7_FlatPicturesHaveNoNegativeVariance) {
     // What else there is, factors of d^2 / B1, are twice the 32 roundings of means in each square
     // and a dozen of their own.
     const double others = 2 * 2 * 32 + 12;
-    // Of bright pictures four deviations are more than 3 x 255, which was allowed before this was
+    // Of bright images four deviations are more than 3 x 255, which was allowed before this was
     // worked out and has been enough.
     const double tolerance = std::min(of_bytes + of_variances + others, 3.0 * 255) * epsilon;
     recorder.add({.at = level / 255.0,

@@ -48,10 +48,10 @@ Drawn drawn_by_trainer(const trainer::Model& model, const Camera& camera) {
   trainer::test::Faces faces(model.positions, 0, model.max_level);
   faces.model = model;
   faces.refresh();
-  trainer::Picture picture = trainer::test::make_picture(camera);
-  picture.view = trainer::view_of(camera, model.origin, config.near, config.far);
-  faces.find(picture, trainer::Masking::threshold);
-  for (const trainer::VisiblePixel& pixel : picture.visible) drawn.faces.push_back(pixel.face);
+  trainer::BatchImage image = trainer::test::make_image(camera);
+  image.view = trainer::view_of(camera, model.origin, config.near, config.far);
+  faces.find(image, trainer::Masking::threshold);
+  for (const trainer::VisiblePixel& pixel : image.visible) drawn.faces.push_back(pixel.face);
   return drawn;
 }
 
@@ -112,7 +112,7 @@ class Comparison {
     ASSERT_GE(found.compared, limits.least_compared) << seed << ": there is hardly anything";
     // The catalogue's 1e-4, four pixels here. Roundings of a corner, vertex_rounding of
     // 240 pixels, may move an edge across 3e-4 of the pixels at edges, which are up to a
-    // quarter of the picture: three. A needle's are an edge on both sides, and some alphas and
+    // quarter of the image: three. A needle's are an edge on both sides, and some alphas and
     // depths floats cannot tell apart.
     faces_.add({.at = double(seed),
                 .ours = std::max(found.coverage_mismatch, found.face_mismatch),

@@ -1,5 +1,5 @@
-// What may not change a picture, and scenes at scale: the rows H1 to H7, which are
-// metamorphic relations (what is known of two pictures where neither is), H8 and H9.
+// What may not change an image, and scenes at scale: the rows H1 to H7, which are
+// metamorphic relations (what is known of two images where neither is), H8 and H9.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,11 +24,11 @@ namespace relations_test {
 constexpr int width = 240, height = 180;
 constexpr double pixels = double(width) * height;
 
-/// Expects that a thousand pixels show a face: of empty pictures every relation holds.
+/// Expects that a thousand pixels show a face: of empty images every relation holds.
 Drawn drawn(const TriangleSoup& soup, const Camera& camera, glm::dvec3 origin = glm::dvec3(0)) {
-  Drawn picture = draw(shared_context(), soup, origin, camera);
-  EXPECT_GT(shown_pixels(picture.faces), 1000);
-  return picture;
+  Drawn image = draw(shared_context(), soup, origin, camera);
+  EXPECT_GT(shown_pixels(image.faces), 1000);
+  return image;
 }
 
 /// Where roundings are others, colours are: by far less than a step of 8 bits, but of two such
@@ -49,24 +49,23 @@ double changed(const Image8& a, const Image8& b, int steps = 0) {
 }
 
 /// Fraction of pixels whose left or upper neighbour shows another face.
-double edges(const Drawn& picture) {
+double edges(const Drawn& image) {
   double count = 0;
   for (int y = 1; y < height; ++y)
     for (int x = 1; x < width; ++x) {
       const std::size_t i = std::size_t(y) * width + std::size_t(x);
-      count +=
-          picture.faces[i] != picture.faces[i - 1] || picture.faces[i] != picture.faces[i - width];
+      count += image.faces[i] != image.faces[i - 1] || image.faces[i] != image.faces[i - width];
     }
   return count / pixels;
 }
 
-/// The fraction of pixels that may change where corners are so many pixels apart in two pictures.
+/// The fraction of pixels that may change where corners are so many pixels apart in two images.
 /// An edge passes no more centres in the mean than the area that it sweeps, which is its length
 /// times that; and of an edge's length no more than 2 comes on each of the pixels along it that
 /// edges() counts (a diagonal has sqrt(2)). That corners are snapped to 1/256 of a pixel changes
 /// nothing in the mean: one that moved by a tenth of that is snapped elsewhere one time in ten.
 /// A pixel is added, as what is expected is often less than one, and those that changed are whole.
-double swept(double apart, const Drawn& picture) { return 2 * apart * edges(picture) + 1 / pixels; }
+double swept(double apart, const Drawn& image) { return 2 * apart * edges(image) + 1 / pixels; }
 
 /// Vertices on a grid of an eighth, so that shifts by powers of two up to 2^20 are exact.
 TriangleSoup on_a_grid(Kind kind) {
@@ -80,8 +79,8 @@ Camera camera_about(const glm::dvec3& middle, double scale) {
                  height);
 }
 
-TEST(Numerics, H1_TranslatedPicturesAreTheSame) {
-  Recorder recorder({.stressed = "soup and camera moved by powers of two: whole pictures",
+TEST(Numerics, H1_TranslatedImagesAreTheSame) {
+  Recorder recorder({.stressed = "soup and camera moved by powers of two: whole images",
                      .parameter = "offset / units",
                      .unit = "fraction of pixels changed"});
   for (int k = 0; k <= 20; ++k) {
@@ -115,7 +114,7 @@ double eye_rounding(const Camera& camera, double offset) {
 TEST(Numerics, H1c_AnEyeBetweenFloatsSeesTheSame) {
   Recorder recorder({.stressed =
                          "soup and camera moved by powers of two, from an eye that no floats hold: "
-                         "whole pictures",
+                         "whole images",
                      .parameter = "offset / units",
                      .unit = "fraction of pixels changed by more than a step of 8 bits"});
   const TriangleSoup soup = on_a_grid(Kind::lattice_mlp);
@@ -129,7 +128,7 @@ TEST(Numerics, H1c_AnEyeBetweenFloatsSeesTheSame) {
     Camera after = before;
     after.view_from_world =
         before.view_from_world * glm::translate(glm::dmat4(1), -glm::dvec3(shift));
-    // A vertex is rounded anew in both pictures, and the low half of the eye with it, to far less.
+    // A vertex is rounded anew in both images, and the low half of the eye with it, to far less.
     const double apart = eye_rounding(before, std::ldexp(1.0, k)) + 2 * moved_by_rounding;
     recorder.add({.at = std::ldexp(1.0, k),
                   .ours = changed(expected.color, drawn(moved, after).color, one_step),
@@ -138,7 +137,7 @@ TEST(Numerics, H1c_AnEyeBetweenFloatsSeesTheSame) {
 }
 
 TEST(Numerics, H1b_AnOriginMovesNothing) {
-  Recorder recorder({.stressed = "Scene::origin and camera moved together: whole pictures",
+  Recorder recorder({.stressed = "Scene::origin and camera moved together: whole images",
                      .parameter = "offset / units",
                      .unit = "fraction of pixels changed by more than a step of 8 bits"});
   const TriangleSoup soup = on_a_grid(Kind::lattice_mlp);
@@ -156,8 +155,8 @@ TEST(Numerics, H1b_AnOriginMovesNothing) {
   }
 }
 
-TEST(Numerics, H2_ScaledPicturesAreTheSame) {
-  Recorder recorder({.stressed = "soup and camera scaled by powers of two: whole pictures",
+TEST(Numerics, H2_ScaledImagesAreTheSame) {
+  Recorder recorder({.stressed = "soup and camera scaled by powers of two: whole images",
                      .parameter = "scale",
                      .unit = "fraction of pixels changed"});
   for (const int k : {-20, -10, -3, 3, 10, 20}) {
@@ -176,7 +175,7 @@ TEST(Numerics, H2_ScaledPicturesAreTheSame) {
   }
 }
 
-/// How far apart corners are in two pictures of a soup on a grid, of which one has its vertices
+/// How far apart corners are in two images of a soup on a grid, of which one has its vertices
 /// rounded anew: each axis by half a unit of 8, at a distance of 15 and more; and either has the
 /// roundings on their way.
 double apart_by_new_vertices(const Camera& camera) {
@@ -185,7 +184,7 @@ double apart_by_new_vertices(const Camera& camera) {
 
 // Where nothing is a power of two, every number on the way is rounded anew.
 TEST(Numerics, H2b_ScaledByAnythingTheyAreAlmost) {
-  Recorder recorder({.stressed = "soup and camera scaled by no powers of two: whole pictures",
+  Recorder recorder({.stressed = "soup and camera scaled by no powers of two: whole images",
                      .parameter = "scale",
                      .unit = "fraction of pixels changed by more than a step of 8 bits"});
   const Camera before = camera_about({0, 0, 0}, 1);
@@ -209,8 +208,8 @@ TEST(Numerics, H2b_ScaledByAnythingTheyAreAlmost) {
   }
 }
 
-TEST(Numerics, H3_TurnedPicturesAreTheSame) {
-  Recorder recorder({.stressed = "soup and camera turned together: whole pictures",
+TEST(Numerics, H3_TurnedImagesAreTheSame) {
+  Recorder recorder({.stressed = "soup and camera turned together: whole images",
                      .parameter = "angle / degrees",
                      .unit = "fraction of pixels changed by more than a step of 8 bits"});
   const TriangleSoup soup = on_a_grid(Kind::lattice);
@@ -242,8 +241,8 @@ TriangleSoup permuted(const TriangleSoup& soup, const std::vector<std::uint32_t>
   return result;
 }
 
-TEST(Numerics, H4_PermutedFacesMakeTheSamePicture) {
-  Recorder recorder({.stressed = "faces in another order: whole pictures",
+TEST(Numerics, H4_PermutedFacesMakeTheSameImage) {
+  Recorder recorder({.stressed = "faces in another order: whole images",
                      .parameter = "permutation",
                      .unit = "fraction of pixels changed"});
   Random random(4);
@@ -308,7 +307,7 @@ TriangleSoup split_in_four(const TriangleSoup& soup) {
 
 TEST(Numerics, H5_SplitFacesShowTheSameTexture) {
   Recorder recorder(
-      {.stressed = "faces split in four with the texels that they cover: whole pictures",
+      {.stressed = "faces split in four with the texels that they cover: whole images",
        .parameter = "level before",
        .unit = "fraction of pixels changed by more than a step of 8 bits"});
   for (const int level : {1, 3, 5}) {
@@ -363,8 +362,8 @@ TEST(Numerics, H6_TransparentDuplicatesChangeNothing) {
   }
 }
 
-TEST(Numerics, H7_MirroredScenesMakeMirroredPictures) {
-  Recorder recorder({.stressed = "soup and camera mirrored: whole pictures, mirrored back",
+TEST(Numerics, H7_MirroredScenesMakeMirroredImages) {
+  Recorder recorder({.stressed = "soup and camera mirrored: whole images, mirrored back",
                      .parameter = "seed",
                      .unit = "fraction of pixels changed by more than a step of 8 bits"});
   for (const int seed : {1, 2, 3}) {
@@ -378,7 +377,7 @@ TEST(Numerics, H7_MirroredScenesMakeMirroredPictures) {
     for (int y = 0; y < height; ++y)
       std::reverse(after.pixels.begin() + y * width, after.pixels.begin() + (y + 1) * width);
     // Negated, a number is rounded alike, but from the left border coordinates are others: either
-    // picture has its roundings. (One that lies exactly half way between two steps of 1/256 is
+    // image has its roundings. (One that lies exactly half way between two steps of 1/256 is
     // snapped to the other side; chance makes none.)
     recorder.add({.at = double(seed),
                   .ours = changed(before.color, after, one_step),
@@ -391,7 +390,7 @@ TEST(Numerics, H8_OneTriangleAroundTheEye) {
                          "one triangle of size 1 closely before the eye, all around it: device "
                          "and oracle",
                      .parameter = "its distance / its size",
-                     .unit = "pixels from the picture's border to the innermost that it does not "
+                     .unit = "pixels from the image's border to the innermost that it does not "
                              "cover",
                      .naive = "near at a thousandth of the radius, as 24 bits want it"});
   const Camera camera = straight_camera(width, height, height);
@@ -410,10 +409,10 @@ TEST(Numerics, H8_OneTriangleAroundTheEye) {
     const double ours = innermost_hole(faces_of_device(soup, camera)),
                  naive = innermost_hole(with_24_bits);
     EXPECT_EQ(innermost_hole(faces_of_oracle(soup, camera)), 0) << distance;
-    // Where an edge meets a border of the picture its corner is a + t (b - a), with b - a up to 1.4
+    // Where an edge meets a border of the image its corner is a + t (b - a), with b - a up to 1.4
     // and t about a half: two distances to the border and the quotient t of one by their
     // difference, b - a and the product are five roundings of a value of 0.7, of either sign, which
-    // add up as the root of their number. At that distance the picture shows them enlarged. A
+    // add up as the root of their number. At that distance the image shows them enlarged. A
     // centre is half a pixel from the border: until a band is so wide there is no hole.
     recorder.add({.at = distance,
                   .naive = naive,
@@ -456,7 +455,7 @@ struct CutPlane {
     return soup;
   }
 
-  /// The face where the ray through a place of the picture meets the plane, which fills it.
+  /// The face where the ray through a place of the image meets the plane, which fills it.
   std::uint32_t face_at(const Camera& camera, double x, double y) const {
     const glm::dvec3 ray =
         camera.world_from_view_rotation() *
@@ -478,7 +477,7 @@ TEST(Numerics, H9_AMillionCoplanarFaces) {
   const Camera camera = look_at({0.4, -1.2, 1.5}, {0, 0, 0}, {0, 0, 1}, 0.7, width, height);
   for (const int cells : {70, 224, 708}) {  // 1e4, 1e5, 1e6 faces
     const CutPlane plane{cells};
-    const Drawn picture = drawn(plane.soup(), camera);
+    const Drawn image = drawn(plane.soup(), camera);
     // How far a corner is from where it should be: half a step of 1/256 of a pixel, the roundings
     // on its way (G3), and those of its three coordinates, by half a unit of 8 at most and seen
     // from a distance of 1 or more.
@@ -486,7 +485,7 @@ TEST(Numerics, H9_AMillionCoplanarFaces) {
     double wrong = 0, away_from_edges = 0;
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
-        const std::uint32_t shown = picture.faces[std::size_t(y) * width + std::size_t(x)];
+        const std::uint32_t shown = image.faces[std::size_t(y) * width + std::size_t(x)];
         // A face that has the four corners of a square has all of it.
         const double left = x + 0.5 - moved, right = x + 0.5 + moved;
         const double top = y + 0.5 - moved, bottom = y + 0.5 + moved;

@@ -57,10 +57,10 @@ std::vector<std::uint32_t> faces_of_trainer(const TriangleSoup& soup, const Came
   for (const glm::uvec3& triangle : soup.triangles)
     for (int k = 0; k < 3; ++k) corners.push_back(soup.positions[triangle[k]]);
   const trainer::test::Faces faces(std::move(corners));
-  trainer::Picture picture = trainer::test::make_picture(camera, near, far);
-  faces.find(picture, trainer::Masking::threshold);
+  trainer::BatchImage image = trainer::test::make_image(camera, near, far);
+  faces.find(image, trainer::Masking::threshold);
   std::vector<std::uint32_t> result;
-  for (const trainer::VisiblePixel& pixel : picture.visible) result.push_back(pixel.face);
+  for (const trainer::VisiblePixel& pixel : image.visible) result.push_back(pixel.face);
   return result;
 }
 
@@ -117,7 +117,7 @@ std::array<glm::dvec3, 3> homogeneous_corners(const TriangleSoup& soup, const gl
 
 namespace {
 
-/// Weights of vertices 0 and 1 at a place of the picture.
+/// Weights of vertices 0 and 1 at a place of the image.
 glm::dvec2 barycentrics(const std::array<glm::dvec3, 3>& corners, const glm::dvec2& place) {
   glm::dvec3 e;
   for (int k = 0; k < 3; ++k)
@@ -126,12 +126,12 @@ glm::dvec2 barycentrics(const std::array<glm::dvec3, 3>& corners, const glm::dve
   return glm::dvec2(e) / (e.x + e.y + e.z);
 }
 
-/// How far roundings move a face in a picture, in pixels along x and y, at a depth. A corner less
+/// How far roundings move a face in an image, in pixels along x and y, at a depth. A corner less
 /// the eye is multiplied by the focal length and its depth by the principal point: roundings are of
 /// what these products are, however near to each other they bring it, and those of w of where in
-/// the picture it is; all of them seen at that depth. An interpolated value is a0 + x dx + y dy, as
+/// the image it is; all of them seen at that depth. An interpolated value is a0 + x dx + y dy, as
 /// a0 itself was worked out: four products and four sums of what the value changes by across the
-/// picture.
+/// image.
 glm::dvec2 moved_at(const Camera& camera, const std::array<glm::dvec3, 3>& corners, double depth) {
   const glm::dvec2 focal(camera.fx, camera.fy), middle(camera.cx, camera.cy),
       size(camera.width, camera.height);

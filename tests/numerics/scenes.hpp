@@ -18,7 +18,7 @@ namespace tureen::test {
 /// The unit roundoff of floats: half the distance from 1 to the next.
 inline constexpr double epsilon = 0x1p-24;
 
-/// How far roundings move a vertex in the picture, in pixels, of an image coordinate of that size:
+/// How far roundings move a vertex in the image, in pixels, of an image coordinate of that size:
 /// x and w of its clip position are five roundings each, and the three coordinates of what it is
 /// less the eye are rounded before (G3).
 inline double vertex_rounding(double pixels) { return (5 + 5 + std::sqrt(3.0)) * epsilon * pixels; }

@@ -217,7 +217,7 @@ TEST(Numerics, T4_ThePrecisionOfTheColourChain) {
     const auto error = [&](const Drawn& drawn) {
       return std::pow(10.0, -agreement(expected, drawn).psnr / 20);
     };
-    // Texels in floats do better than that, and the picture's own 8 bits add 1/255 sqrt(1/12).
+    // Texels in floats do better than that, and the image's own 8 bits add 1/255 sqrt(1/12).
     const double tolerance =
         std::hypot(std::pow(10.0, -forward_db / 20), std::sqrt(1.0 / 12) / 255);
     recorder.add(
@@ -521,7 +521,7 @@ TriangleSoup grey_ramp(Kind kind) {
 
 TEST(Numerics, T9_AGreyRampArrivesBitByBit) {
   Recorder recorder({.stressed = "grey values of faces, vertices and lattices on their way to the "
-                                 "picture: device",
+                                 "image: device",
                      .parameter = "grey byte",
                      .unit = "steps of 8 bits",
                      .naive = "encoded as if it were linear light"});

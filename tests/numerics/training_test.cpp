@@ -146,7 +146,7 @@ Outcome train(const std::vector<TrainingView>& views, const Config& config,
               const TrainingState& begin) {
   Config at_rest = config;
   at_rest.texture_rate = at_rest.mlp_rate = at_rest.vertex_rate = 0;
-  // Of one backend: both draw the same pictures.
+  // Of one backend: both draw the same images.
   const double loss_at_rest = run(both_backends()[0], views, at_rest, begin).end_loss;
   Outcome outcome;
   for (const MakeBackend& make : both_backends()) {

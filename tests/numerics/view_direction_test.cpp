@@ -45,7 +45,7 @@ glm::dvec3 unprojected(const Camera& camera, double near, double far, const glm:
   return glm::dvec3(glm::normalize(glm::vec3(front) / front.w - glm::vec3(back) / back.w));
 }
 
-/// The corners of the picture, and pixels anywhere.
+/// The corners of the image, and pixels anywhere.
 std::vector<glm::vec4> window_positions(const Camera& camera) {
   Random random(1);
   std::vector<glm::vec4> windows;
@@ -150,11 +150,11 @@ TEST(Numerics, V1b_DirectionsDoNotDependOnThePlace) {
 }
 
 TEST(Numerics, V1d_DirectionsKnowThePrincipalPoint) {
-  Recorder recorder({.stressed = "view directions, by the principal point, within the picture and "
+  Recorder recorder({.stressed = "view directions, by the principal point, within the image and "
                                  "outside: view_direction.glsl",
                      .parameter = "its distance from the middle / widths",
                      .unit = "radians",
-                     .naive = "the principal point taken to be the picture's middle",
+                     .naive = "the principal point taken to be the image's middle",
                      .naive_fails_from = 0.1});
   for (const double widths : {0.0, 0.1, 0.6, 1.0, 3.0, 10.0}) {
     Camera camera = look_at({1, 2, 0.5}, {0, 0, 0}, {0, 0, 1}, 0.9, 1280, 720);
@@ -267,7 +267,7 @@ TEST(Numerics, V3_TurningTheDirectionTurnsTheOddBands) {
       const bool odd = (k >= 1 && k < 4) || (k >= 9 && k < 16);
       if (odd) sh.coefficients[i] = -sh.coefficients[i];
     }
-    const auto picture = [&](const TriangleSoup& of) {
+    const auto image = [&](const TriangleSoup& of) {
       return draw(shared_context(), of, glm::dvec3(0), camera).color;
     };
     const auto change = [](const Image8& a, const Image8& b) {
@@ -277,7 +277,7 @@ TEST(Numerics, V3_TurningTheDirectionTurnsTheOddBands) {
           most = std::max(most, std::abs(int(a.pixels[i][c]) - int(b.pixels[i][c])));
       return most / 255.0;
     };
-    const Image8 first = picture(soup);
+    const Image8 first = image(soup);
     double in_oracle = 0;
     const OracleImage expected = snapped_oracle(soup, glm::dvec3(0), camera),
                       other = snapped_oracle(turned, glm::dvec3(0), camera);
@@ -286,8 +286,8 @@ TEST(Numerics, V3_TurningTheDirectionTurnsTheOddBands) {
                            double(glm::length(expected.color.pixels[i] - other.color.pixels[i])));
     // Products of negated factors are the same products: nothing changes, not even by rounding.
     recorder.add({.at = double(degree),
-                  .naive = change(first, picture(forgotten)),
-                  .ours = std::max(change(first, picture(turned)), in_oracle),
+                  .naive = change(first, image(forgotten)),
+                  .ours = std::max(change(first, image(turned)), in_oracle),
                   .tolerance = 0});
   }
 }

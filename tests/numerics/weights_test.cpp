@@ -374,13 +374,13 @@ TEST(Numerics, M5_AlphasOfExactlyOneHalfLeaveNoHoles) {
 
     // A logit of 0 is an alpha of one half: so training begins.
     const trainer::test::Faces faces(soup.positions, 0.0f, level);
-    trainer::Picture picture = trainer::test::make_picture(camera);
-    faces.find(picture, trainer::Masking::threshold);
+    trainer::BatchImage image = trainer::test::make_image(camera);
+    faces.find(image, trainer::Masking::threshold);
     double in_trainer = 0, by_sum = 0;
-    for (const trainer::VisiblePixel& pixel : picture.visible) in_trainer += pixel.face != no_face;
+    for (const trainer::VisiblePixel& pixel : image.visible) in_trainer += pixel.face != no_face;
     trainer::kernels::for_each_fragment(
-        picture.view, trainer::kernels::project(picture.view, &soup.positions[0].x),
-        {0, 0, side, side}, [&](const trainer::kernels::Fragment& f) {
+        image.view, trainer::kernels::project(image.view, &soup.positions[0].x), {0, 0, side, side},
+        [&](const trainer::kernels::Fragment& f) {
           const auto at = lattice::footprint(level, f.b0, f.b1);
           float alpha = 0;
           for (int j = 0; j < 3; ++j) alpha += at.weights[std::size_t(j)] * 0.5f;
@@ -394,9 +394,9 @@ TEST(Numerics, M5_AlphasOfExactlyOneHalfLeaveNoHoles) {
     const double on_gpu = double(kernels.visible_pixels({&camera, 1})[0]);
     // The trainer owns all edges of a face: its own count of an opaque one is what it is held to.
     const trainer::test::Faces opaque(soup.positions, 200.0f, level);
-    opaque.find(picture, trainer::Masking::threshold);
+    opaque.find(image, trainer::Masking::threshold);
     double in_opaque = 0;
-    for (const trainer::VisiblePixel& pixel : picture.visible) in_opaque += pixel.face != no_face;
+    for (const trainer::VisiblePixel& pixel : image.visible) in_opaque += pixel.face != no_face;
     holes += std::abs(in_opaque - in_trainer) + std::abs(in_opaque - on_gpu);
     recorder.add({.at = double(level),
                   .naive = (in_opaque - by_sum) / in_opaque,

@@ -1,4 +1,4 @@
-// Whole pictures by the oracle: which hit wins, what stays the same under transformations that
+// Whole images by the oracle: which hit wins, what stays the same under transformations that
 // should change nothing, backgrounds, supersampling, and the soups that tests share.
 #include <gtest/gtest.h>
 

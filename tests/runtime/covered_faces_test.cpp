@@ -1,5 +1,5 @@
 // Faces that cover no pixel's centre are dropped, and nothing else: against an obvious search in
-// double precision, and by pictures that stay the same to the bit.
+// double precision, and by images that stay the same to the bit.
 #include "runtime/passes/covered_faces.hpp"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ std::vector<bool> shown(const TriangleSoup& soup, const FrameCamera& frame) {
 
 struct Found {
   bool crosses_near = false;
-  bool covers = false;       // the centre of a pixel of the picture
+  bool covers = false;       // the centre of a pixel of the image
   bool comes_close = false;  // to one, within 0.05 pixels
 };
 
@@ -86,7 +86,7 @@ TEST(CoveredFaces, AreThoseThatASearchFinds) {
   std::size_t covering = 0, missing = 0, dropped = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     Random random(seed);
-    // From specks to faces of some pixels, many of them beside the picture or behind the eye.
+    // From specks to faces of some pixels, many of them beside the image or behind the eye.
     const double size = 0.002 * std::pow(10.0, random.uniform(0, 1.5));
     const TriangleSoup soup =
         random_soup(seed, {.faces = 2000, .size = size, .degenerate = seed % 3 == 0});
@@ -151,15 +151,15 @@ TEST(CoveredFaces, AreAllThereIsWhereFloatsKnowTooLittle) {
   EXPECT_FALSE(covered.begin_frame(frame_of(camera), subpixel_bits));
 }
 
-struct PictureCase {
+struct ImageCase {
   NamedContext context;
   Kind kind;
 };
 
-class CoveredFacesPicture : public testing::TestWithParam<PictureCase> {};
+class CoveredFacesImage : public testing::TestWithParam<ImageCase> {};
 
 /// From outside, from within, and from near by, where faces are large.
-TEST_P(CoveredFacesPicture, StaysTheSameToTheBit) {
+TEST_P(CoveredFacesImage, StaysTheSameToTheBit) {
   const auto& [context_request, kind] = GetParam();
   const gl::Context context = gl::Context::create(context_request.request);
   ASSERT_TRUE(context.capabilities().software);
@@ -200,10 +200,10 @@ TEST_P(CoveredFacesPicture, StaysTheSameToTheBit) {
                    ? 1
                    : 0;
   }
-  EXPECT_GE(showing, 3) << "one face may fill a picture from within";
+  EXPECT_GE(showing, 3) << "one face may fill an image from within";
 }
 
-// Then the pixels drawn are not those of the picture.
+// Then the pixels drawn are not those of the image.
 TEST(CoveredFaces, AreFoundAmongThePixelsThatAreDrawn) {
   const std::uint64_t seed = 11;
   const gl::Context context = gl::Context::create({});
@@ -230,15 +230,15 @@ TEST(CoveredFaces, AreFoundAmongThePixelsThatAreDrawn) {
   }
 }
 
-std::vector<PictureCase> picture_cases() {
-  std::vector<PictureCase> cases;
+std::vector<ImageCase> image_cases() {
+  std::vector<ImageCase> cases;
   for (const NamedContext& context : every_context)
     for (const Kind kind : {Kind::face_colors, Kind::vertex_colors, Kind::lattice_mlp})
       cases.push_back({context, kind});
   return cases;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, CoveredFacesPicture, testing::ValuesIn(picture_cases()),
+INSTANTIATE_TEST_SUITE_P(All, CoveredFacesImage, testing::ValuesIn(image_cases()),
                          [](const auto& test) {
                            return std::string(test.param.context.name) + "_" +
                                   to_string(test.param.kind);

@@ -182,7 +182,7 @@ using Expected = std::function<std::optional<glm::dvec3>(int column, int row, co
 /// of a cell falls to the other side.
 void expect_shown(const Scenery& scenery, const DebugViewRenderer& debug_renderer,
                   const Expected& expected, double steps, double most_off = 0.002) {
-  const Image8 picture = debug_renderer.read_color();
+  const Image8 image = debug_renderer.read_color();
   const std::vector<std::uint32_t> faces = debug_renderer.read_faces();
   const auto hits = all_hits(scenery);
   std::size_t compared = 0, off = 0;
@@ -197,7 +197,7 @@ void expect_shown(const Scenery& scenery, const DebugViewRenderer& debug_rendere
       if (!value) continue;
       ++compared;
       for (int c = 0; c < 3; ++c)
-        if (std::abs(255 * std::clamp((*value)[c], 0.0, 1.0) - picture.pixels[i][c]) > steps) {
+        if (std::abs(255 * std::clamp((*value)[c], 0.0, 1.0) - image.pixels[i][c]) > steps) {
           ++off;
           break;
         }
@@ -236,10 +236,10 @@ TEST_P(DebugViews, ShowTheFacesOfTheOrdinaryFrame) {
       if (why_not(name.what, scenery.soup) || all_fragments) continue;
       const DebugViewRenderer shown = debug_renderer(scenery, name.what, {0, 1});
       EXPECT_EQ(shown.read_faces(), expected) << name.name << ", seed " << seed;
-      const Image8 picture = shown.read_color();
+      const Image8 image = shown.read_color();
       std::size_t off = 0;
       for (std::size_t i = 0; i < expected.size(); ++i)
-        off += (picture.pixels[i].a == 255) != (expected[i] != no_face);
+        off += (image.pixels[i].a == 255) != (expected[i] != no_face);
       // Lines outline also what the alpha test throws away.
       const bool same = off == 0 || name.what == DebugView::wireframe;
       EXPECT_TRUE(same) << name.name << ", seed " << seed << ": " << off << " pixels";
@@ -382,7 +382,7 @@ TEST_P(DebugViews, OverdrawCountsEveryFragment) {
   const Scenery scenery(14, Kind::lattice, 0.7);
   const DebugViewRenderer shown = debug_renderer(scenery, DebugView::overdraw);
   const auto counts = shown.read_fragment_counts();
-  const Image8 picture = shown.read_color();
+  const Image8 image = shown.read_color();
   const auto hits = all_hits(scenery);
   ASSERT_EQ(counts.size(), hits.size());
   std::size_t off = 0, most = 0;
@@ -392,7 +392,7 @@ TEST_P(DebugViews, OverdrawCountsEveryFragment) {
     const glm::dvec4 color =
         counts[i] == 0 ? glm::dvec4(0.0) : glm::dvec4(overdraw_color(counts[i]), 1.0);
     for (int c = 0; c < 4; ++c)
-      ASSERT_LE(std::abs(255 * color[c] - picture.pixels[i][c]), 0.52) << int(counts[i]);
+      ASSERT_LE(std::abs(255 * color[c] - image.pixels[i][c]), 0.52) << int(counts[i]);
   }
   EXPECT_GT(most, 10u);
   // Vertices that snap otherwise: the budget of docs/numerics.md, H10, for coverage, over some ten
@@ -415,7 +415,7 @@ TEST_P(DebugViews, MoreFragmentsThanCanBeCountedAreTheMost) {
 TEST_P(DebugViews, WireframesOutlineWholeTriangles) {
   const Scenery scenery(15, Kind::face_colors, 0.5);
   const DebugViewRenderer shown = debug_renderer(scenery, DebugView::wireframe);
-  const Image8 picture = shown.read_color();
+  const Image8 image = shown.read_color();
   const Image8 colors = debug_renderer(scenery, DebugView::color).read_color();
   const glm::u8vec4 line(240, 240, 240, 255);
   const auto faces = shown.read_faces();
@@ -440,7 +440,7 @@ TEST_P(DebugViews, WireframesOutlineWholeTriangles) {
         const glm::dvec2 to = glm::dvec2(column + 0.5, row + 0.5) - at[k];
         distance = std::min(distance, std::abs(edge.x * to.y - edge.y * to.x) / glm::length(edge));
       }
-      const bool is_line = picture.pixels[i] == line;
+      const bool is_line = image.pixels[i] == line;
       lines += is_line;
       if (std::abs(distance - 1) < 1e-3) continue;  // float decides
       if (is_line) {
@@ -449,7 +449,7 @@ TEST_P(DebugViews, WireframesOutlineWholeTriangles) {
       }
       off += distance < 1;
       for (int c = 0; c < 3; ++c)
-        off += std::abs(0.4 * colors.pixels[i][c] - picture.pixels[i][c]) > 1.0;
+        off += std::abs(0.4 * colors.pixels[i][c] - image.pixels[i][c]) > 1.0;
     }
   EXPECT_GT(lines, compared / 50);
   EXPECT_LT(lines, compared * 3 / 4);

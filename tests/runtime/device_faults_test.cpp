@@ -58,7 +58,7 @@ class DeviceFaults : public testing::TestWithParam<NamedContext> {
         soup(std::get<TriangleSoup>(scene.primitives)),
         camera(scene.cameras.front()) {}
 
-  Image8 picture() const {
+  Image8 image() const {
     Renderer renderer(context, soup, {});
     renderer.draw(camera);
     return renderer.read_color();
@@ -71,7 +71,7 @@ class DeviceFaults : public testing::TestWithParam<NamedContext> {
 };
 
 TEST_P(DeviceFaults, MemoryThatIsRefusedIsALimitAndTheDeviceServesOn) {
-  const Image8 before = picture();
+  const Image8 before = image();
   {
     const Replaced error(glad_glGetError, PFNGLGETERRORPROC(tell_pending_error));
     const Replaced texture(glad_glTexImage3D, PFNGLTEXIMAGE3DPROC(refuse_texture));
@@ -82,11 +82,11 @@ TEST_P(DeviceFaults, MemoryThatIsRefusedIsALimitAndTheDeviceServesOn) {
     const Replaced buffer(glad_glBufferData, PFNGLBUFFERDATAPROC(refuse_buffer));
     EXPECT_THAT([&] { Renderer(context, soup, {}); }, Throws<DeviceLimitError>());
   }
-  EXPECT_EQ(picture().pixels, before.pixels);
+  EXPECT_EQ(image().pixels, before.pixels);
 }
 
-TEST_P(DeviceFaults, APictureWithoutMemoryIsALimitAndASmallerOneIsDrawn) {
-  const Image8 before = picture();
+TEST_P(DeviceFaults, AImageWithoutMemoryIsALimitAndASmallerOneIsDrawn) {
+  const Image8 before = image();
   Renderer renderer(context, soup, {});
   Camera large = camera;
   large.width *= 2;
@@ -101,7 +101,7 @@ TEST_P(DeviceFaults, APictureWithoutMemoryIsALimitAndASmallerOneIsDrawn) {
   EXPECT_EQ(renderer.read_color().pixels, before.pixels);
 }
 
-TEST_P(DeviceFaults, AResetIsToldAsWhatItIsAndNotAsAPicture) {
+TEST_P(DeviceFaults, AResetIsToldAsWhatItIsAndNotAsAImage) {
   if (!glGetGraphicsResetStatus) GTEST_SKIP() << "older contexts do not tell";
   Renderer renderer(context, soup, {});
   renderer.draw(camera);
@@ -125,11 +125,11 @@ TEST_P(DeviceFaults, AResetIsToldAsWhatItIsAndNotAsAPicture) {
                          }));
     EXPECT_THAT([&] { Renderer(context, soup, {}); }, is_reset);
   }
-  EXPECT_EQ(renderer.read_color().pixels, picture().pixels);
+  EXPECT_EQ(renderer.read_color().pixels, image().pixels);
 }
 
 TEST_P(DeviceFaults, ARejectedShaderIsToldWithItsLinesAndTheDeviceServesOn) {
-  const Image8 before = picture();
+  const Image8 before = image();
   const bool es = context.capabilities().api == gl::Api::es;
   const std::string version = es ? "#version 300 es\n" : "#version 330 core\n";
   EXPECT_THAT([&] { gl::Program(version + "void main() { gl_Position = nothing; }\n", ""); },
@@ -138,14 +138,14 @@ TEST_P(DeviceFaults, ARejectedShaderIsToldWithItsLinesAndTheDeviceServesOn) {
     // A driver with a compiler that fails on ours.
     const Replaced status(glad_glGetShaderiv,
                           PFNGLGETSHADERIVPROC(+[](GLuint, GLenum, GLint* value) { *value = 0; }));
-    EXPECT_THAT([&] { picture(); }, Throws<ContextError>());
+    EXPECT_THAT([&] { image(); }, Throws<ContextError>());
   }
   {
     const Replaced status(glad_glGetProgramiv,
                           PFNGLGETPROGRAMIVPROC(+[](GLuint, GLenum, GLint* value) { *value = 0; }));
-    EXPECT_THAT([&] { picture(); }, Throws<ContextError>());
+    EXPECT_THAT([&] { image(); }, Throws<ContextError>());
   }
-  EXPECT_EQ(picture().pixels, before.pixels);
+  EXPECT_EQ(image().pixels, before.pixels);
 }
 
 INSTANTIATE_TEST_SUITE_P(Contexts, DeviceFaults, testing::ValuesIn(every_context),

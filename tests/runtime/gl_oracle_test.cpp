@@ -41,7 +41,7 @@ Drawn with_faces_of(const Drawn& other, Drawn drawn) {
   return drawn;
 }
 
-/// Every plan that can draw this soup, against one picture of the oracle.
+/// Every plan that can draw this soup, against one image of the oracle.
 void expect_every_plan_agrees(const TriangleSoup& soup, const Camera& camera,
                               const AgreementLimits& limits = {}) {
   const OracleImage oracle = snapped_oracle(soup, camera);

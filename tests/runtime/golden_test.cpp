@@ -1,4 +1,4 @@
-// Approved pictures of small soups of every appearance, on every context that we run on. The plain
+// Approved images of small soups of every appearance, on every context that we run on. The plain
 // goldens pin the ordinary depth range, so that contexts with and without clip control agree; one
 // golden has reversed depth.
 #include "tests/support/golden.hpp"

@@ -12,7 +12,7 @@
 #include "runtime/plan/view_dependence.hpp"
 #include "scene/lattice.hpp"
 #include "scene/spherical_harmonics.hpp"
-#include "tests/runtime/specialised_pictures.hpp"
+#include "tests/runtime/specialised_images.hpp"
 
 namespace tureen::test {
 namespace half_step_test {
@@ -268,14 +268,14 @@ TEST_P(AtTheBound, WhatMovesOneByMoreIsKept) {
   EXPECT_GT(largest_shift(GetParam().what, edge), half_step) << "it might as well be left out";
 }
 
-TEST_P(AtTheBound, PicturesMoveByAStepAtMost) {
+TEST_P(AtTheBound, ImagesMoveByAStepAtMost) {
   const TriangleSoup soup = this->soup(inside).soup;
   const std::vector<Camera> views = four_views(GetParam().seed);
-  const std::vector<Image8> generic = pictures(soup, views, {.specialise = false});
+  const std::vector<Image8> generic = images(soup, views, {.specialise = false});
   for (const SpecialisationSet& specialisations :
        {SpecialisationSet::all(), alone(GetParam().what)}) {
     const Difference found =
-        difference(pictures(soup, views, {.specialisations = specialisations}), generic);
+        difference(images(soup, views, {.specialisations = specialisations}), generic);
     EXPECT_EQ(found.largest, 1) << "half a step turns into a whole one by rounding, somewhere";
     EXPECT_GT(found.covered, 0.05) << "there is nothing to compare";
   }

@@ -10,7 +10,7 @@
 #include "runtime/plan/face_alpha.hpp"
 #include "scene/lattice.hpp"
 #include "scene/spherical_harmonics.hpp"
-#include "tests/runtime/specialised_pictures.hpp"
+#include "tests/runtime/specialised_images.hpp"
 #include "tests/support/cutout_cloud.hpp"
 #include "tests/support/errors.hpp"
 
@@ -218,9 +218,9 @@ TEST(Plan, CoincidentFacesShareAClusterAndABucket) {
   }
 }
 
-/// How the specialised pictures of a soup differ from those that leave nothing out.
+/// How the specialised images of a soup differ from those that leave nothing out.
 Difference specialised_against_generic(const TriangleSoup& soup, const std::vector<Camera>& views) {
-  return difference(pictures(soup, views, {}), pictures(soup, views, {.specialise = false}));
+  return difference(images(soup, views, {}), images(soup, views, {.specialise = false}));
 }
 
 struct KindAndSeed {
@@ -249,8 +249,8 @@ TEST(Specialised, DrawsTheCutOutCloudAsTheGenericPlanDoes) {
   ASSERT_GE(cloud.cameras.size(), 4u);
   const auto& soup = std::get<TriangleSoup>(cloud.primitives);
   const std::vector<Camera> views(cloud.cameras.begin(), cloud.cameras.begin() + 4);
-  const std::vector<Image8> generic = pictures(soup, views, {.specialise = false});
-  const Difference found = difference(pictures(soup, views, {}), generic);
+  const std::vector<Image8> generic = images(soup, views, {.specialise = false});
+  const Difference found = difference(images(soup, views, {}), generic);
   EXPECT_LE(found.largest, 1);
   EXPECT_LE(found.channels, found.all_channels / 100000);
 }

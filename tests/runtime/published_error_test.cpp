@@ -17,7 +17,7 @@ TEST_P(PublishedError, IsNoSmallerThanOurs) {
   gl::Context context = gl::Context::create({});
   double ours = 0, published = 0;
   // Every second one. A view has one to eight pixels that fall to the other side of an edge, in
-  // either pipeline: a small picture has too few of them for a mean.
+  // either pipeline: a small image has too few of them for a mean.
   for (const std::size_t view : {1, 3, 5, 7}) {
     const Camera& camera = scene.cameras[view];
     const ImageF exact = composited(test::snapped_oracle(soup, {}, camera).color, glm::vec3(0));
@@ -31,7 +31,7 @@ TEST_P(PublishedError, IsNoSmallerThanOurs) {
   RecordProperty("ours_db", std::to_string(psnr_from_mse(ours)));
   RecordProperty("published_db", std::to_string(psnr_from_mse(published)));
   EXPECT_LE(ours, published);
-  // Both are pictures of this cloud: 40 dB is what 3 pixels in 10^4 leave that are off by 0.6.
+  // Both are images of this cloud: 40 dB is what 3 pixels in 10^4 leave that are off by 0.6.
   EXPECT_GT(psnr_from_mse(published), 40);
 }
 

@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(Soup, Supersampling,
 
 class ResolutionScale : public testing::TestWithParam<KindOnContext> {};
 
-// The samples of a coarser picture are the oracle's rays, too: the camera scales exactly, though
+// The samples of a coarser image are the oracle's rays, too: the camera scales exactly, though
 // 160 x 120 at 0.7 is no whole number of samples.
 TEST_P(ResolutionScale, SamplesAreTheOracles) {
   const auto& [named, kind] = GetParam();

@@ -41,7 +41,7 @@ const std::vector<RenderOptions> every_way = {
 
 class Frames : public testing::TestWithParam<NamedContext> {};
 
-// Renderers in turns, in sizes in turns: every picture as if it were the only one.
+// Renderers in turns, in sizes in turns: every image as if it were the only one.
 TEST_P(Frames, LeaveNothingForTheNext) {
   const gl::Context context = gl::Context::create(GetParam().request);
   const TriangleSoup soup = soup_of(Kind::lattice_mlp);
@@ -102,7 +102,7 @@ TEST_P(Frames, AreCopiedAtFullSize) {
   Renderer renderer(context, soup, {}, options_with({.resolution_scale = 0.5}));
   renderer.draw(camera_of(40, 30));
   const Image8 expected = renderer.read_color();
-  // Somebody else's framebuffer of the picture's size.
+  // Somebody else's framebuffer of the image's size.
   GLuint texture, framebuffer;
   glGenTextures(1, &texture);
   glBindTexture(GL_TEXTURE_2D, texture);

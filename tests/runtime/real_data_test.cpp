@@ -36,7 +36,7 @@ Drawn draw(const Scene& scene, const Camera& camera, const PlanPreferences& plan
 
 struct RealSoup {
   const char* name;
-  /// The plant fills 7 % of its picture; the one part of the drums that is there, 11,026 triangles
+  /// The plant fills 7 % of its image; the one part of the drums that is there, 11,026 triangles
   /// scattered over the whole, 1.6 to 2.2 %, which still is 11,000 pixels.
   double least_compared;
 };
@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Soup, RealData,
                          });
 
 // Both hold the same bytes for colours, one a vertex, the other a face, and the same positions, one
-// in decimals: the pictures are equal here. The issue asks for 45 dB; one pixel in sixteen that is
+// in decimals: the images are equal here. The issue asks for 45 dB; one pixel in sixteen that is
 // a step off would leave 60.
 TEST(RealDataPair, GlbAndOffShowTheSamePlant) {
   if (!std::filesystem::exists(data("ficus_2dts.glb"))) GTEST_SKIP() << "no ../shared/data";

@@ -119,11 +119,11 @@ TEST(Renderer, AnAlphaOfOneHalfThroughoutHasNoHoles) {
   }
 }
 
-TEST(Renderer, APictureTooLargeForTheDeviceIsRefused) {
+TEST(Renderer, AImageTooLargeForTheDeviceIsRefused) {
   const gl::Context context = gl::Context::create(osmesa);
   Renderer renderer(context, random_soup(9, {.kind = Kind::lattice}), {});
   Random random(9);
-  const int side = context.capabilities().max_picture_side;
+  const int side = context.capabilities().max_image_side;
   ASSERT_GT(side, 0);
   EXPECT_THAT(
       error_of<DeviceLimitError>([&] { renderer.draw(random_camera(random, side + 1, 1)); }),
@@ -215,7 +215,7 @@ TEST(Renderer, TellsThePointThatAPixelShows) {
       Renderer renderer(context, soup, origin, options);
       renderer.draw(camera);
       EXPECT_EQ(renderer.point_at({1, 1}), std::nullopt) << "background";
-      EXPECT_EQ(renderer.point_at({-1, 60}), std::nullopt) << "beside the picture";
+      EXPECT_EQ(renderer.point_at({-1, 60}), std::nullopt) << "beside the image";
       // At a sample's centre, which is a pixel's corner where there are half as many.
       const glm::dvec2 place = scale == 1 ? glm::dvec2(84.5, 66.5) : glm::dvec2(85, 67);
       const auto point = renderer.point_at(place);

@@ -61,8 +61,8 @@ class Resampling : public testing::TestWithParam<NamedContext> {
   const TriangleSoup soup = random_soup(22, {.kind = Kind::lattice_mlp, .size = 0.3, .level = 2});
 };
 
-// A supersampled picture is the mean of the same picture n times as large.
-TEST_P(Resampling, SupersamplingIsTheMeanOfALargerPicture) {
+// A supersampled image is the mean of the same image n times as large.
+TEST_P(Resampling, SupersamplingIsTheMeanOfALargerImage) {
   const gl::Context context = gl::Context::create(GetParam().request);
   const Camera camera = camera_of(61, 43);
   for (const Variant& variant : variants)
@@ -80,7 +80,7 @@ TEST_P(Resampling, SupersamplingIsTheMeanOfALargerPicture) {
     }
 }
 
-TEST_P(Resampling, ScaleInterpolatesASmallerPicture) {
+TEST_P(Resampling, ScaleInterpolatesASmallerImage) {
   const gl::Context context = gl::Context::create(GetParam().request);
   const Camera camera = camera_of(61, 43);
   for (const Variant& variant : variants)
@@ -112,7 +112,7 @@ TEST(ResamplingLimits, MoreSamplesThanTheDeviceDrawsAreRefusedAndTheNextFrameIsD
   const gl::Context context = gl::Context::create(osmesa);
   const TriangleSoup soup = soup_of(Kind::face_colors);
   Renderer renderer(context, soup, {}, options_with({.supersampling = 8}));
-  const int side = context.capabilities().max_picture_side;
+  const int side = context.capabilities().max_image_side;
   renderer.draw(camera_of(16, 12));
   const Image8 before = renderer.read_color();
   EXPECT_THAT(error_of<DeviceLimitError>([&] { renderer.draw(camera_of(side / 8 + 1, 10)); }),

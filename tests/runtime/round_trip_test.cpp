@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(Soup, RoundTrip,
 
 class RoundTripOfColors : public ::testing::TestWithParam<std::tuple<const char*, Kind>> {};
 
-// Cameras have no place in these formats: the picture is taken with the one that was written.
+// Cameras have no place in these formats: the image is taken with the one that was written.
 TEST_P(RoundTripOfColors, OfEightBitsDrawsTheSamePixels) {
   const TemporaryFolder folder;
   const auto& [extension, kind] = GetParam();
@@ -122,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(Format, RoundTripOfColors,
 
 // -- the soup that speed is measured on, at its size ---------------------------------------------
 
-// An export holds bytes as they are, so that its picture is the original's too.
+// An export holds bytes as they are, so that its image is the original's too.
 TEST(CutoutCloud, ReadFromADiffSoupExportAgreesWithTheOracle) {
   const TemporaryFolder folder;
   const Scene scene = test::cutout_cloud({.coverage = test::CloudCoverage::forty_percent});

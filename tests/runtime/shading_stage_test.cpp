@@ -13,7 +13,7 @@ PlanPreferences deferred(ShadingStage stage) {
   return {.site = ShadingSite::deferred, .shading_stage = stage};
 }
 
-// -- the pictures ---------------------------------------------------------------------------------
+// -- the images ---------------------------------------------------------------------------------
 
 class ShadingStages : public testing::TestWithParam<NamedContext> {
  protected:

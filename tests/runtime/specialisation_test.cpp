@@ -8,7 +8,7 @@
 #include <cctype>
 #include <limits>
 
-#include "tests/runtime/specialised_pictures.hpp"
+#include "tests/runtime/specialised_images.hpp"
 #include "tests/support/trait_soups.hpp"
 
 namespace tureen::test {
@@ -19,7 +19,7 @@ RenderPlan plan_of(const TriangleSoup& soup,
   return make_plan(soup, DeviceLimits{.software = true}, {.specialisations = specialisations});
 }
 
-/// How far pictures may move.
+/// How far images may move.
 struct Tolerance {
   int steps;
   double channels;  // the part of them that may move
@@ -68,14 +68,14 @@ TEST_P(LeavingOut, IsPlannedWhereTheSceneHasTheTrait) {
   EXPECT_FALSE(without.applies(what()));
 }
 
-class LeavingOutPicture : public LeavingOut {};
+class LeavingOutImage : public LeavingOut {};
 
 // Against nothing left out, with everything and with this alone (which shows what depends on
 // something else being left out); and everything but this.
-TEST_P(LeavingOutPicture, LosesNothing) {
+TEST_P(LeavingOutImage, LosesNothing) {
   const TriangleSoup soup = soup_with_trait();
   const std::vector<Camera> views = four_views(seed());
-  const std::vector<Image8> generic = pictures(soup, views, {.specialise = false});
+  const std::vector<Image8> generic = images(soup, views, {.specialise = false});
   const auto [steps, channels] = tolerance_of(what());
   const SpecialisationSet all = SpecialisationSet::all();
   const std::pair<const char*, SpecialisationSet> sets[] = {
@@ -83,7 +83,7 @@ TEST_P(LeavingOutPicture, LosesNothing) {
   for (const auto& [name, specialisations] : sets) {
     EXPECT_EQ(plan_of(soup, specialisations).applies(what()), specialisations.has(what())) << name;
     const Difference found =
-        difference(pictures(soup, views, {.specialisations = specialisations}), generic);
+        difference(images(soup, views, {.specialisations = specialisations}), generic);
     EXPECT_LE(found.largest, steps) << name;
     EXPECT_LE(double(found.channels), channels * double(found.all_channels)) << name;
     EXPECT_GT(found.covered, 0.05) << "there is nothing to compare";
@@ -120,7 +120,7 @@ std::string case_name(const testing::TestParamInfo<Case>& test) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LeavingOut, testing::ValuesIn(cases()), case_name);
-INSTANTIATE_TEST_SUITE_P(All, LeavingOutPicture, testing::ValuesIn(cases()), case_name);
+INSTANTIATE_TEST_SUITE_P(All, LeavingOutImage, testing::ValuesIn(cases()), case_name);
 
 /// Has no name, as nobody could keep it: such a face covers no pixel centre.
 TEST(FacesWithoutArea, AreSaidAndChangeNothing) {
@@ -138,7 +138,7 @@ TEST(FacesWithoutArea, AreSaidAndChangeNothing) {
     ASSERT_EQ(defect(more), std::nullopt);
     EXPECT_EQ(plan_of(more).undrawable_faces, 600u);
     const std::vector<Camera> views = four_views(seed);
-    const Difference found = difference(pictures(more, views, {}), pictures(soup, views, {}));
+    const Difference found = difference(images(more, views, {}), images(soup, views, {}));
     EXPECT_EQ(found.channels, 0u);
     EXPECT_GT(found.covered, 0.05) << "there is nothing to compare";
   }

@@ -32,7 +32,7 @@ Pixel pixel(std::uint32_t oracle_face, std::uint32_t gl_face) {
 }
 static_assert(no_face == OracleImage::no_face);
 
-Image8 picture_of_faces(const OracleImage& oracle, const Drawn& drawn) {
+Image8 image_of_faces(const OracleImage& oracle, const Drawn& drawn) {
   Image8 result(drawn.color.width, drawn.color.height, glm::u8vec4(0, 0, 0, 255));
   for (std::size_t i = 0; i < drawn.faces.size(); ++i)
     switch (pixel(oracle.face[i], drawn.faces[i])) {
@@ -107,7 +107,7 @@ void expect_agreement(const OracleImage& oracle, const Drawn& drawn, const std::
   std::ostringstream numbers;
   numbers << "coverage mismatch " << found.coverage_mismatch << ", face mismatch "
           << found.face_mismatch << ", " << found.psnr << " dB, worst " << found.worst << ", "
-          << found.compared << " of the picture compared";
+          << found.compared << " of the image compared";
   std::string key = what;
   std::replace(key.begin(), key.end(), ' ', '_');  // it becomes an attribute's name in XML
   testing::Test::RecordProperty(key, numbers.str());
@@ -121,7 +121,7 @@ void expect_agreement(const OracleImage& oracle, const Drawn& drawn, const std::
   write_evidence(expected, folder, "expected");
   write_evidence(drawn.color, folder, "actual");
   write_evidence(enlarged_difference(expected, drawn.color), folder, "difference");
-  write_evidence(picture_of_faces(oracle, drawn), folder, "faces");
+  write_evidence(image_of_faces(oracle, drawn), folder, "faces");
 }
 
 }  // namespace tureen::test

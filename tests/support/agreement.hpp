@@ -1,6 +1,6 @@
 // Holds the GL path against the oracle, which rasterises as GL does (Coverage::snapped).
 //
-// Two pictures agree where they cover the same pixels, name the same faces, and, where both name
+// Two images agree where they cover the same pixels, name the same faces, and, where both name
 // the same face, show the same colour up to its rounding to 8 bits. A pixel whose two depths, or
 // whose alpha and threshold, float cannot tell apart may fall to the other side: hence budgets.
 #pragma once
@@ -29,7 +29,7 @@ struct Drawn {
 Drawn draw(gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera,
            const PlanPreferences& plan = {.site = ShadingSite::deferred});
 
-/// The oracle's picture of the same frame, rasterised as GL does.
+/// The oracle's image of the same frame, rasterised as GL does.
 OracleImage snapped_oracle(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera,
                            oracle::Attributes attributes = oracle::Attributes::unsnapped);
 
@@ -41,7 +41,7 @@ struct Agreement {
   double compared = 0;           // fraction of pixels where both name the same face
 };
 
-/// Both pictures have the same size, and GL's names faces.
+/// Both images have the same size, and GL's names faces.
 Agreement agreement(const OracleImage& oracle, const Drawn& drawn);
 
 struct AgreementLimits {
@@ -53,7 +53,7 @@ struct AgreementLimits {
   /// side, and 54.2 where all of them are half a step. Of a few flat colours some may be close to
   /// that, all of them by chance never: 55 are nine tenths of half a step in every pixel.
   double least_psnr = 55.0;
-  /// Of the picture where both name the same face: below it there is hardly anything to compare.
+  /// Of the image where both name the same face: below it there is hardly anything to compare.
   double least_compared = 0.05;
 };
 

@@ -8,7 +8,7 @@
 
 namespace tureen::test {
 
-/// How much of a 16:9 picture the cloud covers, measured at level 5 over the eight views.
+/// How much of a 16:9 image the cloud covers, measured at level 5 over the eight views.
 enum class CloudCoverage {
   /// 32 %; rays that hit anything hit 13 triangles in the mean. 40 degrees, deviation 0.06.
   third,

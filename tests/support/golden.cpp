@@ -42,7 +42,7 @@ void expect_golden(const Image8& actual, const std::string& name, const std::str
   if (same_size) write_evidence(enlarged_difference(expected, actual), folder, "difference");
   ADD_FAILURE() << (expected.pixels.empty() ? "there is no golden "
                     : !same_size            ? "the size differs from the golden "
-                                            : "the picture differs from the golden ")
+                                            : "the image differs from the golden ")
                 << expected_path << ": " << off << " pixels off, " << off_by_more
                 << " by more than a step; see " << folder;
 }

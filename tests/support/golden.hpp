@@ -1,4 +1,4 @@
-// Holds a picture against the approved one in tests/golden.
+// Holds an image against the approved one in tests/golden.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace tureen::test {
 /// times the first and a hundred times the second: 1 pixel in 300 off at all, 1 in 3,000 by more
 /// than a step. A failure leaves expected.png, actual.png and difference.png (enlarged) in
 /// BUILD/golden/NAME; `./dev golden approve NAME` takes the actual one over. A `variant`, another
-/// way to draw the same picture, leaves them in BUILD/golden-variants/NAME-VARIANT: it is never the
+/// way to draw the same image, leaves them in BUILD/golden-variants/NAME-VARIANT: it is never the
 /// one to approve.
 void expect_golden(const Image8& actual, const std::string& name, const std::string& variant = "");
 

@@ -1,4 +1,4 @@
-// The scenes that the approved pictures in tests/golden show, for every way to draw them: natively
+// The scenes that the approved images in tests/golden show, for every way to draw them: natively
 // (tests/runtime/golden_test.cpp) and in a browser (tests/web/goldens.test.mjs).
 #pragma once
 

@@ -189,7 +189,7 @@ void expect_same_bits(const TrainingState& a, const TrainingState& b) {
 
 }  // namespace
 
-void expect_same_pictures(const MakeBackend& make) {
+void expect_same_images(const MakeBackend& make) {
   for (const std::uint64_t seed : {1u, 2u}) {
     const Fixture fixture(seed, {.faces = 60, .min_level = 1, .max_level = 3}, 75, 53);
     const auto actual = make(fixture.views, fixture.config);
@@ -385,16 +385,16 @@ void expect_quarantine(const MakeBackend& make) {
 }
 
 void expect_same_training(const MakeBackend& make, int steps) {
-  // Something that can be learned: pictures of another soup, seen on a white background.
+  // Something that can be learned: images of another soup, seen on a white background.
   Fixture fixture(11, {.faces = 80, .min_level = 0, .max_level = 2}, 48, 40, 6);
   {
     const Fixture other(12, {.faces = 60, .min_level = 0, .max_level = 2}, 48, 40, 0);
     const auto painter = make_cpu_backend(fixture.views, fixture.config, 1);
     painter->upload(other.state);
     for (TrainingView& view : fixture.views) {
-      const std::vector<float> picture = painter->render(view.camera);
-      for (std::size_t i = 0; i < picture.size(); ++i)
-        view.target[i] = std::uint8_t(std::lround(255 * std::clamp(picture[i], 0.0f, 1.0f)));
+      const std::vector<float> image = painter->render(view.camera);
+      for (std::size_t i = 0; i < image.size(); ++i)
+        view.target[i] = std::uint8_t(std::lround(255 * std::clamp(image[i], 0.0f, 1.0f)));
     }
   }
   const auto psnr = [&](Backend& backend) {
@@ -406,12 +406,12 @@ void expect_same_training(const MakeBackend& make, int steps) {
     }
     double squared = 0, count = 0;
     for (const TrainingView& view : fixture.views) {
-      const std::vector<float> picture = backend.render(view.camera);
-      for (std::size_t i = 0; i < picture.size(); ++i) {
-        const double d = double(picture[i]) - view.target[i] / 255.0;
+      const std::vector<float> image = backend.render(view.camera);
+      for (std::size_t i = 0; i < image.size(); ++i) {
+        const double d = double(image[i]) - view.target[i] / 255.0;
         squared += d * d;
       }
-      count += double(picture.size());
+      count += double(image.size());
     }
     return -10 * std::log10(squared / count);
   };

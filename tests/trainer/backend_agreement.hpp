@@ -14,10 +14,10 @@ using MakeBackend =
     std::function<std::unique_ptr<Backend>(std::span<const TrainingView>, const Config&)>;
 
 /// What is drawn, and which pixels each face wins.
-void expect_same_pictures(const MakeBackend& make);
+void expect_same_images(const MakeBackend& make);
 /// Parameters and moments after a step, and its report.
 void expect_same_step(const MakeBackend& make);
-/// The same of small pictures, ignored pixels, baseline or none, dense updates, one level.
+/// The same of small images, ignored pixels, baseline or none, dense updates, one level.
 void expect_same_step_in_odd_cases(const MakeBackend& make);
 /// upload() and download() change nothing.
 void expect_state_kept(const MakeBackend& make);

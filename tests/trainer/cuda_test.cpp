@@ -30,7 +30,7 @@ class Cuda : public testing::Test {
   }
 };
 
-TEST_F(Cuda, DrawsTheSamePictures) { expect_same_pictures(on_gpu); }
+TEST_F(Cuda, DrawsTheSameImages) { expect_same_images(on_gpu); }
 TEST_F(Cuda, DoesTheSameStep) { expect_same_step(on_gpu); }
 TEST_F(Cuda, DoesTheSameStepInOddCases) { expect_same_step_in_odd_cases(on_gpu); }
 TEST_F(Cuda, KeepsTheState) { expect_state_kept(on_gpu); }

@@ -1,6 +1,6 @@
-// The gradients of geometry against the exact derivative of what a picture is on average: a loss
+// The gradients of geometry against the exact derivative of what an image is on average: a loss
 // that is linear in the colours, sum over pixels of G C, whose mean over all sub-pixel positions of
-// the pixel grid is the integral of G C over the picture.
+// the pixel grid is the integral of G C over the image.
 //
 // G is an affine function of the place, fixed to the scene and not to the grid. So the integral
 // over a polygon is known exactly, and the derivative by a motion is taken from it by differences.
@@ -91,19 +91,19 @@ std::vector<Corners> gathered(test::Faces& faces, const Shade& shade, int phases
     const glm::dvec2 shift(random.uniform(), random.uniform());
     camera.cx += shift.x;
     camera.cy += shift.y;
-    std::vector<Picture> pictures{test::make_picture(camera)};
-    Picture& picture = pictures[0];
-    faces.find(picture, Masking::threshold);
-    for (std::size_t pixel = 0; pixel < picture.pixels(); ++pixel) {
+    std::vector<BatchImage> images{test::make_image(camera)};
+    BatchImage& image = images[0];
+    faces.find(image, Masking::threshold);
+    for (std::size_t pixel = 0; pixel < image.pixels(); ++pixel) {
       const std::size_t column = pixel % side, row = pixel / side;
       const glm::dvec2 place(double(column) + 0.5 - shift.x, double(row) + 0.5 - shift.y);
-      PixelGradient& gradient = picture.gradient[pixel];
+      PixelGradient& gradient = image.gradient[pixel];
       gradient = {};
-      gradient.color[1] = float(shade(picture.visible[pixel].face, place));
+      gradient.color[1] = float(shade(image.visible[pixel].face, place));
       gradient.by_color[1] = float(at(loss_weight, place));
     }
     for (std::size_t face = 0; face < sum.size(); ++face) {
-      faces.gather(pictures, face);
+      faces.gather(images, face);
       for (int k = 0; k < 3; ++k)
         sum[face][std::size_t(k)] += faces.by_corner(face, k) / double(phases);
     }
@@ -163,7 +163,7 @@ std::vector<glm::vec3> floats(std::initializer_list<Corners> faces) {
   return positions;
 }
 
-// A wall behind everything, that covers all of the picture: a face, so that both sides of an edge
+// A wall behind everything, that covers all of the image: a face, so that both sides of an edge
 // are asked.
 const Corners wall = {glm::dvec3(-30, -30, -10), glm::dvec3(30, -30, -10), glm::dvec3(0, 40, -10)};
 
@@ -208,12 +208,12 @@ TEST(EdgeGradient, AnEdgeOverAnotherFaceIsThatOfTheArea) {
   expect_derivatives(gradient[1], tilted, [&](const Corners& corners) {
     return covered(projected(corners), {front - back, 0, 0});
   });
-  // The wall has no edge in the picture and one colour.
+  // The wall has no edge in the image and one colour.
   for (const glm::dvec3& corner : gradient[0]) EXPECT_EQ(glm::length(corner), 0);
 }
 
-// The colour is affine on the picture and moves with the triangle, for motions that keep an affine
-// function affine: in the plane of the picture, of a triangle that faces it.
+// The colour is affine on the image and moves with the triangle, for motions that keep an affine
+// function affine: in the plane of the image, of a triangle that faces it.
 TEST(EdgeGradient, ATexturedTriangleTakesItsTextureAlong) {
   const Corners flat = {glm::dvec3(-1.1, -0.9, -2.0), glm::dvec3(1.2, -0.6, -2.0),
                         glm::dvec3(0.1, 1.0, -2.0)};
@@ -228,7 +228,7 @@ TEST(EdgeGradient, ATexturedTriangleTakesItsTextureAlong) {
       phases, 3);
   const Polygon before = projected(flat);
   for (const Motion& motion : motions()) {
-    if (motion.name == "Closer" || motion.name == "Turning") continue;  // not affine in the picture
+    if (motion.name == "Closer" || motion.name == "Turning") continue;  // not affine in the image
     const Corners velocity = motion.velocity(flat);
     const double expected = derivative(flat, velocity, [&](const Corners& corners) {
       // The affine function that has the old colours at the new corners.
@@ -278,12 +278,12 @@ TEST(EdgeGradient, AnOpacityEdgeMovesWithItsTriangle) {
   });
 }
 
-// Two large triangles through each other; the line where they meet lies in the picture at an angle.
-// Each covers all of the picture, so that nothing else is an edge.
+// Two large triangles through each other; the line where they meet lies in the image at an angle.
+// Each covers all of the image, so that nothing else is an edge.
 struct Crossing {
   Corners a, b;
 
-  // Tilted the opposite way; `angle` is that of the line in the picture.
+  // Tilted the opposite way; `angle` is that of the line in the image.
   explicit Crossing(double angle) {
     const glm::dvec2 n(std::cos(angle), std::sin(angle));
     const auto plane = [&](double slope, double depth) {
@@ -297,7 +297,7 @@ struct Crossing {
   }
 };
 
-// 1 / depth on the picture: affine.
+// 1 / depth on the image: affine.
 Affine inverse_depth(const Corners& c) {
   const glm::dvec3 normal = glm::cross(c[1] - c[0], c[2] - c[0]);
   const glm::dvec3 n = normal / glm::dot(normal, c[0]);  // n . p = 1 on the plane
@@ -315,8 +315,8 @@ TEST_P(IntersectionAt, MovesAsTheFacesDo) {
   const auto gradient = gathered(
       faces, [](std::uint32_t face, glm::dvec2) { return face == 0 ? color_a : color_b; }, phases,
       5);
-  // The picture's grid is shifted with the pixels, its border is not an edge that anybody moves:
-  // the area is taken in the picture's middle position.
+  // The image's grid is shifted with the pixels, its border is not an edge that anybody moves:
+  // the area is taken in the image's middle position.
   const Polygon window{
       {-0.5, -0.5}, {side - 0.5, -0.5}, {side - 0.5, side - 0.5}, {-0.5, side - 0.5}};
   const auto loss = [&](const Corners& a, const Corners& b) {
@@ -357,9 +357,9 @@ INSTANTIATE_TEST_SUITE_P(Degrees, IntersectionAt, testing::Values(0, 20, 45, 90,
 
 TEST(EdgeGradient, TheCornersShareThePointsMotion) {
   // All corners moved alike move the point alike: the shares add up.
-  const Picture picture = test::make_picture(test::axis_camera(side, side, focal));
+  const BatchImage image = test::make_image(test::axis_camera(side, side, focal));
   const test::Faces faces(floats({tilted}));
-  const kernels::ProjectedFace face = kernels::project(picture.view, &faces.model.positions[0].x);
+  const kernels::ProjectedFace face = kernels::project(image.view, &faces.model.positions[0].x);
   Random random(6);
   for (int trial = 0; trial < 1000; ++trial) {
     // A point of the triangle and where it lies.
@@ -375,7 +375,7 @@ TEST(EdgeGradient, TheCornersShareThePointsMotion) {
         .gy = float(random.normal()),
         .g_inverse = 0};
     float corners[3][3] = {};
-    kernels::distribute(picture.view, face, point, corners);
+    kernels::distribute(image.view, face, point, corners);
     // By the point's motion in the view (right, down, forward), from its projection.
     const double w = -p.z, u = place.x - side / 2.0, v = place.y - side / 2.0;
     const double expected[3] = {focal / w * double(point.gx), focal / w * double(point.gy),
@@ -403,11 +403,11 @@ struct Pair {
 };
 
 Pair pair_on(const Corners& of_p, const Corners& of_q) {
-  const Picture picture = test::make_picture(test::axis_camera(side, side, focal));
+  const BatchImage image = test::make_image(test::axis_camera(side, side, focal));
   const test::Faces faces(floats({of_p, of_q}));
   Pair pair;
-  pair.face = kernels::project(picture.view, &faces.model.positions[0].x);
-  pair.other = kernels::project(picture.view, &faces.model.positions[3].x);
+  pair.face = kernels::project(image.view, &faces.model.positions[0].x);
+  pair.other = kernels::project(image.view, &faces.model.positions[3].x);
   float e[3];
   kernels::edge_values(pair.face, 80.0f, 80.0f, e);
   pair.p = {

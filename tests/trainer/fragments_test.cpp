@@ -79,7 +79,7 @@ TEST_P(FragmentsOf, AreThePixelsThatRaysHit) {
 INSTANTIATE_TEST_SUITE_P(, FragmentsOf, testing::ValuesIn(test::triangle_kinds),
                          [](const auto& tested) { return test::name(tested.param); });
 
-TEST(Fragments, AreTheSameHoweverThePictureIsDivided) {
+TEST(Fragments, AreTheSameHoweverTheImageIsDivided) {
   Random random(8);
   int total = 0;
   for (const test::TriangleKind kind : test::triangle_kinds)

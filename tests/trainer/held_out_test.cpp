@@ -55,7 +55,7 @@ TEST(HeldOut, IsMeasuredAsTheEvaluationDoes) {
   Config config;
   config.background[0] = 0.0f;
   config.background[1] = config.background[2] = 0.4f;
-  // The same picture, and one that shows the background through and through: off by 51 / 255 in
+  // The same image, and one that shows the background through and through: off by 51 / 255 in
   // two of three channels.
   const std::vector<Photograph> views{photograph({0, 51, 51, 255}), photograph({9, 9, 9, 0})};
   const double off = -10 * std::log10(0.2 * 0.2 * 2 / 3);

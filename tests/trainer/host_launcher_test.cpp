@@ -15,7 +15,7 @@ std::unique_ptr<Backend> on_host(std::span<const TrainingView> views, const Conf
   return std::make_unique<cuda::KernelBackend<HostMachine<backwards>>>(views, config);
 }
 
-TEST(HostLauncher, DrawsTheSamePictures) { expect_same_pictures(on_host<false>); }
+TEST(HostLauncher, DrawsTheSameImages) { expect_same_images(on_host<false>); }
 TEST(HostLauncher, DoesTheSameStep) { expect_same_step(on_host<false>); }
 TEST(HostLauncher, DoesTheSameStepInOddCases) { expect_same_step_in_odd_cases(on_host<false>); }
 TEST(HostLauncher, KeepsTheState) { expect_state_kept(on_host<false>); }

@@ -19,7 +19,7 @@ namespace image_loss_test {
 
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
 
-// A rendered picture, a photograph, and the loss between them.
+// A rendered image, a photograph, and the loss between them.
 template <class Real>
 struct Pair {
   int width, height;
@@ -55,7 +55,7 @@ struct Pair {
   }
 };
 
-// A smooth picture with noise of its own: windows with all degrees of likeness. No value of
+// A smooth image with noise of its own: windows with all degrees of likeness. No value of
 // `rendered` is closer to the photograph's than a fifth of a byte, where L1 has a kink.
 template <class Real>
 Pair<Real> random_pair(std::uint64_t seed, int width, int height) {
@@ -97,7 +97,7 @@ double reference_loss(const Pair<double>& pair, double l1_weight, double ssim_we
   return l1_weight * l1 / double(pair.rendered.size()) + ssim_weight * (1 - ssim_sum / windows) / 2;
 }
 
-// Central differences of fourth order. A picture of 19 x 17 has windows that hold all weights of a
+// Central differences of fourth order. An image of 19 x 17 has windows that hold all weights of a
 // pixel and windows that hold some.
 std::vector<double> reference_gradient(Pair<double> pair, double l1_weight, double ssim_weight) {
   // The error of the formula is of the order of (h / 0.03)^4 = 1e-10, 0.03^2 being the least
@@ -189,7 +189,7 @@ TEST(ImageLoss, SinglePrecisionFollowsDouble) {
     ASSERT_NEAR(fast.pixel_loss[i], exact.pixel_loss[i], 4e-7);  // sums of three below 1
 }
 
-TEST(ImageLoss, FlatBrightPicturesKeepTheirDigits) {
+TEST(ImageLoss, FlatBrightImagesKeepTheirDigits) {
   // White with a trace of noise: variances of 1e-6 beside means of 1, which are lost in single
   // precision when squares are subtracted naively, and may come out negative.
   const std::uint64_t seed = 23;
@@ -210,7 +210,7 @@ TEST(ImageLoss, FlatBrightPicturesKeepTheirDigits) {
     ASSERT_NEAR(fast.gradient[i], exact.gradient[i], 1e-4 * scale) << i;
 }
 
-TEST(ImageLoss, EqualPicturesHaveNoLossAndNoGradient) {
+TEST(ImageLoss, EqualImagesHaveNoLossAndNoGradient) {
   // All values of a byte, so that byte / 255 is held to be the same number here and there.
   for (const bool flat : {false, true}) {
     Pair<float> pair(64, 64);
@@ -239,7 +239,7 @@ TEST(ImageLoss, PixelLossIsTheSumOverChannels) {
   }
 }
 
-TEST(ImageLoss, PicturesSmallerThanTheWindowHaveL1Alone) {
+TEST(ImageLoss, ImagesSmallerThanTheWindowHaveL1Alone) {
   for (const auto& [width, height] : {std::pair{10, 200}, {200, 10}, {1, 1}}) {
     auto pair = random_pair<float>(25, width, height);
     pair.run();

@@ -348,7 +348,7 @@ TEST(RandomSeeds, LieAroundTheCubeWhereAsked) {
   EXPECT_NEAR(beyond_two, 0.75 * 1200, 0.1 * 1200);
 }
 
-TEST(RandomSeeds, AreInSomePicture) {
+TEST(RandomSeeds, AreInSomeImage) {
   Dataset dataset;  // two cameras side by side see a part of the cube only
   dataset.train = {view_from({0, -1, 0}, {0, 5, 0}), view_from({0.1, -1, 0}, {0, 5, 0})};
   Random random(91);

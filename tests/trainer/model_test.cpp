@@ -94,7 +94,7 @@ TEST(FineTexture, AlphaKeepsItsSideOfOneHalf) {
   };
   EXPECT_EQ(alpha_of(0.0f), 0.5f);
   EXPECT_EQ(alpha_of(-0.0f), 0.5f);
-  // A triangle that fills the picture of a camera before it.
+  // A triangle that fills the image of a camera before it.
   model.origin = glm::dvec3(0.0);
   model.positions = {{-50, -50, -3}, {50, -50, -3}, {0, 50, -3}};
   const std::vector<TrainingView> views = {{.camera = test::axis_camera(8, 8, 8),

@@ -140,7 +140,7 @@ TEST(NearZone, IsEmptyAsFarAsPointsTell) {
   EXPECT_TRUE(with_empty_near_zone(config, dataset, before).clear_near);
   EXPECT_FLOAT_EQ(with_empty_near_zone(config, dataset, behind).near, 0.02f);
   EXPECT_FALSE(with_empty_near_zone(config, dataset, behind).clear_near);
-  // Points in the picture: at 3 and beyond, but for one of a thousand; those beside it are others'.
+  // Points in the image: at 3 and beyond, but for one of a thousand; those beside it are others'.
   dataset.points.push_back({.position = {0, 0, -0.1}, .color = {}});
   for (int i = 0; i < 999; ++i)
     dataset.points.push_back({.position = {0, 0.001 * i, -3.0 - 0.001 * i}, .color = {}});

@@ -72,8 +72,8 @@ TEST(Projection, TrianglesThatCannotBeSeenAreEmpty) {
   const auto empty = [&](const float(&corners)[9]) { return project(view, corners).empty(); };
   EXPECT_FALSE(empty({-1, -1, 2, 1, -1, 2, 0, 1, 2}));
   EXPECT_TRUE(empty({-1, -1, -2, 1, -1, -2, 0, 1, -2})) << "behind the eye";
-  EXPECT_TRUE(empty({100, 0, 2, 101, 0, 2, 100, 1, 2})) << "to the right of the picture";
-  EXPECT_TRUE(empty({0, 100, 2, 1, 100, 2, 0, 101, 2})) << "below the picture";
+  EXPECT_TRUE(empty({100, 0, 2, 101, 0, 2, 100, 1, 2})) << "to the right of the image";
+  EXPECT_TRUE(empty({0, 100, 2, 1, 100, 2, 0, 101, 2})) << "below the image";
   EXPECT_TRUE(empty({1, 1, 2, 1, 1, 2, 1, 1, 2})) << "a point";
   EXPECT_TRUE(empty({0, 0, 2, 0.25f, 0, 2, 0.5f, 0, 2})) << "collinear corners";
   EXPECT_TRUE(empty({0, 0, 1, 0, 0, 2, 0, 1, 3})) << "edge-on: its plane holds the eye";
@@ -93,7 +93,7 @@ TEST(Projection, NumbersThatAreNoneAreEmptyWhereverTheyStand) {
 
 TEST(Projection, TheEyesPlaneAndHugeCoordinatesAreSafe) {
   // Depths of exactly 0, next to it, and of coordinates whose products leave the floats: no cast
-  // may overflow (the sanitizers watch) and what is not empty lies within the picture.
+  // may overflow (the sanitizers watch) and what is not empty lies within the image.
   Random random(7);
   const kernels::View view = test::plain_view(width, height);
   const float depths[] = {0.0f, 1e-30f, -1e-30f, -1.0f, 1e-38f, 0.01f, 1.0f, 1e30f, 3e38f};

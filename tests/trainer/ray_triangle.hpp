@@ -144,7 +144,7 @@ inline bool is_drawn(TriangleKind kind) {
 
 inline void random_triangle(Random& random, const kernels::View& view, TriangleKind kind,
                             float (&corners)[9]) {
-  // About a point that the picture shows.
+  // About a point that the image shows.
   const double px = random.uniform(0, view.width), py = random.uniform(0, view.height);
   const double depth = random.uniform(1, 5), pixel = depth / view.fx;
   glm::dvec3 eye(view.eye[0], view.eye[1], view.eye[2]);

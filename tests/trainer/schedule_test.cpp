@@ -52,7 +52,7 @@ struct Case {
   std::size_t unseen = 7;
 };
 
-/// Faces of about the size of the picture, some smaller than any threshold.
+/// Faces of about the size of the image, some smaller than any threshold.
 TrainingState first_state(std::size_t faces) {
   TrainingState state;
   state.model = test::random_model(5, {.faces = faces, .min_level = 0, .max_level = 0});
@@ -194,9 +194,9 @@ class NarrowBackend final : public BlindBackend {
   glm::dmat4 first_;
 };
 
-std::size_t removed_of(const Config& config, std::size_t seen_once, std::size_t pictures = 40) {
+std::size_t removed_of(const Config& config, std::size_t seen_once, std::size_t images = 40) {
   std::vector<TrainingView> views(
-      pictures, {.camera = test::axis_camera(64, 48, 60), .target = {}, .ignored = {}});
+      images, {.camera = test::axis_camera(64, 48, 60), .target = {}, .ignored = {}});
   views[0].camera.view_from_world[3].x = 0.125;
   Trainer trainer(config, views,
                   std::make_unique<NarrowBackend>(seen_once, views[0].camera.view_from_world),
@@ -205,7 +205,7 @@ std::size_t removed_of(const Config& config, std::size_t seen_once, std::size_t 
   return trainer.last_resample().unseen;
 }
 
-TEST(Schedule, RemovesFacesThatTooFewPicturesShow) {
+TEST(Schedule, RemovesFacesThatTooFewImagesShow) {
   Config config;
   config.steps = 20;
   config.triangles = 50;
@@ -213,7 +213,7 @@ TEST(Schedule, RemovesFacesThatTooFewPicturesShow) {
   for (const auto& [least, removed] : {std::pair(1, 0u), {2, 12u}, {3, 12u}}) {
     config.least_views = least;
     EXPECT_EQ(removed_of(config, 12), removed) << least;
-    EXPECT_EQ(removed_of(config, 12, 19), 0u);  // too few pictures to ask for two
+    EXPECT_EQ(removed_of(config, 12, 19), 0u);  // too few images to ask for two
   }
 }
 

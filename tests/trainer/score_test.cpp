@@ -142,7 +142,7 @@ TEST(Score, WhatIsNoNumberStaysNone) {
 }
 
 TEST(Score, ABaselineLowersTheVariance) {
-  // Four fragments of alpha 1/2 with losses like those of a picture that is half way there: the
+  // Four fragments of alpha 1/2 with losses like those of an image that is half way there: the
   // mean of the pixel's loss as the baseline, as a running mean comes to be.
   Random random(3);
   double without = 0, with = 0;
@@ -168,7 +168,7 @@ float logit(double alpha) {
   return alpha <= 0 ? -200.0f : alpha >= 1 ? 200.0f : float(std::log(alpha / (1 - alpha)));
 }
 
-// Three faces that cover the whole picture, one behind the other; all their texels' alphas given.
+// Three faces that cover the whole image, one behind the other; all their texels' alphas given.
 class ScoreThroughTheStep : public testing::TestWithParam<int> {
  protected:
   static std::vector<glm::vec3> positions() {
@@ -193,13 +193,13 @@ TEST_P(ScoreThroughTheStep, HasTheDerivativeAsItsMean) {
   faces.refresh();
 
   // What is expected, pixel by pixel, with the alphas that the step sees.
-  std::vector<Picture> pictures{test::make_picture(test::axis_camera(side, side, 24))};
-  Picture& picture = pictures[0];
+  std::vector<BatchImage> images{test::make_image(test::axis_camera(side, side, 24))};
+  BatchImage& image = images[0];
   double expected[9] = {}, variance[9] = {};
-  std::vector<Stack> stacks(picture.pixels(), {.layers = {}, .background_loss = losses[3]});
+  std::vector<Stack> stacks(image.pixels(), {.layers = {}, .background_loss = losses[3]});
   for (std::size_t face = 0; face < 3; ++face)
     kernels::for_each_fragment(
-        picture.view, kernels::project(picture.view, &faces.model.positions[3 * face].x),
+        image.view, kernels::project(image.view, &faces.model.positions[3 * face].x),
         {0, 0, side, side}, [&](const kernels::Fragment& f) {
           Layer layer{.loss = losses[face]};
           const auto at = lattice::footprint(0, double(f.b0), double(f.b1));
@@ -219,14 +219,14 @@ TEST_P(ScoreThroughTheStep, HasTheDerivativeAsItsMean) {
 
   double sum[9] = {};
   for (int step = 0; step < steps; ++step) {
-    picture.draw_key = kernels::draw_key(5, std::uint32_t(step), 0);
-    faces.find(picture, Masking::stochastic);
-    for (std::size_t pixel = 0; pixel < picture.pixels(); ++pixel) {
-      const std::uint32_t face = picture.visible[pixel].face;
-      picture.loss[pixel] = float(losses[face == no_face ? 3 : face]);
+    image.draw_key = kernels::draw_key(5, std::uint32_t(step), 0);
+    faces.find(image, Masking::stochastic);
+    for (std::size_t pixel = 0; pixel < image.pixels(); ++pixel) {
+      const std::uint32_t face = image.visible[pixel].face;
+      image.loss[pixel] = float(losses[face == no_face ? 3 : face]);
     }
     for (std::size_t face = 0; face < 3; ++face) {
-      ASSERT_EQ(faces.gather(pictures, face), 0u);
+      ASSERT_EQ(faces.gather(images, face), 0u);
       for (std::size_t texel = 0; texel < 3; ++texel)
         sum[3 * face + texel] += faces.by_logit(face, texel, alpha_channel);
     }
@@ -234,7 +234,7 @@ TEST_P(ScoreThroughTheStep, HasTheDerivativeAsItsMean) {
   for (std::size_t i = 0; i < 9; ++i) {
     // Sums of floats: 2304 terms of up to 1, some 1e-5 of their total; and draws are multiples of
     // 2^-24, which is that much in a probability of each pixel.
-    const double rounding = 1e-5 * std::abs(expected[i]) + picture.pixels() * 3 * 0x1p-24;
+    const double rounding = 1e-5 * std::abs(expected[i]) + image.pixels() * 3 * 0x1p-24;
     const double standard_error = std::sqrt(std::max(variance[i], 0.0) / steps);
     EXPECT_NEAR(sum[i] / steps, expected[i], 4 * standard_error + rounding)
         << "face " << i / 3 << ", texel " << i % 3;
@@ -257,17 +257,17 @@ TEST(ScoreOfCoincidentFaces, TheOneBehindByItsNumberGetsNothing) {
   std::vector<glm::vec3> positions{{-9, -8, -2}, {9, -7, -2}, {0.5f, 12, -2}};
   for (int k = 0; k < 3; ++k) positions.push_back(positions[std::size_t(k)]);
   test::Faces faces(positions, 0.0f);  // alpha 1/2
-  std::vector<Picture> pictures{test::make_picture(test::axis_camera(side, side, 16))};
-  Picture& picture = pictures[0];
+  std::vector<BatchImage> images{test::make_image(test::axis_camera(side, side, 16))};
+  BatchImage& image = images[0];
   const double losses[3] = {1.0, 0.2, 0.6};
   double sum[2] = {};
   for (int step = 0; step < steps; ++step) {
-    picture.draw_key = kernels::draw_key(6, std::uint32_t(step), 0);
-    faces.find(picture, Masking::stochastic);
-    for (std::size_t pixel = 0; pixel < picture.pixels(); ++pixel)
-      picture.loss[pixel] = float(losses[std::min(picture.visible[pixel].face, 2u)]);
+    image.draw_key = kernels::draw_key(6, std::uint32_t(step), 0);
+    faces.find(image, Masking::stochastic);
+    for (std::size_t pixel = 0; pixel < image.pixels(); ++pixel)
+      image.loss[pixel] = float(losses[std::min(image.visible[pixel].face, 2u)]);
     for (std::size_t face = 0; face < 2; ++face) {
-      faces.gather(pictures, face);
+      faces.gather(images, face);
       for (std::size_t texel = 0; texel < 3; ++texel)
         sum[face] += faces.by_logit(face, texel, alpha_channel) / steps;
     }

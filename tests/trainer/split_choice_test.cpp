@@ -105,7 +105,7 @@ TEST(GreatestErrors, OfZeroGoByLength) {
     EXPECT_TRUE(each.face == 7 || each.face >= 12) << each.face;
 }
 
-/// A camera at the origin that looks along -z: at depth 1 a picture of 200 x 100 pixels is 2 x 1.
+/// A camera at the origin that looks along -z: at depth 1 an image of 200 x 100 pixels is 2 x 1.
 Camera plain_camera() {
   return {.name = "",
           .width = 200,
@@ -131,7 +131,7 @@ std::vector<Split> choose(const Model& model, double fraction, std::size_t budge
                                  {.fraction = fraction, .budget = budget, .near = 0.1});
 }
 
-TEST(LongestProjectedEdges, AreHalvedInThePicture) {
+TEST(LongestProjectedEdges, AreHalvedInTheImage) {
   // Corners project to (20, 50), (180, 50), (100, 90), at depths 1, 4 and 2.
   const Model model = triangle({-0.8f, 0, -1}, {3.2f, 0, -4}, {0, -0.8f, -2});
   const std::vector<Split> splits = choose(model, 0.2, 2);
@@ -145,7 +145,7 @@ TEST(LongestProjectedEdges, AreHalvedInThePicture) {
 }
 
 TEST(LongestProjectedEdges, StopAtTheThreshold) {
-  // Edges of 40, 50 and 30 pixels in a picture 100 pixels high.
+  // Edges of 40, 50 and 30 pixels in an image 100 pixels high.
   const Model model = triangle({0, 0, -1}, {0.4f, 0, -1}, {0, 0.3f, -1});
   EXPECT_THAT(choose(model, 0.51, 100), IsEmpty());
   EXPECT_THAT(choose(model, 0.45, 100), SizeIs(1));  // halves of 25, 30 or 40, and a median of 25
@@ -188,8 +188,8 @@ TEST(LongestProjectedEdges, OnlyOfVisibleFacesAndTheirChildren) {
   for (const Split& one : splits) EXPECT_NE(one.face, 0u);
 }
 
-TEST(LongestProjectedEdges, CountByThePartInThePicture) {
-  // From pixel 150 far out to the right, and a third corner off the picture too.
+TEST(LongestProjectedEdges, CountByThePartInTheImage) {
+  // From pixel 150 far out to the right, and a third corner off the image too.
   const Model out = triangle({0.5f, 0, -1}, {100, 0, -1}, {100, 1, -1});
   const std::vector<Split> splits = choose(out, 0.2, 2);
   ASSERT_THAT(splits, SizeIs(1));
@@ -199,7 +199,7 @@ TEST(LongestProjectedEdges, CountByThePartInThePicture) {
   EXPECT_NEAR(point.x, 0.75, 0.01);
 
   // From before the camera to behind it, below the axis: seen where it is before the near plane
-  // and in the picture, y = -0.4 at depths 0.8 and more.
+  // and in the image, y = -0.4 at depths 0.8 and more.
   const Model through = triangle({0, -0.4f, -4}, {0, -0.4f, 4}, {0.01f, -0.4f, -4});
   ASSERT_THAT(choose(through, 0.2, 2), SizeIs(1));
   const Split cut = choose(through, 0.2, 2)[0];
@@ -209,10 +209,10 @@ TEST(LongestProjectedEdges, CountByThePartInThePicture) {
   // Depth 4 is 10 pixels below the axis, the border 50: the middle, 30 pixels, is depth 4/3.
   EXPECT_NEAR(depth, 4.0 / 3.0, 1e-4);
 
-  // Behind the camera, and beside the picture: nothing to split.
+  // Behind the camera, and beside the image: nothing to split.
   EXPECT_THAT(choose(triangle({-5, 0, 1}, {5, 0, 1}, {0, 5, 2}), 0.01, 100), IsEmpty());
   EXPECT_THAT(choose(triangle({5, -9, -1}, {5, 9, -1}, {9, 0, -1}), 0.01, 100), IsEmpty());
-  // Across the whole picture with every corner outside: published code never splits it.
+  // Across the whole image with every corner outside: published code never splits it.
   EXPECT_THAT(choose(triangle({-9, 0.1f, -1}, {9, 0.1f, -1}, {0, -9, -1}), 0.5, 2), SizeIs(1));
 }
 

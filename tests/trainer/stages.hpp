@@ -1,4 +1,4 @@
-// The stages of a training step on their own: a picture as the backend prepares it, and the
+// The stages of a training step on their own: an image as the backend prepares it, and the
 // gradient that a face was stepped with.
 #pragma once
 
@@ -6,8 +6,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "trainer/diffsoup/cpu/batch_image.hpp"
 #include "trainer/diffsoup/cpu/face_stage.hpp"
-#include "trainer/diffsoup/cpu/picture.hpp"
 #include "trainer/diffsoup/cpu/visibility.hpp"
 #include "trainer/diffsoup/levels.hpp"
 
@@ -25,17 +25,17 @@ inline Camera axis_camera(int width, int height, double focal) {
           .cy = height / 2.0};
 }
 
-inline Picture make_picture(const Camera& camera, double near = 0.01, double far = 100) {
-  Picture picture;
-  picture.view = view_of(camera, glm::dvec3(0.0), near, far);
-  picture.tiles_x = (camera.width + tile_side - 1) / tile_side;
-  picture.tiles_y = (camera.height + tile_side - 1) / tile_side;
-  picture.visible.resize(picture.pixels());
-  picture.color.resize(3 * picture.pixels());
-  picture.by_color.resize(3 * picture.pixels());
-  picture.loss.resize(picture.pixels());
-  picture.gradient.resize(picture.pixels());
-  return picture;
+inline BatchImage make_image(const Camera& camera, double near = 0.01, double far = 100) {
+  BatchImage image;
+  image.view = view_of(camera, glm::dvec3(0.0), near, far);
+  image.tiles_x = (camera.width + tile_side - 1) / tile_side;
+  image.tiles_y = (camera.height + tile_side - 1) / tile_side;
+  image.visible.resize(image.pixels());
+  image.color.resize(3 * image.pixels());
+  image.by_color.resize(3 * image.pixels());
+  image.loss.resize(image.pixels());
+  image.gradient.resize(image.pixels());
+  return image;
 }
 
 /// Faces of one lattice level, their moments and their textures.
@@ -67,18 +67,18 @@ struct Faces {
       refresh_texture(pyramid, model, face, store, scratch);
   }
 
-  void find(Picture& picture, Masking masking) const {
-    bin_faces(picture, model);
-    for (std::size_t tile = 0; tile + 1 < picture.bin_begin.size(); ++tile)
-      find_visible(picture, tile, store.alpha.data(), model.max_level, masking);
+  void find(BatchImage& image, Masking masking) const {
+    bin_faces(image, model);
+    for (std::size_t tile = 0; tile + 1 < image.bin_begin.size(); ++tile)
+      find_visible(image, tile, store.alpha.data(), model.max_level, masking);
   }
 
-  /// What the face gathers from the pictures, as the moments of a first step hold it: with
+  /// What the face gathers from the images, as the moments of a first step hold it: with
   /// beta1 = 0 the first moment is the gradient. Rates are 0: nothing moves.
-  unsigned gather(std::span<const Picture> pictures, std::size_t face) {
+  unsigned gather(std::span<const BatchImage> images, std::size_t face) {
     moments.reset_faces(model);
     errors.assign(model.faces(), 0.0f);
-    const FaceStep step{.pictures = pictures,
+    const FaceStep step{.images = images,
                         .pyramid = &pyramid,
                         .model = &model,
                         .moments = &moments,

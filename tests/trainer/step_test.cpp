@@ -1,5 +1,5 @@
 // Whole steps of the processor's backend: its gradient against finite differences of the loss of a
-// picture in double, the same bits with any number of threads, and what is not a number.
+// image in double, the same bits with any number of threads, and what is not a number.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ using tureen::test::Random;
 
 constexpr int width = 40, height = 33;
 
-// Cameras around the model, each with a picture that is nothing in particular.
+// Cameras around the model, each with an image that is nothing in particular.
 std::vector<TrainingView> random_views(std::uint64_t seed, int count, const glm::dvec3& middle) {
   Random random(seed);
   std::vector<TrainingView> views;
@@ -390,16 +390,16 @@ TEST(CpuStep, APositionThatIsNoNumberHurtsNobodyElse) {
 TEST(CpuStep, AGradientWhoseSquareIsInfiniteIsLeftOut) {
   // A second moment that is infinite would keep its number where it is for ever.
   test::Faces faces({{-2, -2, -2}, {2, -2, -2}, {0, 3, -2}});
-  std::vector<Picture> pictures{test::make_picture(test::axis_camera(32, 32, 32))};
-  faces.find(pictures[0], Masking::threshold);
-  for (PixelGradient& gradient : pictures[0].gradient) gradient = {};
-  pictures[0].gradient[16 * 32 + 16].features[0] = 1e25f;
-  EXPECT_EQ(faces.gather(pictures, 0), 1u);
+  std::vector<BatchImage> images{test::make_image(test::axis_camera(32, 32, 32))};
+  faces.find(images[0], Masking::threshold);
+  for (PixelGradient& gradient : images[0].gradient) gradient = {};
+  images[0].gradient[16 * 32 + 16].features[0] = 1e25f;
+  EXPECT_EQ(faces.gather(images, 0), 1u);
   for (const float second : faces.moments.second) EXPECT_EQ(second, 0);
   for (const float logit : faces.model.logits) EXPECT_TRUE(std::isfinite(logit));
 }
 
-TEST(CpuStep, WhatNoPictureShowsStaysAsItIs) {
+TEST(CpuStep, WhatNoImageShowsStaysAsItIs) {
   TrainingState state = random_state(51, 20, 0, 1);
   const auto views = random_views(52, 4, state.model.origin);
   // Far behind all that the cameras look at, beyond the far plane.
@@ -426,8 +426,8 @@ TEST(CpuRender, ShowsWhatTheFormulasSay) {
   const auto views = random_views(62, 1, state.model.origin);
   const auto backend = make_cpu_backend(views, Config{}, 2);
   backend->upload(state);
-  std::vector<float> picture = backend->render(views[0].camera);
-  // Against targets of 0 the loss without SSIM is the mean of the picture.
+  std::vector<float> image = backend->render(views[0].camera);
+  // Against targets of 0 the loss without SSIM is the mean of the image.
   TrainingView black = views[0];
   std::ranges::fill(black.target, std::uint8_t(0));
   Config config;
@@ -435,7 +435,7 @@ TEST(CpuRender, ShowsWhatTheFormulasSay) {
   config.ssim_weight = 0;
   const ReferenceLoss mean(state.model, black, config);
   double sum = 0;
-  for (const float value : picture) sum += double(value) / double(picture.size());
+  for (const float value : image) sum += double(value) / double(image.size());
   const std::vector<double> logits(state.model.logits.begin(), state.model.logits.end());
   const std::vector<double> mlp(state.model.mlp.begin(), state.model.mlp.end());
   EXPECT_NEAR(sum, mean(state.model, logits, mlp), 1e-5);

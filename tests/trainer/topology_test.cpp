@@ -258,7 +258,7 @@ TEST(Split, ResamplingConvergesWithTheLevel) {
       EXPECT_GT(error, 0.2 * last) << level;
     }
     last = error;
-    // The copied texture is another picture: at every level the error is of the picture's size.
+    // The copied texture is another image: at every level the error is of the image's size.
     EXPECT_GT(mean_error(model, ChildTexture::copied), 0.1) << level;
   }
 }

@@ -18,7 +18,7 @@ namespace visibility_draws_test {
 
 using tureen::test::Random;
 
-constexpr int picture_width = 512;
+constexpr int image_width = 512;
 
 // Draw number i along one of the things that draws are counted by; everything else stays.
 struct Sequence {
@@ -32,7 +32,7 @@ std::vector<Sequence> sequences() {
   const std::uint32_t key = draw_key(7, 100, 3);
   return {
       {"Pixels", [=](std::uint32_t i) { return uniform_draw(key, i, 4711); }},
-      {"Rows", [=](std::uint32_t i) { return uniform_draw(key, i * picture_width, 4711); }},
+      {"Rows", [=](std::uint32_t i) { return uniform_draw(key, i * image_width, 4711); }},
       {"Faces", [=](std::uint32_t i) { return uniform_draw(key, 12345, i); }},
       {"Steps", [](std::uint32_t i) { return uniform_draw(draw_key(7, i, 3), 12345, 4711); }},
       {"Views", [](std::uint32_t i) { return uniform_draw(draw_key(7, 100, i), 12345, 4711); }},
@@ -93,7 +93,7 @@ TEST_P(DrawsAlong, DoNotDependOnTheOnesBefore) {
 INSTANTIATE_TEST_SUITE_P(, DrawsAlong, testing::ValuesIn(sequences()),
                          [](const auto& tested) { return tested.param.name; });
 
-// A stack of `faces` triangles that all cover the whole picture, the first nearest.
+// A stack of `faces` triangles that all cover the whole image, the first nearest.
 std::vector<glm::vec3> stack(int faces) {
   std::vector<glm::vec3> positions;
   for (int face = 0; face < faces; ++face) {
@@ -106,21 +106,21 @@ std::vector<glm::vec3> stack(int faces) {
 float logit(double alpha) { return float(std::log(alpha / (1 - alpha))); }
 
 TEST(StochasticVisibility, AnAlphaOfZeroNeverShowsAndOneAlways) {
-  Picture picture = test::make_picture(test::axis_camera(512, 512, 256));
+  BatchImage image = test::make_image(test::axis_camera(512, 512, 256));
   test::Faces faces(stack(2));
   for (std::size_t i = 0; i < faces.store.alpha.size(); ++i)
     faces.store.alpha[i] = i < 3 ? 0.0f : 1.0f;
   for (std::uint32_t step = 0; step < 64; ++step) {  // 2^24 draws: each value about once
-    picture.draw_key = kernels::draw_key(1, step, 0);
-    faces.find(picture, Masking::stochastic);
-    for (const VisiblePixel& pixel : picture.visible) ASSERT_EQ(pixel.face, 1u);
+    image.draw_key = kernels::draw_key(1, step, 0);
+    faces.find(image, Masking::stochastic);
+    for (const VisiblePixel& pixel : image.visible) ASSERT_EQ(pixel.face, 1u);
   }
 }
 
 TEST(StochasticVisibility, FacesShowAsOftenAsTheirAlphasSay) {
   constexpr int faces_count = 3, steps = 16;
   const double alphas[faces_count] = {0.1, 0.5, 0.9};
-  Picture picture = test::make_picture(test::axis_camera(256, 256, 128));
+  BatchImage image = test::make_image(test::axis_camera(256, 256, 128));
   test::Faces faces(stack(faces_count));
   for (std::size_t face = 0; face < faces_count; ++face)
     for (std::size_t texel = 0; texel < 3; ++texel)
@@ -128,9 +128,9 @@ TEST(StochasticVisibility, FacesShowAsOftenAsTheirAlphasSay) {
   faces.refresh();
   double shown[faces_count + 1] = {};
   for (std::uint32_t step = 0; step < steps; ++step) {
-    picture.draw_key = kernels::draw_key(2, step, 0);
-    faces.find(picture, Masking::stochastic);
-    for (const VisiblePixel& pixel : picture.visible)
+    image.draw_key = kernels::draw_key(2, step, 0);
+    faces.find(image, Masking::stochastic);
+    for (const VisiblePixel& pixel : image.visible)
       ++shown[pixel.face == no_face ? faces_count : pixel.face];
   }
   const double count = steps * 256.0 * 256.0;
@@ -157,16 +157,16 @@ test::Faces random_faces(std::uint64_t seed, int count) {
 }
 
 // Every face on every pixel, one after the other, without tiles.
-std::vector<VisiblePixel> obvious(const test::Faces& faces, const Picture& picture,
+std::vector<VisiblePixel> obvious(const test::Faces& faces, const BatchImage& image,
                                   Masking masking) {
-  std::vector<VisiblePixel> visible(picture.pixels());
+  std::vector<VisiblePixel> visible(image.pixels());
   const std::size_t texels = faces.pyramid.fine_texels();
   for (std::uint32_t face = 0; face < faces.model.faces(); ++face)
     kernels::for_each_fragment(
-        picture.view, kernels::project(picture.view, &faces.model.positions[3 * face].x),
-        {0, 0, picture.view.width, picture.view.height}, [&](const kernels::Fragment& fragment) {
+        image.view, kernels::project(image.view, &faces.model.positions[3 * face].x),
+        {0, 0, image.view.width, image.view.height}, [&](const kernels::Fragment& fragment) {
           const auto pixel =
-              std::size_t(fragment.y) * std::size_t(picture.view.width) + std::size_t(fragment.x);
+              std::size_t(fragment.y) * std::size_t(image.view.width) + std::size_t(fragment.x);
           const auto at = lattice::footprint(2, fragment.b0, fragment.b1);
           float alpha = 0;
           for (std::size_t j = 0; j < 3; ++j)
@@ -174,7 +174,7 @@ std::vector<VisiblePixel> obvious(const test::Faces& faces, const Picture& pictu
           const float needed =
               masking == Masking::threshold
                   ? alpha_threshold
-                  : kernels::uniform_draw(picture.draw_key, std::uint32_t(pixel), face);
+                  : kernels::uniform_draw(image.draw_key, std::uint32_t(pixel), face);
           if (alpha >= needed && fragment.inverse_depth > visible[pixel].inverse_depth)
             visible[pixel] = {face, fragment.inverse_depth, fragment.b0, fragment.b1};
         });
@@ -184,16 +184,16 @@ std::vector<VisiblePixel> obvious(const test::Faces& faces, const Picture& pictu
 TEST(StochasticVisibility, IsTheNearestAcceptedFragmentInAnyTile) {
   for (const Masking masking : {Masking::threshold, Masking::stochastic}) {
     const test::Faces faces = random_faces(3, 300);
-    Picture picture = test::make_picture(test::axis_camera(150, 110, 100));
-    picture.draw_key = kernels::draw_key(3, 1, 1);
-    faces.find(picture, masking);
-    const std::vector<VisiblePixel> expected = obvious(faces, picture, masking);
+    BatchImage image = test::make_image(test::axis_camera(150, 110, 100));
+    image.draw_key = kernels::draw_key(3, 1, 1);
+    faces.find(image, masking);
+    const std::vector<VisiblePixel> expected = obvious(faces, image, masking);
     int different = 0, covered = 0;
     for (std::size_t pixel = 0; pixel < expected.size(); ++pixel) {
-      different += picture.visible[pixel].face != expected[pixel].face;
+      different += image.visible[pixel].face != expected[pixel].face;
       covered += expected[pixel].face != no_face;
-      if (picture.visible[pixel].face == expected[pixel].face) {
-        ASSERT_NEAR(picture.visible[pixel].b0, expected[pixel].b0, 1e-3);
+      if (image.visible[pixel].face == expected[pixel].face) {
+        ASSERT_NEAR(image.visible[pixel].b0, expected[pixel].b0, 1e-3);
       }
     }
     EXPECT_GT(covered, 5000);
@@ -205,17 +205,17 @@ TEST(StochasticVisibility, IsTheNearestAcceptedFragmentInAnyTile) {
 
 TEST(StochasticVisibility, DoesNotDependOnTheOrderOfTiles) {
   const test::Faces faces = random_faces(4, 300);
-  Picture picture = test::make_picture(test::axis_camera(150, 110, 100));
-  picture.draw_key = kernels::draw_key(4, 1, 1);
-  faces.find(picture, Masking::stochastic);
-  const auto first = picture.visible;
-  std::ranges::fill(picture.visible, VisiblePixel{7, 1e9f, 7, 7});  // what is there is overwritten
-  for (std::size_t tile = picture.bin_begin.size() - 1; tile-- > 0;)
-    find_visible(picture, tile, faces.store.alpha.data(), 2, Masking::stochastic);
+  BatchImage image = test::make_image(test::axis_camera(150, 110, 100));
+  image.draw_key = kernels::draw_key(4, 1, 1);
+  faces.find(image, Masking::stochastic);
+  const auto first = image.visible;
+  std::ranges::fill(image.visible, VisiblePixel{7, 1e9f, 7, 7});  // what is there is overwritten
+  for (std::size_t tile = image.bin_begin.size() - 1; tile-- > 0;)
+    find_visible(image, tile, faces.store.alpha.data(), 2, Masking::stochastic);
   for (std::size_t pixel = 0; pixel < first.size(); ++pixel) {
-    ASSERT_EQ(picture.visible[pixel].face, first[pixel].face);
-    ASSERT_EQ(picture.visible[pixel].b0, first[pixel].b0);
-    ASSERT_EQ(picture.visible[pixel].inverse_depth, first[pixel].inverse_depth);
+    ASSERT_EQ(image.visible[pixel].face, first[pixel].face);
+    ASSERT_EQ(image.visible[pixel].b0, first[pixel].b0);
+    ASSERT_EQ(image.visible[pixel].inverse_depth, first[pixel].inverse_depth);
   }
 }
 
@@ -225,18 +225,18 @@ TEST(Visibility, OfEqualDepthsTheLowerFaceShows) {
   for (int copy = 0; copy < 2; ++copy)
     for (int k = 0; k < 3; ++k) positions.push_back(positions[std::size_t(k)]);
   const test::Faces faces(positions);
-  Picture picture = test::make_picture(test::axis_camera(100, 70, 50));
-  faces.find(picture, Masking::threshold);
-  for (const VisiblePixel& pixel : picture.visible) ASSERT_EQ(pixel.face, 0u);
+  BatchImage image = test::make_image(test::axis_camera(100, 70, 50));
+  faces.find(image, Masking::threshold);
+  for (const VisiblePixel& pixel : image.visible) ASSERT_EQ(pixel.face, 0u);
 }
 
 TEST(Visibility, FacesWithoutNumbersShowNothing) {
   std::vector<glm::vec3> positions = stack(2);
   positions[1].y = NAN;
   const test::Faces faces(positions);
-  Picture picture = test::make_picture(test::axis_camera(100, 70, 50));
-  faces.find(picture, Masking::threshold);
-  for (const VisiblePixel& pixel : picture.visible) ASSERT_EQ(pixel.face, 1u);
+  BatchImage image = test::make_image(test::axis_camera(100, 70, 50));
+  faces.find(image, Masking::threshold);
+  for (const VisiblePixel& pixel : image.visible) ASSERT_EQ(pixel.face, 1u);
 }
 
 }  // namespace visibility_draws_test

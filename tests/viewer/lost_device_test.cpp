@@ -79,7 +79,7 @@ TEST_F(LostDevice, IsToldAlsoWhereNothingCanBeKept) {
   EXPECT_EQ(read_settings(folder / "viewer.json").window, glm::ivec2(480, 320));
 }
 
-// -- Too little memory for a picture --------------------------------------------------------------
+// -- Too little memory for an image --------------------------------------------------------------
 
 /// The longest side of a target that the device has memory for: enough for 400 x 300 with four
 /// samples a pixel and for 600 x 450 with one, not with four.
@@ -114,7 +114,7 @@ class SmallDevice : public testing::Test {
   ApplicationOptions options(glm::ivec2 window) {
     ApplicationOptions options;
     options.scene = fs::path(TUREEN_SOURCE_DIR) / "examples/soup.glb";
-    options.pictures = folder;
+    options.images = folder;
     session = {.window = window, .events = {}};
     wait();
     press(Key::h);
@@ -130,10 +130,10 @@ class SmallDevice : public testing::Test {
     add(KeyChanged{key, true});
     add(KeyChanged{key, false});
   }
-  /// A picture of the window, once all is at rest.
+  /// An image of the window, once all is at rest.
   void look(const std::string& name) {
     wait();
-    add(WindowPictured{name + ".png"});
+    add(WindowScreenshot{name + ".png"});
   }
 
   /// Runs the session on a device that has less; returns the errors that are shown at its end.
@@ -146,7 +146,7 @@ class SmallDevice : public testing::Test {
   }
 
   /// Of the window's lower half: messages lie in the upper one.
-  void expect_same_picture(const std::string& name, const std::string& expected_name) const {
+  void expect_same_image(const std::string& name, const std::string& expected_name) const {
     const auto lower_half = [&](const std::string& each) {
       Input input = Input::open(folder / (each + ".png"));
       const Image8 image = read_image(input);
@@ -182,10 +182,10 @@ TEST_F(SmallDevice, DrawsOneSampleAPixelWhereMoreDoNotFit) {
                                               folder, TUREEN_HEADLESS_PROGRAM)
                                       .wait();
   ASSERT_EQ(plain.exit_code, 0) << plain.err;
-  expect_same_picture("large", "plain");
+  expect_same_image("large", "plain");
 }
 
-TEST_F(SmallDevice, ShowsThePictureAgainInAWindowThatIsSmallAgain) {
+TEST_F(SmallDevice, ShowsTheImageAgainInAWindowThatIsSmallAgain) {
   const ApplicationOptions resized = options({400, 300});
   look("before");
   add(Resized{1000, 500});
@@ -193,10 +193,10 @@ TEST_F(SmallDevice, ShowsThePictureAgainInAWindowThatIsSmallAgain) {
   add(Resized{400, 300});
   look("after");
   EXPECT_THAT(run(resized), SizeIs(1));
-  expect_same_picture("after", "before");
+  expect_same_image("after", "before");
 }
 
-TEST_F(SmallDevice, PutsAPhotographThatIsTooLargeAsideAndShowsThePicture) {
+TEST_F(SmallDevice, PutsAPhotographThatIsTooLargeAsideAndShowsTheImage) {
   // A photograph larger than the device draws; it would be shown as it is, plainly green.
   constexpr int width = 1000, height = 500;
   fs::create_directory(folder / "photographs");
@@ -213,7 +213,7 @@ TEST_F(SmallDevice, PutsAPhotographThatIsTooLargeAsideAndShowsThePicture) {
   press(Key::c);
   look("after");
   EXPECT_THAT(run(compared), SizeIs(1));
-  expect_same_picture("after", "before");
+  expect_same_image("after", "before");
 }
 
 }  // namespace lost_device_test

@@ -55,7 +55,7 @@ TEST_F(NavigationTest, ADragThatBeganOnAPanelIsThePanels) {
   EXPECT_FALSE(input.dragging());
 }
 
-TEST_F(NavigationTest, ADragThatBeganOnThePictureStaysThere) {
+TEST_F(NavigationTest, ADragThatBeganOnTheImageStaysThere) {
   const glm::dvec3 eye = controls.eye();
   send(ButtonChanged{Button::left, true});
   send(PointerMoved{500, 300}, {.pointer = true});  // now over a panel

@@ -1,4 +1,4 @@
-// The command line that draws the window's picture: what a shell and tureen render make of it is
+// The command line that draws the window's image: what a shell and tureen render make of it is
 // the same camera.
 #include "viewer/render_command.hpp"
 

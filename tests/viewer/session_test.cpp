@@ -42,7 +42,7 @@ TEST(Session, ComesBackAsItWasRecorded) {
                                     Scrolled{0, -1}, KeyChanged{Key::left_bracket, true}};
   const std::vector<Event> second = {TextTyped{0x20ac}, FilesDropped{{"a b.glb", "\"quoted\".off"}},
                                      Resized{20, 10},   FocusChanged{false},
-                                     AwaitRest{},       WindowPictured{"x.png"},
+                                     AwaitRest{},       WindowScreenshot{"x.png"},
                                      CloseAsked{}};
   recorder.add(0.1, first);
   recorder.add(1.0 / 3, second);
@@ -90,15 +90,15 @@ TEST(Replay, DealsByItsOwnClock) {
   EXPECT_EQ(frames, 3) << "0.05 s are three frames of a sixtieth";
 }
 
-TEST(Replay, WaitsForRestAndEndsAFrameWithAPicture) {
+TEST(Replay, WaitsForRestAndEndsAFrameWithAImage) {
   Replay replay(read(with_event(
-      R"({"at": 0, "await": true}, {"at": 0, "picture": "a.png"}, {"at": 0, "wheel": [0, 1]})")));
+      R"({"at": 0, "await": true}, {"at": 0, "image": "a.png"}, {"at": 0, "wheel": [0, 1]})")));
   for (int i = 0; i < 10; ++i) EXPECT_TRUE(replay.next(false).events.empty());
   EXPECT_EQ(replay.now(), 0) << "the clock stands while it waits";
-  const Replay::Step picture = replay.next(true);
-  ASSERT_EQ(picture.events.size(), 2u);
-  EXPECT_TRUE(std::holds_alternative<AwaitRest>(picture.events[0]));
-  EXPECT_TRUE(std::holds_alternative<WindowPictured>(picture.events[1]));
+  const Replay::Step image = replay.next(true);
+  ASSERT_EQ(image.events.size(), 2u);
+  EXPECT_TRUE(std::holds_alternative<AwaitRest>(image.events[0]));
+  EXPECT_TRUE(std::holds_alternative<WindowScreenshot>(image.events[1]));
   EXPECT_EQ(replay.next(true).events.size(), 1u);
   EXPECT_TRUE(replay.finished());
 }

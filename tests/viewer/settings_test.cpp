@@ -29,7 +29,7 @@ TEST(Settings, ComeBackAsTheyWereLeft) {
                     .vsync = false,
                     .smooth_motion = false,
                     .recent = {},
-                    .pictures = "/some where"};
+                    .images = "/some where"};
   remember(settings, "/b.glb");
   remember(settings, "/a folder/");
   remember(settings, "/b.glb");
@@ -38,7 +38,7 @@ TEST(Settings, ComeBackAsTheyWereLeft) {
   EXPECT_EQ(read.window, settings.window);
   EXPECT_EQ(read.vsync, false);
   EXPECT_EQ(read.smooth_motion, false);
-  EXPECT_EQ(read.pictures, "/some where");
+  EXPECT_EQ(read.images, "/some where");
   EXPECT_THAT(read.recent, testing::ElementsAre("/b.glb", "/a folder")) << "newest first, once";
 }
 

@@ -1,5 +1,5 @@
 // The window itself, as a person uses it: sessions replayed under an X server that draws into
-// memory, what the window shows held against goldens, and its pictures against `tureen render`.
+// memory, what the window shows held against goldens, and its images against `tureen render`.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -69,10 +69,10 @@ class Person {
   Person& replace(const std::string& file, const std::string& with) {
     return add(FileReplaced{.from = with, .to = file});
   }
-  /// A picture of the window as it is.
-  Person& take(const std::string& name) { return add(WindowPictured{name + ".png"}); }
-  /// Waits until all is at rest, then a picture of the window.
-  Person& look(const std::string& name) { return wait().add(WindowPictured{name + ".png"}); }
+  /// An image of the window as it is.
+  Person& take(const std::string& name) { return add(WindowScreenshot{name + ".png"}); }
+  /// Waits until all is at rest, then an image of the window.
+  Person& look(const std::string& name) { return wait().add(WindowScreenshot{name + ".png"}); }
 
   const Session& session() const { return session_; }
 
@@ -102,11 +102,11 @@ class Window : public testing::Test {
     arguments.insert(arguments.end(), {"--replay", "session.json", "--pictures", "pictures"});
     return Child(arguments, folder_).wait();
   }
-  Image8 picture(const std::string& name) const {
+  Image8 image(const std::string& name) const {
     Input input = Input::open(folder_ / "pictures" / (name + ".png"));
     return read_image(input);
   }
-  /// The picture of `tureen render` with these options.
+  /// The image of `tureen render` with these options.
   Image8 rendered(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), {"render", "soup.glb"});
     arguments.insert(arguments.end(), {"-o", "rendered.png"});
@@ -130,7 +130,7 @@ void expect_equal(const Image8& a, const Image8& b) {
 TEST_F(Window, ShowsTheSceneAndItsPanels) {
   const ChildResult result = replay(Person().look("loaded"));
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  expect_golden(picture("loaded"), "window_loaded");
+  expect_golden(image("loaded"), "window_loaded");
 }
 
 TEST_F(Window, OrbitsFliesAndSwitchesViews) {
@@ -146,8 +146,8 @@ TEST_F(Window, OrbitsFliesAndSwitchesViews) {
                                         .drag(Button::left, {150, 200}, {130, 210})
                                         .look("flown"));
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  expect_golden(picture("orbited"), "window_orbited");
-  expect_golden(picture("flown"), "window_flown");
+  expect_golden(image("orbited"), "window_orbited");
+  expect_golden(image("flown"), "window_flown");
 }
 
 TEST_F(Window, ABadFileShowsItsErrorAndTheOldSceneStays) {
@@ -155,18 +155,18 @@ TEST_F(Window, ABadFileShowsItsErrorAndTheOldSceneStays) {
   const ChildResult result = replay(Person().wait().drop("bad.glb").look("bad"));
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, Names("bad.glb"));
-  expect_golden(picture("bad"), "window_bad_file");
+  expect_golden(image("bad"), "window_bad_file");
 }
 
 TEST_F(Window, WithoutASceneAsksForOne) {
   const ChildResult result = replay(Person().look("empty").press(Key::f1).look("keys"), {});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  expect_golden(picture("empty"), "window_empty");
-  expect_golden(picture("keys"), "window_keys");
+  expect_golden(image("empty"), "window_empty");
+  expect_golden(image("keys"), "window_keys");
 }
 
-// Without panels the window is the picture: the very pixels of the program without a window.
-TEST_F(Window, ShowsThePictureOfTureenRender) {
+// Without panels the window is the image: the very pixels of the program without a window.
+TEST_F(Window, ShowsTheImageOfTureenRender) {
   const ChildResult result = replay(Person({640, 400})
                                         .wait()
                                         .press(Key::h)
@@ -174,10 +174,10 @@ TEST_F(Window, ShowsThePictureOfTureenRender) {
                                         .press(Key::right_bracket)
                                         .look("second"));
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  expect_equal(picture("second"), rendered({"--camera", "soup.glb:1", "--size", "640x400"}));
+  expect_equal(image("second"), rendered({"--camera", "soup.glb:1", "--size", "640x400"}));
 }
 
-TEST_F(Window, SavesPicturesUnderNewNames) {
+TEST_F(Window, SavesImagesUnderNewNames) {
   const ChildResult result = replay(Person({640, 400})
                                         .wait()
                                         .press(Key::h)
@@ -188,25 +188,25 @@ TEST_F(Window, SavesPicturesUnderNewNames) {
                                         .wait());
   EXPECT_EQ(result.exit_code, 0) << result.err;
   const Image8 expected = rendered({"--camera", "soup.glb:0", "--size", "640x400"});
-  expect_equal(picture("soup-1"), expected);
-  expect_equal(picture("soup-2"), expected);
+  expect_equal(image("soup-1"), expected);
+  expect_equal(image("soup-2"), expected);
 }
 
 /// Rows of the column of panels in a window 720 points wide, as the goldens show them.
-constexpr glm::dvec2 pictures_header{560, 443}, as_large_as_the_window{419, 467};
+constexpr glm::dvec2 images_header{560, 443}, as_large_as_the_window{419, 467};
 
-TEST_F(Window, SavesPicturesLargerThanItself) {
+TEST_F(Window, SavesImagesLargerThanItself) {
   const ChildResult result = replay(Person({720, 640})
                                         .wait()
                                         .press(Key::right_bracket)
-                                        .click(pictures_header)
+                                        .click(images_header)
                                         .click(as_large_as_the_window)
                                         .look("panel")
                                         .press_with_control(Key::s)
                                         .wait());
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  expect_golden(picture("panel"), "window_pictures");
-  expect_equal(picture("soup-1"), rendered({"--camera", "soup.glb:0", "--size", "3840x2160"}));
+  expect_golden(image("panel"), "window_images");
+  expect_equal(image("soup-1"), rendered({"--camera", "soup.glb:0", "--size", "3840x2160"}));
 }
 
 TEST_F(Window, PlaysACameraPath) {
@@ -216,8 +216,8 @@ TEST_F(Window, PlaysACameraPath) {
   person.hold(Key::super, 0.7).take("middle").look("end");
   const ChildResult result = replay(person);
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  expect_golden(picture("middle"), "window_path_middle");
-  expect_golden(picture("end"), "window_path_end");
+  expect_golden(image("middle"), "window_path_middle");
+  expect_golden(image("end"), "window_path_end");
 }
 
 TEST_F(Window, LooksBehindTheColours) {
@@ -230,8 +230,8 @@ TEST_F(Window, LooksBehindTheColours) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   // What each shows is held elsewhere (tests/runtime): here, that the window shows it.
   for (std::size_t i = 1; i < looks.size(); ++i)
-    EXPECT_NE(picture(looks[i]).pixels, picture(looks[i - 1]).pixels) << looks[i];
-  expect_golden(picture("depth"), "window_depth");
+    EXPECT_NE(image(looks[i]).pixels, image(looks[i - 1]).pixels) << looks[i];
+  expect_golden(image("depth"), "window_depth");
 }
 
 TEST_F(Window, BackFromALookTheColoursAreOfNow) {
@@ -247,7 +247,7 @@ TEST_F(Window, BackFromALookTheColoursAreOfNow) {
   EXPECT_EQ(replay(plain).exit_code, 0);
   const ChildResult result = replay(looked);
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  expect_equal(picture("back"), picture("plain"));
+  expect_equal(image("back"), image("plain"));
 }
 
 TEST_F(Window, AnotherSceneIsShownAsFarAsItCanBe) {
@@ -270,23 +270,23 @@ TEST_F(Window, SavesWhatIsLookedAt) {
                                         .press_with_control(Key::s)
                                         .wait());
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  const Image8 saved = picture("soup-1");
+  const Image8 saved = image("soup-1");
   expect_equal(saved, rendered({"--camera", "soup.glb:0", "--size", "320x240", "--show", "depth"}));
-  expect_equal(picture("shown"), saved);
+  expect_equal(image("shown"), saved);
 }
 
-TEST_F(Window, PicturesInARowAreAllSaved) {
+TEST_F(Window, ImagesInARowAreAllSaved) {
   Person person({320, 200});
   person.wait().press(Key::h);
   for (int i = 0; i < 3; ++i) person.press_with_control(Key::s);
   EXPECT_EQ(replay(person.wait()).exit_code, 0);
-  for (const char* name : {"soup-1", "soup-2", "soup-3"}) EXPECT_EQ(picture(name).width, 320);
+  for (const char* name : {"soup-1", "soup-2", "soup-3"}) EXPECT_EQ(image(name).width, 320);
 }
 
 TEST_F(Window, FilesCanBePickedBeforeThereIsAScene) {
   EXPECT_EQ(replay(Person().look("empty").press_with_control(Key::o).look("files"), {}).exit_code,
             0);
-  EXPECT_NE(picture("empty").pixels, picture("files").pixels);
+  EXPECT_NE(image("empty").pixels, image("files").pixels);
 }
 
 // A dataset of one photograph to train on and one held out, both drawn from the scene itself: the
@@ -324,25 +324,25 @@ TEST_F(Window, ComparesWithThePhotographs) {
                                         .look("difference"),
                                     {"soup.glb", "photographs"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  expect_golden(picture("split"), "window_split");
-  expect_golden(picture("difference"), "window_difference");
+  expect_golden(image("split"), "window_split");
+  expect_golden(image("difference"), "window_difference");
 }
 
 TEST_F(Window, WorksOnEs) {
   const Person person = Person().wait().press(Key::digit_7).look("es");
   const ChildResult es = replay(person, {"soup.glb", "--api", "es"});
   EXPECT_EQ(es.exit_code, 0) << es.err;
-  expect_golden(picture("es"), "window_three_quarter", "es");
+  expect_golden(image("es"), "window_three_quarter", "es");
   const ChildResult desktop = replay(person);
   EXPECT_EQ(desktop.exit_code, 0) << desktop.err;
-  expect_golden(picture("es"), "window_three_quarter");
+  expect_golden(image("es"), "window_three_quarter");
 }
 
 TEST_F(Window, FollowsItsSize) {
   const ChildResult result = replay(
       Person().wait().press(Key::h).press(Key::right_bracket).resize({500, 300}).look("small"));
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  expect_equal(picture("small"), rendered({"--camera", "soup.glb:0", "--size", "500x300"}));
+  expect_equal(image("small"), rendered({"--camera", "soup.glb:0", "--size", "500x300"}));
 }
 
 TEST_F(Window, AFileThatChangesOnTheDiskIsReadAgain) {
@@ -358,7 +358,7 @@ TEST_F(Window, AFileThatChangesOnTheDiskIsReadAgain) {
                                         .look("after"),
                                     {"scene.off"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  const Image8 before = picture("before"), after = picture("after");
+  const Image8 before = image("before"), after = image("after");
   const auto count = [](const Image8& image, glm::u8vec4 color) {
     return std::count(image.pixels.begin(), image.pixels.end(), color);
   };
@@ -372,9 +372,9 @@ TEST_F(Window, AFileThatChangesOnTheDiskIsReadAgain) {
 TEST_F(Window, TheSameSessionShowsTheSame) {
   const Person person = Person().wait().press(Key::digit_7).hold(Key::w, 0.3).look("once");
   EXPECT_EQ(replay(person).exit_code, 0);
-  const Image8 once = picture("once");
+  const Image8 once = image("once");
   EXPECT_EQ(replay(person).exit_code, 0);
-  expect_equal(once, picture("once"));
+  expect_equal(once, image("once"));
 }
 
 TEST_F(Window, WhatIsRecordedCanBeReplayed) {
@@ -386,13 +386,13 @@ TEST_F(Window, WhatIsRecordedCanBeReplayed) {
                             .turn_wheel(2)
                             .look("end");
   EXPECT_EQ(replay(person, {"soup.glb", "--record", "recorded.json"}).exit_code, 0);
-  const Image8 first = picture("end");
+  const Image8 first = image("end");
   fs::remove(folder_ / "pictures" / "end.png");
   const ChildResult again =
       Child({"soup.glb", "--replay", "recorded.json", "--pictures", "pictures"}, folder_).wait();
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_GE(read_session(folder_ / "recorded.json").events.size(), 10u);
-  expect_equal(picture("end"), first);
+  expect_equal(image("end"), first);
 }
 
 TEST_F(Window, WhatCannotBeIsSaid) {

@@ -1,4 +1,4 @@
-// How the page begins: without WebGL2, from the disk as one file, and how long its first picture takes.
+// How the page begins: without WebGL2, from the disk as one file, and how long its first image takes.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { brotliCompressSync } from 'node:zlib';
-import { built, middle, pick, picture, programs, sceneShown, scratch, source, stage, still, view, viewChanged } from './support.mjs';
+import { built, middle, pick, image, programs, sceneShown, scratch, source, stage, still, view, viewChanged } from './support.mjs';
 
 const folder = scratch();
 const { visit } = await stage();
@@ -24,14 +24,14 @@ test('a page of one file, from the disk', () => {
                { env: { ...process.env, TUREEN_WEB_TEMPLATE: join(built, 'scene_template.html') }, stdio: 'ignore' });
   return visit(pathToFileURL(file).href, async (page) => {
     await sceneShown(page);
-    const before = await picture(page);
+    const before = await image(page);
     const { x, y } = await middle(page);
     await page.mouse.move(x, y);
     await page.mouse.down();
     await page.mouse.move(x + 80, y, { steps: 4 });
     await page.mouse.up();
     await still(page);
-    assert.ok(!before.equals(await picture(page)), 'it turns');
+    assert.ok(!before.equals(await image(page)), 'it turns');
     await pick(page, join(source, 'examples/soup.glb'));
     await sceneShown(page, 'soup');
     await page.selectOption('#look', 'depth', { force: true });
@@ -53,7 +53,7 @@ test('what a browser fetches before the first scene is below 400 KB', () => {
 });
 
 // No time is asserted: other tests and builds share the processor. docs/benchmarks.md has what an idle one shows.
-test('the first picture of the example', () => visit('?scene=soup.glb', async (page) => {
+test('the first image of the example', () => visit('?scene=soup.glb', async (page) => {
   await sceneShown(page, 'soup');
   const before = await view(page);
   assert.ok(before.eye);

@@ -31,7 +31,7 @@ export async function drawingPage(page) {
       }, files);
     },
     /** `from`: the number of a recorded camera, or a pose. */
-    async picture({ from, width, height, look = 'color', features }) {
+    async image({ from, width, height, look = 'color', features }) {
       const base64 = await page.evaluate(async ([at, size, what, which]) => {
         if (typeof at === 'number') viewer.showCamera(at); else viewer.setView(at);
         await viewer.show(what, which);

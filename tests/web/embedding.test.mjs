@@ -42,7 +42,7 @@ const call = (page, ...given) => page.evaluate((what) => window.call(...what), g
 /** Until the framed page shows a scene, whole. */
 const framedScene = (page) => page.waitForFunction(async () => await window.call('scene') !== null);
 
-test('a scene, views and a picture, by calls', framed('', async (page) => {
+test('a scene, views and an image, by calls', framed('', async (page) => {
   const summary = await call(page, 'load', { url: 'soup.glb' });
   assert.equal(summary.triangles, 7000);
   assert.equal((await call(page, 'scene')).name, 'soup');
@@ -52,8 +52,8 @@ test('a scene, views and a picture, by calls', framed('', async (page) => {
   for (const part of ['eye', 'target', 'up'])
     now[part].forEach((value, axis) => assert.ok(Math.abs(value - pose[part][axis]) < 1e-9, `${part}: ${now[part]}`));
   const size = await page.evaluate(async () => {
-    const picture = await createImageBitmap(await window.call('screenshot', { width: 64, height: 48 }));
-    return [picture.width, picture.height];
+    const image = await createImageBitmap(await window.call('screenshot', { width: 64, height: 48 }));
+    return [image.width, image.height];
   });
   assert.deepEqual(size, [64, 48]);
   await call(page, 'show', 'depth');
@@ -77,7 +77,7 @@ test('events that are subscribed to, until they are not', framed('&scene=soup.gl
   assert.equal(await count(), before);
 }));
 
-test('only the picture is there', framed('&scene=soup.glb', async (page) => {
+test('only the image is there', framed('&scene=soup.glb', async (page) => {
   const inside = page.frameLocator('#frame');
   await framedScene(page);
   for (const part of ['.actions', '#panel', '#start']) assert.ok(await inside.locator(part).isHidden(), part);
@@ -127,8 +127,8 @@ test('the example of a frame', () => visit('examples/embed.html', async (page) =
   await page.frameLocator('iframe').locator('body:not(.empty)').waitFor();
   await page.click('#where');
   await page.locator('#status', { hasText: /\d\.\d\d/ }).waitFor();
-  await page.click('#picture');
-  await page.locator('#pictures img').waitFor();
+  await page.click('#image');
+  await page.locator('#images img').waitFor();
 }));
 
 test('the example of a viewer', () => visit('examples/viewer.html', async (page) => {

@@ -7,7 +7,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { readPng } from './png.mjs';
-import { distance, errorKind, errorShown, middle, noticeShown, often, pick, picture, programs, sceneShown, scratch, source, stage, still, view, viewChanged } from './support.mjs';
+import { distance, errorKind, errorShown, middle, noticeShown, often, pick, image, programs, sceneShown, scratch, source, stage, still, view, viewChanged } from './support.mjs';
 
 const folder = scratch(), other = join(folder, 'UvTexturesMlp.glb');
 execFileSync(join(programs, 'make_golden_scenes'), [join(source, 'examples/soup.glb'), folder]);
@@ -107,8 +107,8 @@ test('without memory for all of a scene a lower lattice level is drawn, and said
   await page.goto(new URL('?scene=soup.glb', server.address).href);
   await sceneShown(page, 'soup');
   await noticeShown(page, /\b2\b/);
-  const { pixels } = readPng(await picture(page));
-  assert.ok(new Set(pixels).size > 100, 'there is a picture');
+  const { pixels } = readPng(await image(page));
+  assert.ok(new Set(pixels).size > 100, 'there is an image');
 }));
 
 test('without memory for any level of it the page says so, and goes on', () => visit('', async (page, profile) => {
@@ -122,7 +122,7 @@ test('the device is lost and comes back, with scene, view and look', () => visit
   await sceneShown(page, 'soup');
   const first = await view(page);
   await page.keyboard.press('2');
-  const before = await viewChanged(page, first), shown = await picture(page);
+  const before = await viewChanged(page, first), shown = await image(page);
   await page.evaluate(() => {
     window.loss = document.getElementById('canvas').getContext('webgl2').getExtension('WEBGL_lose_context');
     loss.loseContext();
@@ -135,7 +135,7 @@ test('the device is lost and comes back, with scene, view and look', () => visit
   await sceneShown(page, 'soup');
   const after = await view(page);
   assert.ok(distance(after.eye, before.eye) < 1e-3, 'the same view');
-  assert.ok(shown.equals(await picture(page)), 'the same picture');
+  assert.ok(shown.equals(await image(page)), 'the same image');
 }));
 
 test('the device is lost while a scene is on its way', () => visit('', async (page) => {
@@ -208,13 +208,13 @@ test('a hidden tab moves nothing, opens scenes, and shows them when it is seen',
   await page.evaluate(() => hide(false));
   assert.ok(distance((await viewChanged(page, before)).eye, before.eye) > 0.1, 'it moves when it is seen');
 
-  const shown = await picture(page);
+  const shown = await image(page);
   await page.evaluate(() => hide(true));
   await pick(page, other);
   await sceneShown(page, 'UvTexturesMlp');
   await page.evaluate(() => hide(false));
   await still(page);
-  assert.ok(!shown.equals(await picture(page)), 'the other scene is drawn');
+  assert.ok(!shown.equals(await image(page)), 'the other scene is drawn');
 }));
 
 /** The canvas has as many pixels as the screen has under it. */

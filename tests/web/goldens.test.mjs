@@ -1,4 +1,4 @@
-// The page draws what the program draws. On llvmpipe its pictures are held against the approved ones,
+// The page draws what the program draws. On llvmpipe its images are held against the approved ones,
 // in which ./dev golden says how they come about, with the same budget; on SwiftShader they have to be
 // like them.
 
@@ -8,7 +8,7 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { drawingPage, drawingRoutes } from './drawing.mjs';
 import { writeMobileNerf } from './mobilenerf_scene.mjs';
-import { assertAlike, assertSame } from './pictures.mjs';
+import { assertAlike, assertSame } from './images.mjs';
 import { readPng } from './png.mjs';
 import { programs, scratch, source, stage } from './support.mjs';
 
@@ -26,22 +26,22 @@ const appearances = ['FaceColors', 'VertexColors', 'FaceHarmonics', 'VertexHarmo
                      'Lattice', 'LatticeMlp', 'UvTextures', 'UvTexturesMlp'];
 
 for (const name of appearances) {
-  test(`${name} on llvmpipe`, drawing(llvmpipe, async ({ load, picture }) => {
+  test(`${name} on llvmpipe`, drawing(llvmpipe, async ({ load, image }) => {
     await load(scenes, [`${name}.glb`]);
-    assertSame(name, golden(name), await picture({ from: 0, width: 320, height: 240 }));
+    assertSame(name, golden(name), await image({ from: 0, width: 320, height: 240 }));
   }));
 }
 
-test('the example on llvmpipe', drawing(llvmpipe, async ({ load, picture }) => {
+test('the example on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {
   await load(join(source, 'examples'), ['soup.glb']);
-  assertSame('example', golden('example'), await picture({ from: 40, width: 320, height: 240 }));
+  assertSame('example', golden('example'), await image({ from: 40, width: 320, height: 240 }));
 }));
 
-test('every look on llvmpipe', drawing(llvmpipe, async ({ load, picture }) => {
+test('every look on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {
   await load(scenes, ['debug_views.glb']);
   for (const look of ['alpha', 'depth', 'features', 'mlp-weight', 'normals', 'overdraw', 'texels', 'triangle-id', 'wireframe'])
     assertSame(`debug_view_${look}`, golden(`debug_view_${look}`),
-               await picture({ from: 0, width: 160, height: 120, look, features: { first: 4, count: 3 } }));
+               await image({ from: 0, width: 160, height: 120, look, features: { first: 4, count: 3 } }));
 }));
 
 // Folders bring no cameras; the program draws from the same place.
@@ -57,31 +57,31 @@ function drawnByProgram(scene) {
 }
 
 for (const name of ['diffsoup', 'mobilenerf']) {
-  test(`a folder of ${name} on llvmpipe`, drawing(llvmpipe, async ({ load, picture }) => {
+  test(`a folder of ${name} on llvmpipe`, drawing(llvmpipe, async ({ load, image }) => {
     const folder = join(scenes, name);
     await load(folder);
-    assertSame(name, drawnByProgram(folder), await picture({ from, width: 320, height: 240 }));
+    assertSame(name, drawnByProgram(folder), await image({ from, width: 320, height: 240 }));
   }));
 }
 
-test('a slim file on llvmpipe', drawing(llvmpipe, async ({ load, picture }) => {
+test('a slim file on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {
   const slim = join(scenes, 'slim.glb');
   execFileSync(join(programs, 'tureen'), ['convert', join(scenes, 'LatticeMlp.glb'), slim, '--slim'], { stdio: 'ignore' });
   await load(scenes, ['slim.glb']);
-  assertSame('slim', drawnByProgram(slim), await picture({ from, width: 320, height: 240 }));
+  assertSame('slim', drawnByProgram(slim), await image({ from, width: 320, height: 240 }));
 }));
 
 // SwiftShader rounds the places of vertices and the weights of corners otherwise: pixels at edges show
 // the other side of the edge. On triangles of a few pixels that is 32 to 42 dB; a wrong appearance, a
 // mirrored axis or a shifted lattice is below 25.
 for (const name of appearances) {
-  test(`${name} on SwiftShader`, drawing(swiftshader, async ({ load, picture }) => {
+  test(`${name} on SwiftShader`, drawing(swiftshader, async ({ load, image }) => {
     await load(scenes, [`${name}.glb`]);
-    assertAlike(`${name}-swiftshader`, golden(name), await picture({ from: 0, width: 320, height: 240 }), 30);
+    assertAlike(`${name}-swiftshader`, golden(name), await image({ from: 0, width: 320, height: 240 }), 30);
   }));
 }
 
-test('the example on SwiftShader', drawing(swiftshader, async ({ load, picture }) => {
+test('the example on SwiftShader', drawing(swiftshader, async ({ load, image }) => {
   await load(join(source, 'examples'), ['soup.glb']);
-  assertAlike('example-swiftshader', golden('example'), await picture({ from: 40, width: 320, height: 240 }), 30);
+  assertAlike('example-swiftshader', golden('example'), await image({ from: 40, width: 320, height: 240 }), 30);
 }));

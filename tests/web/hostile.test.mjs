@@ -5,7 +5,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { readPng } from './png.mjs';
-import { errorKind, errors, errorShown, pick, picture, sceneShown, source, stage } from './support.mjs';
+import { errorKind, errors, errorShown, pick, image, sceneShown, source, stage } from './support.mjs';
 
 const example = readFileSync(join(source, 'examples/soup.glb'));
 const answer = (bytes, type = 'model/gltf-binary') => (request, response) =>
@@ -63,13 +63,13 @@ for (const [address, kind, values, complaint] of cases) {
 
 test('a bad one leaves the scene that is shown', () => visit('?scene=soup.glb', async (page) => {
   await sceneShown(page, 'soup');
-  const before = await picture(page);
+  const before = await image(page);
   await pick(page, { name: 'garbage.glb', mimeType: 'model/gltf-binary', buffer: garbage });
   assert.match(await errorShown(page), /garbage\.glb/);
   assert.equal(await page.textContent('#scene-title'), 'soup');
   await page.click('#errors button');
   assert.deepEqual(await errors(page), []);
-  assert.ok(before.equals(await picture(page)), 'the picture is what it was');
+  assert.ok(before.equals(await image(page)), 'the image is what it was');
 }));
 
 test('files that are no scene', () => visit('', async (page) => {
@@ -93,7 +93,7 @@ test('a scene of which nothing can be drawn is background', () => visit('', asyn
   const off = Buffer.from('OFF\n3 1 0\nnan nan nan\n0 1 0\n1 0 0\n3 0 1 2\n');
   await pick(page, { name: 'nan.off', mimeType: 'text/plain', buffer: off });
   await sceneShown(page, 'nan');
-  const { width, height, pixels } = readPng(await picture(page));
+  const { width, height, pixels } = readPng(await image(page));
   const row = pixels.subarray(4 * width * (height >> 1)).subarray(0, 4 * width);  // the canvas has round corners
   assert.ok(new Set(row).size <= 4, 'one colour');
 }));

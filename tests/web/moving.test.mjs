@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { distance, length, middle, minus, often, picture, sceneShown, stage, view, viewChanged } from './support.mjs';
+import { distance, length, middle, minus, often, image, sceneShown, stage, view, viewChanged } from './support.mjs';
 
 const { visit } = await stage();
 
@@ -70,7 +70,7 @@ test('a double click brings a point to the centre', looking(async (page, before,
   assert.ok(distance(after.target, before.target) > 0.05, 'another target');
 }));
 
-test('keys on the picture', looking(async (page, before) => {
+test('keys on the image', looking(async (page, before) => {
   await page.focus('#canvas');
   await page.keyboard.press('ArrowRight');
   const turned = await viewChanged(page, before);
@@ -131,10 +131,10 @@ test('views, cameras and saved views of the panel', looking(async (page, before)
 }));
 
 test('looks, with what their colours mean', looking(async (page) => {
-  const colors = await picture(page);
+  const colors = await image(page);
   await page.keyboard.press('v');
   await page.waitForFunction(() => location.hash.includes('look='));
-  assert.ok(!colors.equals(await picture(page)), 'another picture');
+  assert.ok(!colors.equals(await image(page)), 'another image');
   await page.evaluate(() => { document.getElementById('look').closest('details').open = true; });
   for (const look of ['depth', 'normals', 'overdraw', 'triangle-id']) {
     await page.selectOption('#look', look);
@@ -142,7 +142,7 @@ test('looks, with what their colours mean', looking(async (page) => {
   }
   await page.selectOption('#look', 'color');
   await page.waitForFunction(() => !location.hash.includes('look='));
-  assert.ok(colors.equals(await picture(page)), 'and the colours again');
+  assert.ok(colors.equals(await image(page)), 'and the colours again');
 }));
 
 // -- fingers ----------------------------------------------------------------------------------------

@@ -6,7 +6,7 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { distance, middle, patience, pick, picture, programs, sceneShown, scratch, source, stage, still, view } from './support.mjs';
+import { distance, middle, patience, pick, image, programs, sceneShown, scratch, source, stage, still, view } from './support.mjs';
 
 const example = join(source, 'examples/soup.glb');
 const bytes = readFileSync(example);
@@ -132,7 +132,7 @@ test('a folder that is dropped', () => visit('', async (page) => {
 
 test('a download that is cancelled leaves what was there before', () => visit('?scene=soup.glb', async (page) => {
   await sceneShown(page, 'soup');
-  const before = await picture(page);
+  const before = await image(page);
   await page.keyboard.press('o');
   await page.fill('#address', 'drizzle.glb');
   await page.press('#address', 'Enter');
@@ -144,7 +144,7 @@ test('a download that is cancelled leaves what was there before', () => visit('?
   await waitFor(() => page.workers().length === 0, 'the loader is gone');
   assert.equal(await page.textContent('#scene-title'), 'soup');
   await still(page);
-  assert.ok(before.equals(await picture(page)), 'the picture is what it was');
+  assert.ok(before.equals(await image(page)), 'the image is what it was');
 }));
 
 test('the bar says how much has come', () => visit('?scene=slow.glb', async (page) => {
@@ -164,11 +164,11 @@ test('another scene takes the place of one that is on its way', () => visit('?sc
   assert.equal(page.workers().length, 0);
 }));
 
-test('a first picture before all has come, which can be turned', () => visit('?scene=half.glb', async (page) => {
+test('a first image before all has come, which can be turned', () => visit('?scene=half.glb', async (page) => {
   await page.locator('body:not(.empty)').waitFor();
   await page.locator('#loading').waitFor();  // the rest is on its way
   await still(page);
-  const first = await picture(page);
+  const first = await image(page);
   assert.ok(await page.isHidden('#start'));
   const { x, y } = await middle(page);
   await page.mouse.move(x, y);
@@ -176,12 +176,12 @@ test('a first picture before all has come, which can be turned', () => visit('?s
   await page.mouse.move(x + 120, y, { steps: 4 });
   await page.mouse.up();
   await still(page);
-  const turned = await picture(page);
-  assert.ok(!first.equals(turned), 'a drag turns the first picture');
+  const turned = await image(page);
+  assert.ok(!first.equals(turned), 'a drag turns the first image');
   held.get('/half.glb').rest();
   await sceneShown(page, 'soup');
   const after = await view(page);
-  assert.ok(!turned.equals(await picture(page)), 'the texels have come');
+  assert.ok(!turned.equals(await image(page)), 'the texels have come');
   await page.keyboard.press('r');
   await page.waitForFunction((hash) => location.hash !== hash, after.hash);
   assert.ok(distance((await view(page)).eye, after.eye) > 0.1, 'the view that was turned to had stayed');

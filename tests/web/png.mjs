@@ -1,5 +1,5 @@
 // PNG as the programs and browsers of these tests write it: 8 bits, grey, RGB or RGBA, not interlaced.
-// A picture is {width, height, pixels}: RGBA bytes, rows from the top.
+// An image is {width, height, pixels}: RGBA bytes, rows from the top.
 
 import { deflateSync, inflateSync } from 'node:zlib';
 

@@ -1,5 +1,5 @@
 // A soup that was packed where scenes are read and unpacked where they are drawn gives the very
-// same picture and plan as one that never travelled, whatever its appearance.
+// same image and plan as one that never travelled, whatever its appearance.
 #include "web/engine/prepared_archive.hpp"
 
 #include <gtest/gtest.h>

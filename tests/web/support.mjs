@@ -15,7 +15,7 @@ import { built, launch, source } from './browser.mjs';
 export { built, source };
 /** The programs that the same sources make for this machine. */
 export const programs = process.env.TUREEN_PROGRAMS ?? join(source, 'build/release/bin');
-/** Where failing tests leave pictures. */
+/** Where failing tests leave images. */
 export const evidence = process.env.TUREEN_EVIDENCE ?? join(source, 'build/release/golden-variants');
 
 /** A browser under test may be slow, on two cores that also draw; it is not to hang. */
@@ -175,8 +175,8 @@ export async function viewChanged(page, before) {
   return view(page);
 }
 
-/** The picture alone, as the screen has it: without what lies over it. A PNG. */
-export async function picture(page) {
+/** The image alone, as the screen has it: without what lies over it. A PNG. */
+export async function image(page) {
   const show = (visibility) => page.evaluate((how) => {
     for (const over of document.querySelectorAll('.corner, .loading, .messages')) over.style.visibility = how;
   }, visibility);

@@ -64,7 +64,7 @@ const onViewer = (body, options) => () => visit('drawing.html', async (page) => 
   await body(page);
 }, options);
 
-const picture = (page) => tried(page, `
+const image = (page) => tried(page, `
   const bytes = new Uint8Array(await (await viewer.screenshot({ width: 64, height: 48 })).arrayBuffer());
   return btoa(String.fromCharCode(...bytes));`).then(({ result }) => readPng(Buffer.from(result, 'base64')));
 const colours = ({ pixels }) => new Set(new Uint32Array(pixels.buffer.slice(pixels.byteOffset, pixels.byteOffset + pixels.length))).size;
@@ -76,12 +76,12 @@ test('a scene of a thousand cameras', onViewer(async (page) => {
   assert.equal((await tried(page, `viewer.showCamera(5000);`)).kind, 'usage');
 }));
 
-test('a first picture goes with its load', onViewer(async (page) => {
+test('a first image goes with its load', onViewer(async (page) => {
   const begun = `const first = new Promise((resolve) => viewer.on('preview', resolve));
     window.half = viewer.load({ url: 'half.glb' }).catch((error) => error.kind);
     await first;`;
   await tried(page, begun);
-  assert.ok(colours(await picture(page)) > 50, 'it is seen');
+  assert.ok(colours(await image(page)) > 50, 'it is seen');
   assert.equal((await tried(page, `return viewer.load({ url: 'nowhere.glb' });`)).kind, 'network');
   assert.equal((await tried(page, 'return half;')).result, 'cancelled');
   assert.equal((await tried(page, 'return viewer.scene;')).result, null);
@@ -93,7 +93,7 @@ test('a first picture goes with its load', onViewer(async (page) => {
   assert.ok(result.target.every((value) => Math.abs(value - 100) < 2), `target: ${result.target}`);
 }, { expected: [/404/] }));
 
-test('the background before a first picture is back where nothing came of it', onViewer(async (page) => {
+test('the background before a first image is back where nothing came of it', onViewer(async (page) => {
   const { result } = await tried(page, `
     viewer.background = [1, 0, 0];
     const first = new Promise((resolve) => viewer.on('preview', resolve));

@@ -1,5 +1,5 @@
 // A camera in homogeneous pixels (X, Y, W): the pixel is (X / W, Y / W), W the distance from the
-// camera's plane, in world units. Points and the sides of the picture are linear in them, so that
+// camera's plane, in world units. Points and the sides of the image are linear in them, so that
 // edges and faces are clipped before anything is divided.
 #pragma once
 
@@ -23,7 +23,7 @@ class HomogeneousPixels {
 
   static constexpr int sides = 4;
 
-  /// From the picture's left, right, upper or lower side (0 .. 3), times W: not negative on the
+  /// From the image's left, right, upper or lower side (0 .. 3), times W: not negative on the
   /// inner side. All four together leave nothing behind the eye: their sums are width and height
   /// times W.
   double from_side(int side, glm::dvec3 point) const {

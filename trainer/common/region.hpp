@@ -17,7 +17,7 @@ struct Region {
 /// Of the training cameras and points.
 ///
 /// Where the optical axes meet, the centre is the point nearest to all of them (least squares), and
-/// the half side is what a camera's picture shows at its depth, from the middle to the nearer
+/// the half side is what a camera's image shows at its depth, from the middle to the nearer
 /// border; the median over the cameras. NeRF-synthetic lego: 1.45 around the origin, nearly.
 /// Where they do not meet (parallel axes, cameras that look outwards) points decide, if there are
 /// any: their median and the median distance from it. Else the cameras must: outward ones stand in

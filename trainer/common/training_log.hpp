@@ -21,7 +21,7 @@ struct TrainingRecord {
   double seconds = 0;  // of training, all sessions of a resumed run together
   double loss = 0;
   double l1 = 0;                            // the loss's two parts, unweighted
-  double ssim = 0;                          // 1 for equal pictures
+  double ssim = 0;                          // 1 for equal images
   double train_psnr_db = 0;                 // of the step's views
   std::optional<double> test_psnr_db = {};  // of held-out views, where it was measured
   std::size_t triangles = 0;

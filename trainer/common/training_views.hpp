@@ -9,7 +9,7 @@
 
 namespace tureen::trainer {
 
-/// A picture to learn from. Colours are composited on the background already.
+/// An image to learn from. Colours are composited on the background already.
 struct TrainingView {
   Camera camera;
   /// Three planes of width x height, row 0 on top: red, green, blue; value = byte / 255.
@@ -22,8 +22,8 @@ struct TrainingView {
 /// every pixel counts.
 TrainingView training_view(const Photograph& photograph, std::span<const float, 3> background);
 
-/// All of them, in their order. Takes the pictures: what stays in `photographs` are cameras, so
-/// that no picture is in memory twice.
+/// All of them, in their order. Takes the images: what stays in `photographs` are cameras, so
+/// that no image is in memory twice.
 std::vector<TrainingView> take_training_views(std::vector<Photograph>& photographs,
                                               std::span<const float, 3> background);
 

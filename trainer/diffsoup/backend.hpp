@@ -22,7 +22,7 @@ struct StepReport {
   double loss = 0;  // mean over the batch, as the gradient sees it
   double l1 = 0;
   double ssim = 0;
-  double mse = 0;                // of the stochastic pictures
+  double mse = 0;                // of the stochastic images
   std::uint64_t non_finite = 0;  // pixels and parameters quarantined in this step
 };
 
@@ -57,7 +57,7 @@ class Backend {
   /// How many pixels each face wins, threshold masking, all `cameras` together.
   virtual std::vector<std::uint64_t> visible_pixels(std::span<const Camera> cameras) = 0;
 
-  /// The picture, three planes of floats in [0, 1], threshold masking.
+  /// The image, three planes of floats in [0, 1], threshold masking.
   virtual std::vector<float> render(const Camera& camera) = 0;
 };
 

@@ -22,7 +22,7 @@ namespace {
 using Magic = std::array<char, 8>;
 constexpr Magic magic{'T', 'U', 'R', 'E', 'E', 'N', 'T', 'R'};
 
-/// As large as the pictures of our own files may be.
+/// As large as the images of our own files may be.
 constexpr std::int32_t most_side = 65'536;
 
 std::uint32_t checksum(std::uint32_t sum, std::span<const std::byte> bytes) {

@@ -11,7 +11,7 @@
 namespace tureen::trainer {
 
 enum class Preset {
-  object,  // pictures of one thing, usually with alpha, from all around
+  object,  // images of one thing, usually with alpha, from all around
   scene,   // photographs of a place, with points of structure from motion or without
 };
 
@@ -56,7 +56,7 @@ struct Config {
   // --- The texture
   int coarse_level = 0;   // the one level until lift_step
   int min_level = 2;      // levels min_level .. max_level afterwards
-  int max_level = 3;      // published: 5, which is for pictures of 800 pixels and more
+  int max_level = 3;      // published: 5, which is for images of 800 pixels and more
   float lift_at = 0.05f;  // published: 0.5; fraction of the steps after which the levels are lifted
   bool lift_keeps_opacity = true;  // published: false, opacity starts again at one half
 
@@ -77,7 +77,7 @@ struct Config {
   float vertex_rate = 1e-2f;  // lengths of training, see above; published for objects: 1e-3
   float decay = 0.01f;        // rates fall to this fraction, exponentially
   float beta1 = 0.9f, beta2 = 0.999f, epsilon = 1e-8f;
-  bool dense_updates = false;  // published: true. Also step what no picture of the batch touched
+  bool dense_updates = false;  // published: true. Also step what no image of the batch touched
   bool reset_moments = false;  // published: true. Moments start again at every resampling
   GradientPrecision gradient_precision = GradientPrecision::float32;
 
@@ -91,19 +91,19 @@ struct Config {
   // catches up: held-out views of lego lost 0.3 dB between a half and three quarters of a run.
   float turnover_until = 0.5f;
   bool split_by_error = true;   // published: false. Splits what errs most, not what is longest
-  float split_fraction = 0.2f;  // of the picture's height: longer projected edges are split
+  float split_fraction = 0.2f;  // of the image's height: longer projected edges are split
   int split_views = 20;         // at most so many views choose edges
   /// Published for scenes: true. Edges longer than split_fraction are all split, and the next
   /// pruning brings the faces back to the budget, whereas otherwise only pruning makes room.
   bool split_beyond_budget = false;
-  /// Published: 1. Faces that fewer training pictures show are removed; no more are asked for than
+  /// Published: 1. Faces that fewer training images show are removed; no more are asked for than
   /// one and a twentieth of all.
   int least_views = 1;
 
-  // --- The picture
+  // --- The image
   float near = 0.01f;
   float far = 100.0f;
-  /// Published: false. Faces of which a part is in a training picture and before its near plane
+  /// Published: false. Faces of which a part is in a training image and before its near plane
   /// are removed, so that the runtime, whose near plane is closer, shows what was trained.
   bool clear_near = false;
   float background[3] = {1, 1, 1};

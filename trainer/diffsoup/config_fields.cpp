@@ -26,7 +26,7 @@ constexpr const char* precisions[] = {"float32", "float16"};
 // Whole numbers beyond these are typing errors rather than wishes.
 constexpr Range steps{1, 1e7, {}, "a run takes at least one step", "it would take weeks"};
 constexpr Range views{
-    1, 1024, {}, "a step looks at one view or more", "a step holds all of its pictures in memory"};
+    1, 1024, {}, "a step looks at one view or more", "a step holds all of its images in memory"};
 // The texels of so many faces at level 3, a byte a channel, come to 1.4 GB.
 constexpr Range faces{
     1, 4e6, {}, "a soup has one triangle or more", "their textures would fill gigabytes"};

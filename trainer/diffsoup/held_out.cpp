@@ -42,10 +42,10 @@ double mean_psnr_db(Backend& backend, std::span<const Photograph> views, const C
 }
 
 Image8 preview(Backend& backend, const Photograph& view, const Config& config) {
-  Image8 picture = side_by_side(truth(view, config), to_float(drawn(backend, view.camera)));
+  Image8 image = side_by_side(truth(view, config), to_float(drawn(backend, view.camera)));
   // The photograph is shown over its background already.
-  for (glm::u8vec4& pixel : picture.pixels) pixel.a = 255;
-  return picture;
+  for (glm::u8vec4& pixel : image.pixels) pixel.a = 255;
+  return image;
 }
 
 std::vector<Photograph> some_of(std::span<const Photograph> views, std::size_t count) {

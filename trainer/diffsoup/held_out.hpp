@@ -14,7 +14,7 @@
 
 namespace tureen::trainer {
 
-/// The camera's picture as a device would write it, 8 bits a channel, opaque.
+/// The camera's image as a device would write it, 8 bits a channel, opaque.
 Image8 drawn(Backend& backend, const Camera& camera);
 
 /// The mean over views of the PSNR against the photograph over the background, as evaluate()

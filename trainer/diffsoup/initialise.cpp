@@ -175,7 +175,7 @@ Seeds random_seeds(const Region& region, std::span<const Photograph> views,
       options.count - std::size_t(std::llround(options.far * double(options.count)));
   const auto seen = [&views](glm::dvec3 point) {
     return std::ranges::any_of(
-        views, [&](const Photograph& view) { return in_picture(view.camera, point); });
+        views, [&](const Photograph& view) { return in_image(view.camera, point); });
   };
   Seeds seeds;
   while (seeds.centres.size() < options.count) {

@@ -55,7 +55,7 @@ Seeds seeds_at_points(std::span<const DatasetPoint> points, const PointSeeds& op
 
 /// Uniform in the cube `region`, but for a fraction `far` that lies around it, out to `far_extent`
 /// half sides from its centre, uniform in the logarithm of the distance. What no camera of `views`
-/// has in its picture is drawn again, a hundred times at most. Circumradii are `radius` times the
+/// has in its image is drawn again, a hundred times at most. Circumradii are `radius` times the
 /// mean distance to the nearest neighbour in the cube; outside of it they grow like the distance
 /// from the centre.
 struct RandomSeeds {

@@ -18,7 +18,7 @@ namespace {
 constexpr double value_margin = 1e-4;
 
 /// The logit of the blend between base colour and network where the network is not trained yet:
-/// it has a weight of 0.12, so that the picture begins as the scene was.
+/// it has a weight of 0.12, so that the image begins as the scene was.
 constexpr float quiet_blend = -2.0f;
 
 float logit(double value) {

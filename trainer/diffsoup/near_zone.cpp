@@ -12,7 +12,7 @@ namespace tureen::trainer {
 
 namespace {
 
-/// The pyramid between an eye and a rectangle parallel to its picture.
+/// The pyramid between an eye and a rectangle parallel to its image.
 class NearPyramid {
  public:
   NearPyramid(const Camera& camera, glm::dvec3 origin, double near)
@@ -54,7 +54,7 @@ class NearPyramid {
   double near_;
 };
 
-/// In front of the camera's plane, whether in its picture or not.
+/// In front of the camera's plane, whether in its image or not.
 double depth(const Camera& camera, glm::dvec3 point) {
   return -(camera.view_from_world * glm::dvec4(point, 1.0)).z;
 }
@@ -70,7 +70,7 @@ double nearest_surface(const Dataset& dataset, const Region& region) {
   std::vector<double> depths;
   for (const Photograph& view : dataset.train)
     for (const DatasetPoint& point : dataset.points)
-      if (in_picture(view.camera, point.position))
+      if (in_image(view.camera, point.position))
         depths.push_back(depth(view.camera, point.position));
   // Some points of structure from motion are mistakes, often right before a camera.
   if (!depths.empty()) return quantile(depths, 0.01);

@@ -93,7 +93,7 @@ class ViewProjection {
     double t;       // where the projected part is halved
   };
 
-  /// The part of an edge that is in the picture; nothing where there is none.
+  /// The part of an edge that is in the image; nothing where there is none.
   std::optional<Visible> visible(glm::dvec3 a, glm::dvec3 b) const {
     double low = 0, high = 1;
     for (int plane = 0; plane <= HomogeneousPixels::sides; ++plane) {
@@ -104,7 +104,7 @@ class ViewProjection {
     }
     if (low >= high) return std::nullopt;
     const glm::dvec3 from = a + low * (b - a), to = a + high * (b - a);
-    // Halved in the picture: (1 - s) W_from = s W_to.
+    // Halved in the image: (1 - s) W_from = s W_to.
     const double s = from.z / (from.z + to.z);
     return Visible{glm::length(glm::dvec2(to) / to.z - glm::dvec2(from) / from.z),
                    std::clamp(low + s * (high - low), least_cut, 1 - least_cut)};

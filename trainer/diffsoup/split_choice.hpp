@@ -20,7 +20,7 @@ std::vector<Split> longest_edges(const Model& model, std::size_t budget);
 /// Bisects the face of the greatest error, again and again, at its longest edge, until there are
 /// `budget` faces; each child has half of its parent's error. `errors` has one number a face; faces
 /// without error come after all others, the longest edge first.
-/// Triangles go where the picture needs them, which a length alone does not tell.
+/// Triangles go where the image needs them, which a length alone does not tell.
 std::vector<Split> greatest_errors(const Model& model, std::span<const float> errors,
                                    std::size_t budget);
 
@@ -32,16 +32,16 @@ struct SplitView {
 };
 
 struct ProjectedSplits {
-  double fraction = 0.2;   // of the picture's height: longer edges are split
+  double fraction = 0.2;   // of the image's height: longer edges are split
   std::size_t budget = 0;  // never more faces than this
-  double near = 0.01;      // what is nearer to the camera's plane is not in the picture
+  double near = 0.01;      // what is nearer to the camera's plane is not in the image
 };
 
 /// View by view, splits the longest projected edge of the faces that are visible in it, and of
 /// their children, as long as it is longer than the threshold; where the projected edge is halved.
 ///
-/// Published code leaves out every edge with an end outside the picture, and so never splits the
-/// largest faces. Here an edge counts by the part of it that is in the picture and before the near
+/// Published code leaves out every edge with an end outside the image, and so never splits the
+/// largest faces. Here an edge counts by the part of it that is in the image and before the near
 /// plane, and is cut in the middle of that part.
 std::vector<Split> longest_projected_edges(const Model& model, std::span<const SplitView> views,
                                            const ProjectedSplits& rule);

@@ -29,15 +29,15 @@ struct TrainingState {
   /// The error that each face showed since the last resampling: the sum over its pixels and their
   /// channels of |C - G|. Empty: none yet.
   std::vector<float> errors;
-  /// Running mean of the score's loss, a pixel of each training picture in its order, picture after
-  /// picture, stored as round(65535 sqrt(l / 3)); empty without a baseline.
+  /// Running mean of the score's loss, a pixel of each training image in its order, image after
+  /// image, stored as round(65535 sqrt(l / 3)); empty without a baseline.
   std::vector<std::uint16_t> baseline;
   std::uint64_t non_finite = 0;  // pixels and parameters that were quarantined so far
 };
 
 /// Puts numbers in the place of what is none, as a mesh to begin with may bring it: 0 for logits
 /// and weights, and of a face with a corner that is none all three become the origin, a face that
-/// no picture shows. Left as they are they would never learn: what is no number has no gradient
+/// no image shows. Left as they are they would never learn: what is no number has no gradient
 /// that is one. Moments of what was replaced begin again. Returns how many numbers were replaced,
 /// and adds them to non_finite.
 std::uint64_t quarantine(TrainingState& state);

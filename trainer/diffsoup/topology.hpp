@@ -27,7 +27,7 @@ Resampled prune(const Model& model, std::span<const std::uint64_t> pixels, std::
 Resampled prune_unseen(const Model& model, std::span<const std::uint64_t> pixels);
 
 /// All faces along a curve that fills space (Morton 1966): faces that are neighbours there are
-/// mostly neighbours in every picture, and what one has read the next finds in the cache.
+/// mostly neighbours in every image, and what one has read the next finds in the cache.
 Resampled in_space_order(const Model& model);
 
 /// A split: the edge from corner `edge` to the next one, cut at `t` (0..1, from the first corner).
@@ -38,8 +38,8 @@ struct Split {
 };
 
 enum class ChildTexture {
-  resampled,  // the picture stays: a child shows what its parent showed there
-  copied,     // both children copy the parent's texels: as published, the picture pops
+  resampled,  // the image stays: a child shows what its parent showed there
+  copied,     // both children copy the parent's texels: as published, the image pops
 };
 
 /// Cuts faces in two, one after the other. The half with the edge's first corner stands where the

@@ -19,8 +19,8 @@ namespace {
 constexpr std::uint64_t epoch_stream = std::uint64_t(1) << 32;
 constexpr std::uint64_t split_stream = std::uint64_t(2) << 32;
 
-/// Config::least_views rises by one for so many training pictures at most.
-constexpr std::size_t pictures_a_view = 20;
+/// Config::least_views rises by one for so many training images at most.
+constexpr std::size_t images_a_view = 20;
 
 /// Splits beyond the budget end at so many times the budget. A view has room for about 25 edges of
 /// a fifth of its height side by side, so twenty views come nowhere near it: this bounds memory
@@ -204,12 +204,12 @@ void Trainer::resample() {
   backend_->upload(state);
 }
 
-/// How many pixels each face wins; none for a face that too few pictures show, or that hangs right
+/// How many pixels each face wins; none for a face that too few images show, or that hangs right
 /// before a camera.
 std::vector<std::uint64_t> Trainer::evident_pixels(const Model& model,
                                                    std::span<const Camera> cameras) {
-  // Of few pictures one alone may be all that shows a place.
-  const int least = std::min(config_.least_views, 1 + int(cameras.size() / pictures_a_view));
+  // Of few images one alone may be all that shows a place.
+  const int least = std::min(config_.least_views, 1 + int(cameras.size() / images_a_view));
   std::vector<std::uint64_t> pixels;
   if (least > 1) {
     pixels.resize(model.faces());
@@ -241,7 +241,7 @@ std::vector<Split> Trainer::choose_splits(const TrainingState& state,
   if (state.model.faces() == 0) return {};
   std::vector<Split> splits;
   if (config_.preset == Preset::scene) {
-    // What is large in a picture is large there, whatever it is in the world.
+    // What is large in an image is large there, whatever it is in the world.
     backend_->upload(state);
     const std::vector<std::uint32_t> chosen =
         shuffled(cameras.size(), Random(config_.seed, split_stream + std::uint64_t(step_)));

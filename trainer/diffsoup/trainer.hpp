@@ -20,7 +20,7 @@ namespace tureen::trainer {
 
 /// What the last resampling did.
 struct ResampleReport {
-  std::size_t unseen = 0;  // removed: no training picture showed them
+  std::size_t unseen = 0;  // removed: no training image showed them
   std::size_t pruned = 0;  // removed for the budget
   std::size_t split = 0;   // splits
 };

@@ -84,10 +84,10 @@ Event event_of(const JsonView& view) {
     if (files->size() != 2) files->fail("expected a file and what replaces it");
     return FileReplaced{.from = files->at(1).text(), .to = files->at(0).text()};
   }
-  if (const auto name = view.find("picture")) return WindowPictured{name->text()};
+  if (const auto name = view.find("picture")) return WindowScreenshot{name->text()};
   view.fail(
       "an event is one of pointer, button, wheel, key, text, code_point, drop, resize, focus, "
-      "close, await, replace and picture");
+      "close, await, replace and image");
 }
 
 struct ToJson {
@@ -106,7 +106,7 @@ struct ToJson {
   Json operator()(const CloseAsked&) const { return {{"close", true}}; }
   Json operator()(const AwaitRest&) const { return {{"await", true}}; }
   Json operator()(const FileReplaced& event) const { return {{"replace", {event.to, event.from}}}; }
-  Json operator()(const WindowPictured& event) const { return {{"picture", event.name}}; }
+  Json operator()(const WindowScreenshot& event) const { return {{"picture", event.name}}; }
 };
 
 }  // namespace
@@ -161,7 +161,7 @@ Replay::Step Replay::next(bool at_rest) {
   clock_ += frame_seconds;
   while (!finished() && session_.events[position_].seconds <= clock_ && !awaits()) {
     step.events.push_back(session_.events[position_++].event);
-    if (std::holds_alternative<WindowPictured>(step.events.back())) break;
+    if (std::holds_alternative<WindowScreenshot>(step.events.back())) break;
   }
   return step;
 }

@@ -14,11 +14,11 @@
 //                 {"at": 1.4,  "drop": ["other.glb"]},
 //                 {"at": 1.5,  "resize": [800, 600]},
 //                 {"at": 1.6,  "replace": ["other.glb", "with.glb"]},
-//                 {"at": 2.0,  "picture": "after.png"},
+//                 {"at": 2.0,  "image": "after.png"},
 //                 {"at": 2.1,  "close": true} ] }
 //
 // "at" is in seconds since the session began, never falling. "await" lets the clock stand until
-// nothing is being loaded and nothing moves; "picture" saves what the window shows; "replace"
+// nothing is being loaded and nothing moves; "image" saves what the window shows; "replace"
 // copies the second file over the first, as a trainer that is still at work would. Paths are as the
 // program finds them: relative ones from the folder it was started in.
 #pragma once
@@ -55,7 +55,7 @@ class Recorder {
 };
 
 /// Deals a session out by a clock of its own: a frame is a sixtieth of a second, however long it
-/// takes, so that the same session shows the same pictures on every machine.
+/// takes, so that the same session shows the same images on every machine.
 class Replay {
  public:
   explicit Replay(Session session) : session_(std::move(session)) {}
@@ -65,7 +65,7 @@ class Replay {
   struct Step {
     std::vector<Event> events;
   };
-  /// Of the next frame. `at_rest`: nothing is being loaded and nothing moves. A picture ends the
+  /// Of the next frame. `at_rest`: nothing is being loaded and nothing moves. An image ends the
   /// frame's events, so that it shows all of those before it.
   Step next(bool at_rest);
   bool finished() const { return position_ == session_.events.size(); }

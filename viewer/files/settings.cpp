@@ -47,7 +47,7 @@ std::optional<fs::path> settings_file() {
   return *folder / "tureen" / "viewer.json";
 }
 
-fs::path pictures_folder() {
+fs::path images_folder() {
   std::error_code ignored;
   if (const auto folder = folder_of("XDG_PICTURES_DIR");
       folder && fs::is_directory(*folder, ignored))
@@ -74,7 +74,7 @@ Settings read_settings(const fs::path& file) {
   take(json, "smooth_motion", settings.smooth_motion, name);
   take(json, "recent", settings.recent, name);
   settings.recent.resize(std::min(settings.recent.size(), most_recent));
-  take(json, "pictures", settings.pictures, name);
+  take(json, "pictures", settings.images, name);
   return settings;
 }
 
@@ -83,7 +83,7 @@ void write_settings(const Settings& settings, const fs::path& file) {
                      {"vsync", settings.vsync},
                      {"smooth_motion", settings.smooth_motion},
                      {"recent", settings.recent},
-                     {"pictures", settings.pictures}};
+                     {"pictures", settings.images}};
   make_folder(file.parent_path());
   // Names of files may hold any bytes.
   write_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");

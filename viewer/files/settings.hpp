@@ -15,7 +15,7 @@ struct Settings {
   bool vsync = true;
   bool smooth_motion = true;
   std::vector<std::string> recent;  // scenes, the newest first; at most most_recent
-  std::string pictures;             // the folder of screenshots; empty: pictures_folder()
+  std::string images;               // the folder of screenshots; empty: images_folder()
 };
 
 inline constexpr std::size_t most_recent = 12;
@@ -23,8 +23,8 @@ inline constexpr std::size_t most_recent = 12;
 /// $XDG_CONFIG_HOME/tureen/viewer.json, or that under ~/.config; nothing without a home.
 std::optional<std::filesystem::path> settings_file();
 
-/// $XDG_PICTURES_DIR or ~/Pictures where they are there, or else the current folder.
-std::filesystem::path pictures_folder();
+/// $XDG_PICTURES_DIR or ~/Images where they are there, or else the current folder.
+std::filesystem::path images_folder();
 
 /// Defaults where there is no file. What the file lacks is at its default. Throws InputError for
 /// one that is not ours.

@@ -12,7 +12,7 @@
 #include "image/png_rows.hpp"
 #include "image/video_file.hpp"
 #include "runtime/debug_views/debug_view_renderer.hpp"
-#include "runtime/picture_tiles.hpp"
+#include "runtime/image_tiles.hpp"
 
 namespace tureen::viewer {
 
@@ -25,7 +25,7 @@ constexpr double preparing_share = 0.05;
 constexpr int most_frames = 1000000;
 
 /// Writes what `draw` hands to its sink.
-void write_rows(const PictureJob& job, const std::function<void(const BandSink&)>& draw) {
+void write_rows(const ImageJob& job, const std::function<void(const BandSink&)>& draw) {
   Output output(job.path);
   PngRows rows(output, job.camera.width, job.camera.height);
   draw([&](const Image8& band) { rows.append(band); });
@@ -50,7 +50,7 @@ void draw_frames(const FilmJob& job, const StageRequest& request,
 
 }  // namespace
 
-void write_picture(const PictureJob& job, const StageRequest& request) {
+void write_image(const ImageJob& job, const StageRequest& request) {
   const glm::vec4 background(job.scene.scene->info.background, job.transparent ? 0.0f : 1.0f);
   const auto progress = [&](double done) {
     request.progress(preparing_share + (1 - preparing_share) * done);
@@ -59,7 +59,7 @@ void write_picture(const PictureJob& job, const StageRequest& request) {
     DebugViewRenderer debug_renderer(request.context, job.scene.soup(), job.scene.scene->origin,
                                      {.background = background});
     debug_renderer.show(job.debug_view.what, job.debug_view.features);
-    PictureTiles tiles = tiles_of(debug_renderer, request.context.capabilities());
+    ImageTiles tiles = tiles_of(debug_renderer, request.context.capabilities());
     tiles.progress = progress;
     write_rows(job, [&](const BandSink& sink) { draw_in_bands(job.camera, tiles, sink); });
     return;
@@ -72,7 +72,7 @@ void write_picture(const PictureJob& job, const StageRequest& request) {
     write_rows(job, [&](const BandSink& sink) { sink(renderer.read_color()); });
     return;
   }
-  PictureTiles tiles = tiles_of(renderer, request.context.capabilities());
+  ImageTiles tiles = tiles_of(renderer, request.context.capabilities());
   tiles.progress = progress;
   write_rows(job, [&](const BandSink& sink) { draw_in_bands(job.camera, tiles, sink); });
 }

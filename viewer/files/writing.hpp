@@ -1,4 +1,4 @@
-// Pictures and films for keeps, drawn by a renderer of their own in the background: the window goes
+// Images and films for keeps, drawn by a renderer of their own in the background: the window goes
 // on, whatever their size.
 #pragma once
 
@@ -10,9 +10,9 @@
 
 namespace tureen::viewer {
 
-struct PictureJob {
+struct ImageJob {
   StageSource scene;
-  Camera camera;  // with the picture's size, which may be beyond the device's
+  Camera camera;  // with the image's size, which may be beyond the device's
   DebugViewChoice debug_view = {};
   bool transparent = false;
   std::filesystem::path path;
@@ -21,7 +21,7 @@ struct PictureJob {
 /// A PNG, drawn in tiles and written row by row. What is made for it on the device is gone at
 /// the end. Throws OutputError, DeviceLimitError and what
 /// StageRequest::progress throws; then nothing is written.
-void write_picture(const PictureJob& job, const StageRequest& request);
+void write_image(const ImageJob& job, const StageRequest& request);
 
 struct FilmJob {
   StageSource scene;

@@ -65,8 +65,8 @@ struct CloseAsked {};
 /// Only in sessions: later events wait until nothing is being loaded and nothing moves.
 struct AwaitRest {};
 /// Only in sessions: what the window shows, with its interface, goes to a PNG of this name in the
-/// session's folder of pictures.
-struct WindowPictured {
+/// session's folder of images.
+struct WindowScreenshot {
   std::string name;
 };
 
@@ -77,7 +77,7 @@ struct FileReplaced {
 
 using Event =
     std::variant<PointerMoved, ButtonChanged, Scrolled, KeyChanged, TextTyped, FilesDropped,
-                 Resized, FocusChanged, CloseAsked, AwaitRest, FileReplaced, WindowPictured>;
+                 Resized, FocusChanged, CloseAsked, AwaitRest, FileReplaced, WindowScreenshot>;
 
 struct TimedEvent {
   double seconds = 0;  // since the session began

@@ -51,13 +51,13 @@ void next_comparison(State& state) {
 }
 
 // clang-format off
-constexpr const char *looking = "Looking around", *views = "Views", *pictures = "Pictures",
+constexpr const char *looking = "Looking around", *views = "Views", *images = "Images",
                      *window = "Window";
 const std::array table = {
     Shortcut{Key::tab, false, looking, "orbit or fly: what a drag does",
              [](State& s) { s.controls.set_mode(s.controls.mode() == NavigationMode::orbit
                                                     ? NavigationMode::fly : NavigationMode::orbit); }},
-    Shortcut{Key::f, false, looking, "all of the scene in the picture",
+    Shortcut{Key::f, false, looking, "all of the scene in the image",
              [](State& s) { s.controls.set_mode(NavigationMode::orbit); s.controls.frame(); }},
     Shortcut{Key::r, false, looking, "back to the first view",
              [](State& s) { s.controls.set_mode(NavigationMode::orbit); s.controls.reset(); }},
@@ -81,18 +81,18 @@ const std::array table = {
              [](State& s) { step_recorded(s, 1); }},
     Shortcut{Key::c, false, views, "photograph: off, split, alone, difference", next_comparison},
     Shortcut{Key::v, false, views, "the next debug view", next_debug_view},
-    Shortcut{Key::k, false, pictures, "add this view to the camera path",
+    Shortcut{Key::k, false, images, "add this view to the camera path",
              [](State& s) { s.ask(AddKeyframe{}); }},
-    Shortcut{Key::space, false, pictures, "play the camera path, or stop it",
+    Shortcut{Key::space, false, images, "play the camera path, or stop it",
              [](State& s) {
                if (s.film.path.empty())
                  s.messages.note("There is no camera path yet: K adds the view to one", s.now);
                s.film.toggle();
              }},
-    Shortcut{Key::s, true, pictures, "save the picture",
-             [](State& s) { s.ask(TakePicture{s.picture.window_size ? glm::ivec2(0) : s.picture.size,
-                                              s.picture.transparent}); }},
-    Shortcut{Key::c, true, pictures, "copy the command that draws it without a window",
+    Shortcut{Key::s, true, images, "save the image",
+             [](State& s) { s.ask(TakeImage{s.image.window_size ? glm::ivec2(0) : s.image.size,
+                                              s.image.transparent}); }},
+    Shortcut{Key::c, true, images, "copy the command that draws it without a window",
              [](State& s) { s.ask(CopyCommand{}); }},
     Shortcut{Key::o, true, window, "open a file", [](State& s) { s.show_files = !s.show_files; }},
     Shortcut{Key::h, false, window, "hide or show the panels",
@@ -100,7 +100,7 @@ const std::array table = {
     Shortcut{Key::f1, false, window, "this list", [](State& s) { s.show_keys = !s.show_keys; }},
     Shortcut{Key::f5, false, window, "read the file again", [](State& s) { s.ask(ReloadScene{}); }},
     Shortcut{Key::f11, false, window, "the whole screen", [](State& s) { s.ask(ToggleFullscreen{}); }},
-    Shortcut{Key::escape, false, window, "close what lies over the picture",
+    Shortcut{Key::escape, false, window, "close what lies over the image",
              [](State& s) { s.show_keys = s.show_files = false; }},
     Shortcut{Key::q, true, window, "quit", [](State& s) { s.ask(Quit{}); }},
 };

@@ -1,4 +1,4 @@
-// The picture against the photograph of the same camera.
+// The image against the photograph of the same camera.
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
 

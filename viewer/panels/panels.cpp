@@ -27,7 +27,7 @@ void section(const char* title, bool open, Draw draw) {
 
 double panels_width(const State& state, double window_width) {
   if (!state.stage || !state.show_interface) return 0;
-  // A window too narrow for both keeps half of it for the picture.
+  // A window too narrow for both keeps half of it for the image.
   return std::floor(std::min(double(column_width) * ImGui::GetFontSize(), 0.5 * window_width));
 }
 
@@ -45,7 +45,7 @@ void draw_panels(State& state, const FrameClock& clock) {
   section("Debug view", true, [&] { debug_view_panel(state); });
   section("Drawing", false, [&] { drawing_panel(state); });
   section("Photographs", false, [&] { comparison_panel(state); });
-  section("Pictures", false, [&] { picture_panel(state); });
+  section("Images", false, [&] { image_panel(state); });
   section("Camera path", false, [&] { path_panel(state); });
   section("Frame times", false, [&] { times_panel(state, clock); });
   ImGui::End();

@@ -1,4 +1,4 @@
-// The photograph, or the map of differences, over the part of the picture that it shows.
+// The photograph, or the map of differences, over the part of the image that it shows.
 #include <algorithm>
 
 #include "viewer/panels.hpp"
@@ -11,7 +11,7 @@ namespace {
 /// The divider can be taken within so many points.
 constexpr float grip = 6;
 
-/// A drag of the divider over a picture of this size; where it is, in points.
+/// A drag of the divider over an image of this size; where it is, in points.
 float divider(Comparison& comparison, ImVec2 window) {
   const auto x = static_cast<float>(comparison.divider) * window.x;
   ImGui::SetNextWindowPos({x - grip, 0});
@@ -47,7 +47,7 @@ void photograph_overlay(State& state) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const bool difference = comparison.show == Comparison::Show::difference;
   const bool split = comparison.show == Comparison::Show::split;
-  const PictureTexture* texture = &comparison.texture;
+  const ImageTexture* texture = &comparison.texture;
   if (difference) {
     if (!comparison.result) return;
     texture = &comparison.result->difference;

@@ -70,7 +70,7 @@ void view_panel(State& state) {
   ImGui::SameLine();
   up_menu(state);
   if (ImGui::Button("Frame")) run_shortcut(Key::f, false, state);
-  tip("F: all of the scene in the picture");
+  tip("F: all of the scene in the image");
   ImGui::SameLine();
   if (ImGui::Button("Reset")) run_shortcut(Key::r, false, state);
   tip("R: the first view");

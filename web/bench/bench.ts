@@ -76,7 +76,7 @@ class Bench {
     this.engine?.canvas.remove();
     const canvas = make('canvas', { 'aria-label': 'What is measured', role: 'img', hidden: true });
     this.engine = await BenchEngine.start(canvas);
-    block('picture').append(canvas);
+    block('image').append(canvas);
     const { renderer, limits } = this.engine.device;
     fillFacts(block('device'), [['Drawn by', renderer], ['Pixel ratio', String(devicePixelRatio)]]);
     block('software').hidden = !limits.software;

@@ -15,7 +15,7 @@ export interface Device {
   readonly gl_version: string;
   /** With `software` where the processor draws. */
   readonly limits: { readonly software: boolean };
-  readonly max_picture_side: number;
+  readonly max_image_side: number;
 }
 
 export interface Files {

@@ -43,7 +43,7 @@ const loadingShare = 0.1;
  *  bench` has it. */
 export const leastSampleMs = () => Math.max(5, 100 * clockStepMs());
 
-/** Cells of `count` pictures in one of this size, row by row from the top; what does not divide is left. */
+/** Cells of `count` images in one of this size, row by row from the top; what does not divide is left. */
 export function gridCells(count: number, size: Size): Cell[] {
   const columns = Math.ceil(Math.sqrt(count)), rows = Math.ceil(count / columns);
   const width = Math.max(Math.floor(size.width / columns), 1), height = Math.max(Math.floor(size.height / rows), 1);

@@ -248,7 +248,7 @@ Json to_json(const FrameStatistics& ms) {
           {"low_1_percent_fps", ms.low_1_percent_fps}};
 }
 
-/// Of the pictures of a frame, one below the other where it has several.
+/// Of the images of a frame, one below the other where it has several.
 std::string hash_of(const BenchCase& bench_case) {
   Image8 all;
   for (const Renderer* renderer : bench_case.renderers) {

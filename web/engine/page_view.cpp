@@ -70,7 +70,7 @@ bool PageView::moving() { return controls().moving() || flight_.direction != glm
 
 bool PageView::focus(glm::dvec2 place, glm::dvec2 viewport) {
   if (!shows_scene()) return false;
-  // A small picture would do, but this one's depth is what the person sees.
+  // A small image would do, but this one's depth is what the person sees.
   Stage& stage = *current();
   const glm::ivec2 size(viewport);
   stage.renderer.draw(stage.controls.camera(size.x, size.y));
@@ -112,11 +112,9 @@ void PageView::clear_canvas(int width, int height) const {
   glClear(GL_COLOR_BUFFER_BIT);
 }
 
-Image8 PageView::picture(int width, int height) {
-  return picture(controls().camera(width, height));
-}
+Image8 PageView::image(int width, int height) { return image(controls().camera(width, height)); }
 
-Image8 PageView::picture(const Camera& camera) {
+Image8 PageView::image(const Camera& camera) {
   draw_frame(camera);
   return looks_into() ? debug_renderer_->read_color() : current()->renderer.read_color();
 }

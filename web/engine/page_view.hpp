@@ -59,15 +59,15 @@ class PageView {
   /// Asserts that there is a scene.
   const ShownScene& scene() const { return current()->scene; }
 
-  /// Lets time pass, draws, and copies the picture to the canvas, whose drawing buffer has this
+  /// Lets time pass, draws, and copies the image to the canvas, whose drawing buffer has this
   /// size.
   void draw(int width, int height, double seconds);
 
   void clear_canvas(int width, int height) const;
 
   /// What is shown, at any size that the device draws.
-  Image8 picture(int width, int height);
-  Image8 picture(const Camera& camera);
+  Image8 image(int width, int height);
+  Image8 image(const Camera& camera);
 
  private:
   struct Stage {

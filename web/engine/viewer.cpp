@@ -27,7 +27,7 @@ Json start(const Json&) {
           {"vendor", device.vendor},
           {"gl_version", device.version},
           {"limits", to_json(device_limits(device))},
-          {"max_picture_side", device.max_picture_side}};
+          {"max_image_side", device.max_image_side}};
 }
 
 // -- scenes -------------------------------------------------------------------------------------
@@ -193,19 +193,19 @@ Json draw(const Json& arguments) {
   return moving();
 }
 
-/// The picture's pixels, RGBA, row 0 on top, are then in the buffer.
+/// The image's pixels, RGBA, row 0 on top, are then in the buffer.
 void keep_pixels(const Image8& image) {
   buffer().resize(image.pixels.size() * sizeof image.pixels[0]);
   std::memcpy(buffer().data(), image.pixels.data(), buffer().size());
 }
 
 /// {"width", "height"} of what is shown, or {"camera"}.
-Json picture(const Json& arguments) {
-  if (!view().shows_scene()) throw UsageError("there is no scene to make a picture of");
+Json image(const Json& arguments) {
+  if (!view().shows_scene()) throw UsageError("there is no scene to make an image of");
   const auto camera = arguments.find("camera");
   keep_pixels(camera != arguments.end()
-                  ? view().picture(camera_of(*camera))
-                  : view().picture(arguments.at("width"), arguments.at("height")));
+                  ? view().image(camera_of(*camera))
+                  : view().image(arguments.at("width"), arguments.at("height")));
   return nullptr;
 }
 
@@ -249,7 +249,7 @@ Commands viewer_commands() {
                    {"clear", clear},
                    {"drop_preview", drop_preview},
                    {"draw", draw},
-                   {"picture", picture},
+                   {"picture", image},
                    {"background", background},
                    {"has_debug_view_renderer",
                     [](const Json&) { return Json(view().has_debug_view_renderer()); }},

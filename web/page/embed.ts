@@ -1,4 +1,4 @@
-// The page in somebody's frame (?embed): it shows the picture alone and obeys messages of the window
+// The page in somebody's frame (?embed): it shows the image alone and obeys messages of the window
 // that it is framed by. docs/web.md describes them.
 //
 //   {tureen: 1, id, call: 'setView', arguments: [pose, {glide: true}]}

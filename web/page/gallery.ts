@@ -1,6 +1,6 @@
 // The gallery: what models.json, beside the page, lists. Addresses in it are relative to it.
 //
-//   [{"name": "Tureen", "url": "soup.glb", "picture": "soup.jpg", "triangles": 7000, "bytes": 2227760}]
+//   [{"name": "Tureen", "url": "soup.glb", "image": "soup.jpg", "triangles": 7000, "bytes": 2227760}]
 
 import { block, make } from './dom.js';
 import { bytesText, trianglesText } from './numbers.js';
@@ -8,7 +8,7 @@ import { bytesText, trianglesText } from './numbers.js';
 export interface Model {
   readonly name: string;
   readonly url: string;
-  readonly picture: string | null;
+  readonly image: string | null;
   readonly triangles: number | null;
   readonly bytes: number | null;
 }
@@ -17,10 +17,10 @@ const count = (value: unknown) => (typeof value === 'number' && Number.isFinite(
 
 /** Null where the entry has no name or no address. */
 function readModel(entry: unknown): Model | null {
-  const { name, url, picture, triangles, bytes } = (entry ?? {}) as Record<string, unknown>;
+  const { name, url, image, triangles, bytes } = (entry ?? {}) as Record<string, unknown>;
   if (typeof name !== 'string' || typeof url !== 'string' || !url) return null;
   return {
-    name, url, picture: typeof picture === 'string' ? picture : null,
+    name, url, image: typeof image === 'string' ? image : null,
     triangles: count(triangles), bytes: count(bytes),
   };
 }
@@ -28,9 +28,9 @@ function readModel(entry: unknown): Model | null {
 function card(model: Model, choose: (address: string) => void): HTMLElement {
   const facts = [model.triangles === null ? '' : trianglesText(model.triangles),
                  model.bytes === null ? '' : bytesText(model.bytes)];
-  const picture = model.picture === null ? make('span', { class: 'no-picture' }) :
-    make('img', { src: model.picture, alt: '', loading: 'lazy', width: 320, height: 200 });
-  const button = make('button', { type: 'button', class: 'card' }, picture,
+  const image = model.image === null ? make('span', { class: 'no-image' }) :
+    make('img', { src: model.image, alt: '', loading: 'lazy', width: 320, height: 200 });
+  const button = make('button', { type: 'button', class: 'card' }, image,
                       make('strong', {}, model.name), make('small', {}, facts.filter(Boolean).join(' · ')));
   button.addEventListener('click', () => choose(model.url));
   return make('li', {}, button);

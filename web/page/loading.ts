@@ -26,7 +26,7 @@ export class Loading {
     button('cancel').addEventListener('click', () => this.cancel());
     viewer.on('progress', (progress) => this.show(progress));
     viewer.on('preview', ({ triangles }) => {
-      this.preview = `; a first picture of ${trianglesText(triangles)} stands`;
+      this.preview = `; a first image of ${trianglesText(triangles)} stands`;
       this.show(this.progressNow);  // or a download that stalls would never say so
     });
   }

@@ -68,7 +68,7 @@ export class Openings {
   }
 
   private async open(source: SceneSource, origin: Origin, view: LinkedView): Promise<boolean> {
-    // The first picture is already seen from there, and a person may move on while the rest arrives.
+    // The first image is already seen from there, and a person may move on while the rest arrives.
     let looked = false;
     const forget = this.viewer.on('preview', () => {
       this.lookFrom(view);

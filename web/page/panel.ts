@@ -1,4 +1,4 @@
-// The panel beside the picture; on a phone held upright a sheet below it. Its sections fold by
+// The panel beside the image; on a phone held upright a sheet below it. Its sections fold by
 // themselves (<details>); which are open is remembered.
 
 import { block, button } from './dom.js';

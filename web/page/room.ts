@@ -16,7 +16,7 @@ import { CamerasSection } from './sections/cameras.js';
 import { DrawingSection } from './sections/drawing.js';
 import { LinkSection } from './sections/link.js';
 import { LookSection } from './sections/look.js';
-import { PictureSection } from './sections/picture.js';
+import { ImageSection } from './sections/image.js';
 import { SavedSection } from './sections/saved.js';
 import { SceneSection } from './sections/scene.js';
 import { TimesSection } from './sections/times.js';
@@ -40,11 +40,11 @@ function fetchable(address: string): SceneSource | null {
   }
 }
 
-/** Says in place of the picture why there is none. */
+/** Says in place of the image why there is none. */
 function explain(error: unknown): void {
   const missing = error instanceof ViewerError && error.kind === 'no-webgl2';
   const why = error instanceof Error ? error.message : String(error);
-  block('stage').replaceChildren(make('div', { class: 'no-picture-at-all', role: 'alert' },
+  block('stage').replaceChildren(make('div', { class: 'no-image-at-all', role: 'alert' },
     make('h2', {}, missing ? 'This browser has no WebGL2' : 'The viewer did not start'),
     make('p', {}, why),
     make('p', {}, missing ?
@@ -63,7 +63,7 @@ function obeyReducedMotion(viewer: Viewer): void {
   obey();
 }
 
-/** Without a scene, whole or at its first picture, there is nothing to set. */
+/** Without a scene, whole or at its first image, there is nothing to set. */
 function markEmpty(viewer: Viewer): void {
   viewer.on('preview', () => document.body.classList.remove('empty'));
   viewer.on('scene', (scene) => document.body.classList.toggle('empty', scene === null));
@@ -80,7 +80,7 @@ function tellOfContext(viewer: Viewer, messages: Messages): void {
   });
 }
 
-/** Everything around the picture but opening. */
+/** Everything around the image but opening. */
 function furnish(viewer: Viewer, messages: Messages, loading: Loading, openings: Openings, bar: AddressBar,
                  start: Start): void {
   const tell = (sentence: string) => messages.notice(sentence);
@@ -95,7 +95,7 @@ function furnish(viewer: Viewer, messages: Messages, loading: Loading, openings:
   const views = new ViewsSection(viewer, tell), cameras = new CamerasSection(viewer, tell);
   const saved = new SavedSection(viewer, tell);
   new DrawingSection(viewer);
-  const picture = new PictureSection(viewer, tell, failed);
+  const image = new ImageSection(viewer, tell, failed);
   const link = new LinkSection(viewer, bar, openings, tell);
   const follow = () => {
     // While another scene is on its way, or did not come, the address is that one's.
@@ -115,7 +115,7 @@ function furnish(viewer: Viewer, messages: Messages, loading: Loading, openings:
   });
 
   new Shortcuts(viewer.canvas, [
-    { key: 'f', meaning: 'all of the scene in the picture', run: () => views.frame() },
+    { key: 'f', meaning: 'all of the scene in the image', run: () => views.frame() },
     { key: 'r', meaning: 'back to the first view', run: () => views.first() },
     { key: 'm', meaning: 'a drag turns the scene, or the head', run: () => views.changeMode() },
     { key: 'u', meaning: 'another axis is up', run: () => views.nextUp() },
@@ -123,7 +123,7 @@ function furnish(viewer: Viewer, messages: Messages, loading: Loading, openings:
     { key: ']', meaning: 'the next recorded camera', run: () => cameras.step(1) },
     { key: 'k', meaning: 'keeps this view', run: () => saved.save() },
     { key: 'v', meaning: 'the next thing to look at', run: () => look.next() },
-    { key: 'p', meaning: 'saves the picture', run: () => void picture.save() },
+    { key: 'p', meaning: 'saves the image', run: () => void image.save() },
     { key: 'l', meaning: 'copies a link to this view', run: () => void link.copy() },
     { key: 'o', meaning: 'opens a scene', run: () => start.toggle() },
     { key: 'h', meaning: 'hides or shows the panel', run: () => panel.toggle() },

@@ -37,7 +37,7 @@ function table(title: string, rows: readonly Row[], cap: (text: string) => Node 
 }
 
 /** Single keys are not for everyone: who speaks to the computer sets them off by mistake. So they can
- *  be kept to the picture. */
+ *  be kept to the image. */
 export class Shortcuts {
   private readonly help = byId('help', HTMLDialogElement);
   private readonly everywhere = input('keys-everywhere');

@@ -1,5 +1,5 @@
 // The card that opens scenes: from files, a folder, an address or the gallery. It lies over the
-// picture as long as there is none, and when it is asked for.
+// image as long as there is none, and when it is asked for.
 
 import type { Viewer } from '../viewer/types.js';
 import { block, byId, button, input } from './dom.js';

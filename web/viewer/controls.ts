@@ -172,7 +172,7 @@ function describe(canvas: HTMLCanvasElement): () => void {
   const wanted = {
     tabindex: '0',
     role: 'application',
-    'aria-label': 'Picture of the scene. Arrow keys turn it, with Shift they move it; plus and minus go ' +
+    'aria-label': 'Image of the scene. Arrow keys turn it, with Shift they move it; plus and minus go ' +
         'nearer and farther; W, A, S, D, Q and E fly.',
   };
   const added = Object.keys(wanted).filter((name) => !canvas.hasAttribute(name));

@@ -52,7 +52,7 @@ class Loader {
       this.loaded = prefix.length;
       this.total = total;
       this.tell('download', total === null ? null : prefix.length / total);
-      if (prefix.length === total) return;  // a picture of the whole comes as soon
+      if (prefix.length === total) return;  // an image of the whole comes as soon
       const description = preview.read(prefix);
       if (description) post({ kind: 'preview', scene: await this.prepared(description) });
     });

@@ -1,4 +1,4 @@
-// Whether what has arrived of a GLB is enough for a picture of mean colours, which lie before the
+// Whether what has arrived of a GLB is enough for an image of mean colours, which lie before the
 // texels (docs/format.md).
 
 import type { Engine } from './engine.js';

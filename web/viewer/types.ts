@@ -98,7 +98,7 @@ export interface ViewPose {
   readonly roll: number;
 }
 
-/** Resolution of the picture: a factor of the screen's own pixels, 0.25..1 and 2 for four samples a
+/** Resolution of the image: a factor of the screen's own pixels, 0.25..1 and 2 for four samples a
  *  pixel (what lies beyond is brought within), or the factor that holds a frame rate above 0. */
 export type Resolution = number | { readonly targetFps: number };
 
@@ -121,7 +121,7 @@ export interface FrameStats {
 export interface ViewerEvents {
   /** A load goes on. */
   progress: LoadProgress;
-  /** A first picture, of mean colours, while the rest is on its way. */
+  /** A first image, of mean colours, while the rest is on its way. */
   preview: { readonly triangles: number };
   /** A scene is shown, or none is. */
   scene: SceneSummary | null;
@@ -204,7 +204,7 @@ export interface Viewer {
   readonly shownLook: string;
   readonly legend: readonly LegendEntry[];
   /** A PNG of what is shown, of the given size or the canvas's: at most as large as the device's
-   *  largest picture. Rejects with ViewerError. */
+   *  largest image. Rejects with ViewerError. */
   screenshot(size?: { readonly width: number; readonly height: number }): Promise<Blob>;
   /** Draws again, at once. */
   draw(): void;

@@ -32,7 +32,7 @@ export async function createViewer(canvas: HTMLCanvasElement, options: ViewerOpt
 interface Device {
   readonly renderer: string;
   readonly limits: unknown;
-  readonly max_picture_side: number;
+  readonly max_image_side: number;
 }
 
 /** Whether both are the same file of a server, or the same files of this computer. */
@@ -376,7 +376,7 @@ class CanvasViewer implements Viewer {
 
   /** A new size empties the canvas, so it comes with a frame. */
   private fit(): void {
-    const scale = this.resolutionKeeper.scale * devicePixelRatio, most = this.device.max_picture_side;
+    const scale = this.resolutionKeeper.scale * devicePixelRatio, most = this.device.max_image_side;
     const side = (css: number) => Math.min(Math.max(Math.round(css * scale), 1), most);
     const width = side(this.canvas.clientWidth), height = side(this.canvas.clientHeight);
     if (this.canvas.width === width && this.canvas.height === height) return;
@@ -416,9 +416,9 @@ class CanvasViewer implements Viewer {
 
   async screenshot(size?: { readonly width: number; readonly height: number }): Promise<Blob> {
     this.fit();
-    const { width, height } = size ?? this.canvas, most = this.device.max_picture_side;
+    const { width, height } = size ?? this.canvas, most = this.device.max_image_side;
     if (![width, height].every((side) => Number.isInteger(side) && side >= 1 && side <= most))
-      throw new ViewerError(`A picture has sides of 1 to ${most} pixels, not ${width} and ${height}.`, 'usage');
+      throw new ViewerError(`An image has sides of 1 to ${most} pixels, not ${width} and ${height}.`, 'usage');
     this.engine.call('picture', { width, height });
     const pixels = new Uint8ClampedArray(this.engine.buffer());
     this.ask();

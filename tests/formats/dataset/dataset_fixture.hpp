@@ -1,4 +1,4 @@
-// Datasets that tests write themselves: pictures, and COLMAP models in both of their forms.
+// Datasets that tests write themselves: images, and COLMAP models in both of their forms.
 #pragma once
 
 #include <cstddef>
@@ -25,12 +25,12 @@ inline void write_text(const std::filesystem::path& path, const std::string& tex
   write_bytes(path, std::as_bytes(std::span(text)));
 }
 
-inline void write_picture(const std::filesystem::path& path, const Image8& image) {
+inline void write_image(const std::filesystem::path& path, const Image8& image) {
   write_bytes(path, encode_png(image));
 }
 
-/// Different everywhere, and in every picture with another `mark`.
-inline Image8 a_picture(int width, int height, int mark = 0, int alpha = 255) {
+/// Different everywhere, and in every image with another `mark`.
+inline Image8 an_image(int width, int height, int mark = 0, int alpha = 255) {
   Image8 image(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) image.at(x, y) = glm::u8vec4(7 * x, 5 * y, 16 * mark, alpha);

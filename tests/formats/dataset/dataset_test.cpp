@@ -42,7 +42,7 @@ void write_transforms(const TemporaryFolder& folder, int count, const std::strin
   std::vector<std::string> frames;
   for (int i = 0; i < count; ++i) {
     frames.push_back(frame("images/" + std::to_string(i) + ".png", i));
-    write_picture(folder / ("images/" + std::to_string(i) + ".png"), a_picture(8, 6, i));
+    write_image(folder / ("images/" + std::to_string(i) + ".png"), an_image(8, 6, i));
   }
   // Not in name order.
   std::reverse(frames.begin(), frames.end());
@@ -54,7 +54,7 @@ void write_colmap(const TemporaryFolder& folder, int count) {
   const ColmapFixture model = upright_colmap(count);
   write_binary(folder / "sparse/0", model);
   for (int i = 0; i < count; ++i)
-    write_picture(folder / ("images/" + model.images[std::size_t(i)].name), a_picture(8, 6, i));
+    write_image(folder / ("images/" + model.images[std::size_t(i)].name), an_image(8, 6, i));
 }
 
 std::optional<Refusal> refusal(const std::filesystem::path& path,
@@ -73,7 +73,7 @@ TEST(Dataset, ReadsTransformsInNameOrderWithEveryEighthForTesting) {
               ElementsAre("images/1.png", "images/2.png", "images/3.png", "images/4.png",
                           "images/5.png", "images/6.png", "images/7.png", "images/9.png"));
   const Photograph& third = dataset.train[2];
-  EXPECT_EQ(third.image.pixels, a_picture(8, 6, 3).pixels);
+  EXPECT_EQ(third.image.pixels, an_image(8, 6, 3).pixels);
   EXPECT_EQ(third.camera.width, 8);
   EXPECT_EQ(third.camera.height, 6);
   EXPECT_EQ(third.camera.fx, 10);
@@ -99,11 +99,11 @@ TEST(Dataset, ReadsAFileASplitWithoutExtensionsOrSizes) {
       transforms(angle, {frame("./train/r_2"), frame("./train/r_10"), frame("./train/r_0")}));
   write_text(folder / "transforms_test.json", transforms(angle, {frame("./test/r_0")}));
   for (const char* name : {"train/r_0", "train/r_2", "train/r_10"})
-    write_picture(folder / (std::string(name) + ".png"), a_picture(8, 6));
-  Image8 transparent = a_picture(10, 4);
+    write_image(folder / (std::string(name) + ".png"), an_image(8, 6));
+  Image8 transparent = an_image(10, 4);
   transparent.at(3, 2).a = 100;
   transparent.at(4, 2) = glm::u8vec4(9, 8, 7, 0);
-  write_picture(folder / "test/r_0.PNG", transparent);
+  write_image(folder / "test/r_0.PNG", transparent);
   const Dataset dataset = read_dataset(folder / "");
   EXPECT_THAT(names(dataset.train), ElementsAre("./train/r_0", "./train/r_10", "./train/r_2"));
   EXPECT_THAT(names(dataset.test), ElementsAre("./test/r_0"));
@@ -122,7 +122,7 @@ TEST(Dataset, ReadsAFileASplitWithoutExtensionsOrSizes) {
   EXPECT_FALSE(half.has_alpha);
 }
 
-TEST(Dataset, RefusesUnequalPicturesWhereNoSizeIsGiven) {
+TEST(Dataset, RefusesUnequalImagesWhereNoSizeIsGiven) {
   const TemporaryFolder folder;
   const std::string angle = "\"camera_angle_x\": 1.5707963267948966, ";
   for (const char* split : {"train", "test"})
@@ -130,15 +130,15 @@ TEST(Dataset, RefusesUnequalPicturesWhereNoSizeIsGiven) {
                transforms(angle, {frame("./" + std::string(split) + "/a"),
                                   frame("./" + std::string(split) + "/b")}));
   for (const char* name : {"train/a.png", "test/a.png", "test/b.png"})
-    write_picture(folder / name, a_picture(8, 6));
-  write_picture(folder / "train/b.png", a_picture(6, 6));
+    write_image(folder / name, an_image(8, 6));
+  write_image(folder / "train/b.png", an_image(6, 6));
   EXPECT_THAT(refusal(folder / ""), ErrorIn("b.png", 6, 8));
 }
 
 TEST(Dataset, AFrameHasItsOwnIntrinsicsAndSize) {
   const TemporaryFolder folder;
-  write_picture(folder / "a.png", a_picture(8, 6));
-  write_picture(folder / "b.png", a_picture(5, 7));
+  write_image(folder / "a.png", an_image(8, 6));
+  write_image(folder / "b.png", an_image(5, 7));
   write_text(folder / "transforms.json",
              transforms(intrinsics + std::string("\"w\": 8, \"h\": 6, "),
                         {frame("a.png"), frame("b.png", 1, "\"w\":5, \"h\":7, \"fl_x\":20, ")}));
@@ -157,7 +157,7 @@ TEST(Dataset, ReadsColmap) {
   EXPECT_EQ(dataset.train.size(), 7u);
   const Photograph& b = dataset.train[0];
   EXPECT_EQ(b.camera.name, "b.png");
-  EXPECT_EQ(b.image.pixels, a_picture(8, 6, 1).pixels);
+  EXPECT_EQ(b.image.pixels, an_image(8, 6, 1).pixels);
   EXPECT_EQ(b.camera.cx, 4.5);
   EXPECT_EQ(b.camera.cy, 2.5);
   EXPECT_LT(glm::length(b.camera.eye() - glm::dvec3(-0.25, -0.5, -3)), 1e-12);
@@ -168,7 +168,7 @@ TEST(Dataset, ReadsColmap) {
   EXPECT_THAT(dataset.remarks, ElementsAre(Remark{Remark::Kind::up_of_cameras}));
 }
 
-TEST(Dataset, ReadsNoPictureOfTheOtherPart) {
+TEST(Dataset, ReadsNoImageOfTheOtherPart) {
   const TemporaryFolder folder;
   write_colmap(folder, 9);
   std::filesystem::remove(folder / "images/a.png");
@@ -208,7 +208,7 @@ TEST(Dataset, IntrinsicsFollowTheScaleExactly) {
   EXPECT_EQ(half.camera.fy, 4.5);
   EXPECT_EQ(half.camera.cx, 2.25);  // measured from the corner, which stays where it is
   EXPECT_EQ(half.camera.cy, 1.25);
-  EXPECT_EQ(half.image.pixels, box_scaled(a_picture(8, 6, 1), 4, 3).pixels);
+  EXPECT_EQ(half.image.pixels, box_scaled(an_image(8, 6, 1), 4, 3).pixels);
   // 8 x 0.3 = 2.4 and 6 x 0.3 = 1.8 are rounded; the camera follows the pixels that there are.
   const Camera odd = read_dataset(folder / "", {.scale = 0.3}).train[0].camera;
   EXPECT_EQ(odd.width, 2);
@@ -221,29 +221,29 @@ TEST(Dataset, ReadsSmallerImagesFromTheirFolder) {
   const TemporaryFolder folder;
   write_colmap(folder, 2);
   // 8 x 6 by 4 is 2 x 1.5: rounded up here, down there; and with another extension.
-  write_picture(folder / "images_4/a.png", a_picture(2, 1));
-  write_picture(folder / "images_4/b.JPG", a_picture(2, 2, 5));
+  write_image(folder / "images_4/a.png", an_image(2, 1));
+  write_image(folder / "images_4/b.JPG", an_image(2, 2, 5));
   const Dataset dataset = read_dataset(folder / "", {.images_folder = 4});
   EXPECT_EQ(dataset.test[0].camera.fx, 2.5);
   EXPECT_NEAR(dataset.test[0].camera.fy, 9.0 / 6, 1e-15);
   EXPECT_NEAR(dataset.train[0].camera.fy, 18.0 / 6, 1e-15);
-  EXPECT_EQ(dataset.train[0].image.pixels, a_picture(2, 2, 5).pixels);
+  EXPECT_EQ(dataset.train[0].image.pixels, an_image(2, 2, 5).pixels);
 
   write_transforms(folder, 2);
-  write_picture(folder / "images_2/0.png", a_picture(4, 3));
-  write_picture(folder / "images_2/1.png", a_picture(4, 3, 9));
+  write_image(folder / "images_2/0.png", an_image(4, 3));
+  write_image(folder / "images_2/1.png", an_image(4, 3, 9));
   const Photograph photograph = read_dataset(folder / "", {.images_folder = 2}).train[0];
-  EXPECT_EQ(photograph.image.pixels, a_picture(4, 3, 9).pixels);
+  EXPECT_EQ(photograph.image.pixels, an_image(4, 3, 9).pixels);
   EXPECT_EQ(photograph.camera.fx, 5);
   EXPECT_EQ(photograph.camera.cx, 2.25);
-  write_picture(folder / "images_2/1.png", a_picture(5, 3));
+  write_image(folder / "images_2/1.png", an_image(5, 3));
   EXPECT_THAT(refusal(folder / "", {.images_folder = 2}), Names(5, 3, 8, 6, 2));
 }
 
 TEST(Dataset, WithoutDistortedBordersEveryPixelIsEvidence) {
   const TemporaryFolder folder;
   for (const char* name : {"images/0.png", "images/1.png"})
-    write_picture(folder / name, Image8(80, 60, glm::u8vec4(200, 100, 50, 255)));
+    write_image(folder / name, Image8(80, 60, glm::u8vec4(200, 100, 50, 255)));
   write_text(folder / "transforms.json",
              transforms("\"fl_x\": 70, \"cx\": 38, \"k1\": 0.1, \"w\": 80, \"h\": 60, ",
                         {frame("images/0.png"), frame("images/1.png")}));
@@ -294,12 +294,12 @@ TEST(Dataset, NamesTheImagesThatAreMissing) {
               Names(3, "images_8", "b.png", "c.png", "a.png"));
 }
 
-TEST(Dataset, RefusesPicturesOfAnotherSize) {
+TEST(Dataset, RefusesImagesOfAnotherSize) {
   const TemporaryFolder folder;
   write_colmap(folder, 2);
-  write_picture(folder / "images/b.png", a_picture(6, 8));
+  write_image(folder / "images/b.png", an_image(6, 8));
   EXPECT_THAT(refusal(folder / ""), ErrorIn("images/b.png", 6, 8));
-  write_text(folder / "images/b.png", "no picture");
+  write_text(folder / "images/b.png", "no image");
   EXPECT_THAT(refusal(folder / ""), ErrorIn("images/b.png"));
 }
 
@@ -326,7 +326,7 @@ TEST(Dataset, RefusesLensesThatItCannotUndo) {
 
 TEST(Dataset, RefusesPosesThatAreNoRotations) {
   const TemporaryFolder folder;
-  write_picture(folder / "a.png", a_picture(8, 6));
+  write_image(folder / "a.png", an_image(8, 6));
   const auto with = [&](const std::string& matrix) {
     write_text(folder / "transforms.json",
                transforms(intrinsics,
@@ -380,8 +380,8 @@ TEST(Dataset, RefusesWhatIsNoDataset) {
 
 TEST(Dataset, OpensNothingOutsideOfItsFolder) {
   const TemporaryFolder folder;
-  write_picture(folder / "secret.png", a_picture(8, 6));
-  write_picture(folder / "set/images/a.png", a_picture(8, 6));
+  write_image(folder / "secret.png", an_image(8, 6));
+  write_image(folder / "set/images/a.png", an_image(8, 6));
   std::filesystem::create_symlink(folder / "secret.png", folder / "set/images/link.png");
   const auto with = [&](const std::string& name) {
     write_text(folder / "set/transforms.json",
@@ -394,7 +394,7 @@ TEST(Dataset, OpensNothingOutsideOfItsFolder) {
   EXPECT_THAT(with((folder / "secret.png").string()), Names((folder / "secret.png").string()));
   EXPECT_THAT(with("images/link.png"), Names("images/link.png"));
   // A name is no URI: what looks like an escape is a part of it.
-  write_picture(folder / "set/images/a%20b.png", a_picture(8, 6));
+  write_image(folder / "set/images/a%20b.png", an_image(8, 6));
   EXPECT_EQ(with("images/a%20b.png"), std::nullopt);
 
   ColmapFixture model = upright_colmap(2);
@@ -463,7 +463,7 @@ TEST(DatasetData, BottleHasPointsInFrontOfItsCameras) {
   ASSERT_EQ(dataset.points.size(), 6885u);
   EXPECT_THAT(dataset.remarks,
               Not(::testing::Contains(::testing::Field(&Remark::kind, Remark::Kind::lens_undone))));
-  // Structure from motion took the colours of the points from these pictures. Some are hidden in
+  // Structure from motion took the colours of the points from these images. Some are hidden in
   // some views, so what they project to is only nearer to their colour than to that of others.
   double own = 0, others = 0;
   std::size_t inside = 0;

@@ -57,7 +57,7 @@ class Rows {
   std::size_t stride_;
 };
 
-// What a task works in. Rows are as long as the picture is wide and `reach` more, which is what
+// What a task works in. Rows are as long as the image is wide and `reach` more, which is what
 // `spread` needs; windows fill less of them.
 template <class Real>
 struct Workspace {
@@ -223,7 +223,7 @@ class BandLoss {
       compare(window);
       if (window >= band_.first) write(window);
     }
-    // The last rows of the picture, below which there are no windows.
+    // The last rows of the image, below which there are no windows.
     for (int y = std::max(band_.first, window_rows_); y < band_.last; ++y) write(y);
   }
 

@@ -18,7 +18,7 @@ void check(cudaError_t result, const char* doing) {
   const std::string reason =
       std::string("the GPU could not ") + doing + " (" + sentence(result) + ")";
   if (result == cudaErrorMemoryAllocation)
-    throw DeviceLimitError(reason + ": train fewer or smaller pictures, or use --device cpu");
+    throw DeviceLimitError(reason + ": train fewer or smaller images, or use --device cpu");
   throw ContextError(reason);
 }
 

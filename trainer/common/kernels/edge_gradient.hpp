@@ -1,4 +1,4 @@
-// How geometry learns: what the picture loses or gains when a visibility edge moves.
+// How geometry learns: what the image loses or gains when a visibility edge moves.
 //
 // Between the neighbouring pixels p and q, a boundary that moves by one pixel towards q turns the
 // colour C_q into C_p; with g = dL/dC its derivative is 1/2 sum (g_p + g_q) (C_p - C_q), as the
@@ -15,7 +15,7 @@
 
 namespace tureen::trainer::kernels {
 
-/// One pixel of a finished picture as the edge gradient sees it.
+/// One pixel of a finished image as the edge gradient sees it.
 struct EdgePixel {
   std::uint32_t face;  // no_face where the background shows
   float inverse_depth;
@@ -29,8 +29,8 @@ enum class EdgeCase { none, texture_slide, intersection, opacity, geometric };
 struct PointGradient {
   EdgeCase kind = EdgeCase::none;
   float e[3];       // edge values there: barycentrics times the inverse depth
-  float x, y;       // the place on the picture, in pixels
-  float gx, gy;     // by its motion on the picture, per pixel
+  float x, y;       // the place on the image, in pixels
+  float gx, gy;     // by its motion on the image, per pixel
   float g_inverse;  // by the inverse depth of p's triangle there
 };
 

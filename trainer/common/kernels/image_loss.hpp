@@ -1,4 +1,4 @@
-// The loss between a rendered picture C and a photograph G, and its derivative, a pixel and a
+// The loss between a rendered image C and a photograph G, and its derivative, a pixel and a
 // window at a time: L1 and SSIM (Wang, Bovik, Sheikh and Simoncelli 2004, equation 13; 11 x 11
 // Gaussian of sigma 1.5 where it fits, C1 = 0.01^2, C2 = 0.03^2).
 //
@@ -9,9 +9,9 @@
 //   B1 = (M^2 + D^2) / 2 + C1       B2 = (var(s) + var(d)) / 2 + C2
 //   1 - SSIM = (B1 B2 - A1 A2) / (B1 B2) = (B1 var(d) + A2 D^2) / (B1 B2)
 //
-// Four moments instead of five; and what is small when the pictures are alike, as they are in
+// Four moments instead of five; and what is small when the images are alike, as they are in
 // training, is a product of small numbers and not a difference of large ones: in single precision
-// 1 - SSIM and its derivative are exact to rounding for equal pictures, however flat.
+// 1 - SSIM and its derivative are exact to rounding for equal images, however flat.
 #pragma once
 
 #include "trainer/common/kernels/host_device.hpp"
@@ -58,7 +58,7 @@ struct SsimDissimilarity {
 template <class Real>
 TUREEN_HOST_DEVICE SsimDissimilarity<Real> ssim_dissimilarity(const SsimMoments<Real>& mean) {
   const Real c1 = Real(0.01 * 0.01), c2 = Real(0.03 * 0.03);
-  // E[x^2] - E[x]^2 cancels where the picture is flat and may come out below zero.
+  // E[x^2] - E[x]^2 cancels where the image is flat and may come out below zero.
   const Real raw_s = mean.sum_squared - mean.sum * mean.sum;
   const Real raw_d = mean.difference_squared - mean.difference * mean.difference;
   const Real variance_s = raw_s > Real(0) ? raw_s : Real(0);

@@ -1,4 +1,4 @@
-// From a triangle in space to edge functions on the picture.
+// From a triangle in space to edge functions on the image.
 //
 // With view coordinates (x right, y down, w forward) and P_i = (fx x + cx w, fy y + cy w, w) the
 // determinant D = P0 . (P1 x P2) and e_k(p) = (P_{k+1} x P_{k+2}) . (p, 1) / D are affine in the
@@ -15,19 +15,19 @@
 
 namespace tureen::trainer::kernels {
 
-/// Pictures are at most so wide and high: a ProjectedFace keeps its rectangle in 16 bits.
-inline constexpr int most_picture_side = 32767;
+/// Images are at most so wide and high: a ProjectedFace keeps its rectangle in 16 bits.
+inline constexpr int most_image_side = 32767;
 
 /// A pinhole camera relative to the model's origin.
 struct View {
-  int width, height;  // at most most_picture_side
+  int width, height;  // at most most_image_side
   double fx, fy, cx, cy;
   double eye[3];
-  double right[3], down[3], forward[3];  // unit axes of the picture in world coordinates
+  double right[3], down[3], forward[3];  // unit axes of the image in world coordinates
   double near, far;
 };
 
-/// A triangle on the picture. Edge functions are affine about the centre of the pixel (x0, y0):
+/// A triangle on the image. Edge functions are affine about the centre of the pixel (x0, y0):
 /// large coordinates never meet in float.
 struct ProjectedFace {
   float dx[3], dy[3], c[3];
@@ -61,7 +61,7 @@ TUREEN_HOST_DEVICE void include(double coordinate, int size, int& low, int& high
   high = last > high ? last : high;
 }
 
-/// The part of the picture in which the triangle lies: its corners, and where its edges cross the
+/// The part of the image in which the triangle lies: its corners, and where its edges cross the
 /// near plane.
 TUREEN_HOST_DEVICE void bounding_rectangle(const View& view, const double (&v)[3][3],
                                            ProjectedFace& face) {
@@ -86,7 +86,7 @@ TUREEN_HOST_DEVICE void bounding_rectangle(const View& view, const double (&v)[3
 }
 
 /// `corners` are three positions of three floats. A triangle that is seen edge-on, has no area,
-/// lies outside the picture or has a coordinate that is not finite is empty.
+/// lies outside the image or has a coordinate that is not finite is empty.
 TUREEN_HOST_DEVICE ProjectedFace project(const View& view, const float* corners) {
   ProjectedFace face{};
   double v[3][3];

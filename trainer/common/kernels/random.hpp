@@ -16,7 +16,7 @@ TUREEN_HOST_DEVICE std::uint32_t mixed(std::uint32_t x) {
   return x ^ x >> 16;
 }
 
-/// What the draws of one picture of one step have in common.
+/// What the draws of one image of one step have in common.
 TUREEN_HOST_DEVICE std::uint32_t draw_key(std::uint64_t seed, std::uint32_t step,
                                           std::uint32_t view) {
   return mixed(std::uint32_t(seed) ^ mixed(std::uint32_t(seed >> 32) ^ mixed(step ^ mixed(view))));

@@ -59,9 +59,9 @@ class CpuBackend final : public Backend {
   std::vector<float> render(const Camera& camera) override;
 
  private:
-  void prepare(Picture& picture, const Camera& camera) const;
-  void find_visible_faces(std::span<Picture> pictures, Masking masking);
-  void shade(std::span<Picture> pictures);
+  void prepare(BatchImage& image, const Camera& camera) const;
+  void find_visible_faces(std::span<BatchImage> images, Masking masking);
+  void shade(std::span<BatchImage> images);
   void shade_backward(std::span<const std::uint32_t> views, StepReport& report);
   void step_faces(const Rates& rates, StepReport& report);
   void take_loss(std::span<const std::uint32_t> views, StepReport& report);
@@ -69,7 +69,7 @@ class CpuBackend final : public Backend {
     double squared = 0;  // sum of (C - G)^2
     std::uint64_t shaded = 0;
   };
-  BandReport take_advantage(Picture& picture, std::uint32_t view_index, int y0, int y1);
+  BandReport take_advantage(BatchImage& image, std::uint32_t view_index, int y0, int y1);
   void step_network(float rate, StepReport& report);
   ShadingInput shading_input() const {
     return {store_.values.data(), state_.model.max_level, &state_.model.mlp, config_.background};
@@ -81,25 +81,25 @@ class CpuBackend final : public Backend {
   TrainingState state_;
   std::unique_ptr<Pyramid> pyramid_;
   TextureStore store_;
-  std::vector<Picture> pictures_;
+  std::vector<BatchImage> images_;
   std::vector<std::size_t> first_pixel_;  // of each view in the baseline
   std::vector<MlpParameters> mlp_gradients_;
   ImageLossScratch<float> loss_scratch_;
   StageTimes times_;
 };
 
-/// The rows of all pictures in bands of one tile's height: tasks of equal size, whatever the
+/// The rows of all images in bands of one tile's height: tasks of equal size, whatever the
 /// number of threads.
 struct Band {
-  std::size_t picture;
+  std::size_t image;
   int y0, y1;
 };
 
-std::vector<Band> bands(std::span<const Picture> pictures) {
+std::vector<Band> bands(std::span<const BatchImage> images) {
   std::vector<Band> result;
-  for (std::size_t i = 0; i < pictures.size(); ++i)
-    for (int y = 0; y < pictures[i].view.height; y += tile_side)
-      result.push_back({i, y, std::min(y + tile_side, pictures[i].view.height)});
+  for (std::size_t i = 0; i < images.size(); ++i)
+    for (int y = 0; y < images[i].view.height; y += tile_side)
+      result.push_back({i, y, std::min(y + tile_side, images[i].view.height)});
   return result;
 }
 
@@ -119,57 +119,56 @@ void CpuBackend::upload(const TrainingState& state) {
   });
 }
 
-void CpuBackend::prepare(Picture& picture, const Camera& camera) const {
-  assert(std::max(camera.width, camera.height) <= kernels::most_picture_side);
-  picture.view = view_of(camera, state_.model.origin, config_.near, config_.far);
-  picture.tiles_x = (camera.width + tile_side - 1) / tile_side;
-  picture.tiles_y = (camera.height + tile_side - 1) / tile_side;
-  const std::size_t pixels = picture.pixels();
-  picture.visible.resize(pixels);
-  picture.color.resize(3 * pixels);
+void CpuBackend::prepare(BatchImage& image, const Camera& camera) const {
+  assert(std::max(camera.width, camera.height) <= kernels::most_image_side);
+  image.view = view_of(camera, state_.model.origin, config_.near, config_.far);
+  image.tiles_x = (camera.width + tile_side - 1) / tile_side;
+  image.tiles_y = (camera.height + tile_side - 1) / tile_side;
+  const std::size_t pixels = image.pixels();
+  image.visible.resize(pixels);
+  image.color.resize(3 * pixels);
 }
 
-void CpuBackend::find_visible_faces(std::span<Picture> pictures, Masking masking) {
+void CpuBackend::find_visible_faces(std::span<BatchImage> images, Masking masking) {
   const Stopwatch stopwatch(times_.visibility);
   const Model& model = state_.model;
-  pool_.run(pictures.size(), [&](std::size_t i) { bin_faces(pictures[i], model); });
-  const std::vector<Band> tasks = bands(pictures);
+  pool_.run(images.size(), [&](std::size_t i) { bin_faces(images[i], model); });
+  const std::vector<Band> tasks = bands(images);
   std::vector<std::uint64_t> fragments(tasks.size());
   pool_.run(tasks.size(), [&](std::size_t task) {
     const Band& band = tasks[task];
-    Picture& picture = pictures[band.picture];
-    for (int x = 0; x < picture.tiles_x; ++x)
-      fragments[task] +=
-          find_visible(picture, std::size_t(band.y0 / tile_side) * picture.tiles_x + x,
-                       store_.alpha.data(), model.max_level, masking);
+    BatchImage& image = images[band.image];
+    for (int x = 0; x < image.tiles_x; ++x)
+      fragments[task] += find_visible(image, std::size_t(band.y0 / tile_side) * image.tiles_x + x,
+                                      store_.alpha.data(), model.max_level, masking);
   });
   for (const std::uint64_t count : fragments) times_.fragments += count;
 }
 
-void CpuBackend::shade(std::span<Picture> pictures) {
+void CpuBackend::shade(std::span<BatchImage> images) {
   const Stopwatch stopwatch(times_.shading);
-  const std::vector<Band> tasks = bands(pictures);
+  const std::vector<Band> tasks = bands(images);
   const ShadingInput input = shading_input();
   pool_.run(tasks.size(), [&](std::size_t task) {
     const Band& band = tasks[task];
-    shade_rows(pictures[band.picture], input, band.y0, band.y1);
+    shade_rows(images[band.image], input, band.y0, band.y1);
   });
 }
 
 StepReport CpuBackend::step(std::span<const std::uint32_t> views, const Rates& rates) {
   StepReport report;
   const auto step_number = std::uint32_t(state_.step + 1);
-  pictures_.resize(views.size());
+  images_.resize(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
-    Picture& picture = pictures_[i];
-    prepare(picture, views_[views[i]].camera);
-    picture.draw_key = kernels::draw_key(config_.seed, step_number, views[i]);
-    picture.by_color.resize(3 * picture.pixels());
-    picture.loss.resize(picture.pixels());
-    picture.gradient.resize(picture.pixels());
+    BatchImage& image = images_[i];
+    prepare(image, views_[views[i]].camera);
+    image.draw_key = kernels::draw_key(config_.seed, step_number, views[i]);
+    image.by_color.resize(3 * image.pixels());
+    image.loss.resize(image.pixels());
+    image.gradient.resize(image.pixels());
   }
-  find_visible_faces(pictures_, Masking::stochastic);
-  shade(pictures_);
+  find_visible_faces(images_, Masking::stochastic);
+  shade(images_);
   take_loss(views, report);
   shade_backward(views, report);
   step_faces(rates, report);
@@ -182,21 +181,21 @@ StepReport CpuBackend::step(std::span<const std::uint32_t> views, const Rates& r
 
 void CpuBackend::shade_backward(std::span<const std::uint32_t> views, StepReport& report) {
   const Stopwatch stopwatch(times_.shading_backward);
-  const std::vector<Band> tasks = bands(pictures_);
+  const std::vector<Band> tasks = bands(images_);
   ShadingInput input = shading_input();
   // Gradients are means over the batch: scaled to a pixel's own they suit the range of a half.
   if (config_.gradient_precision == GradientPrecision::float16)
-    input.half_scale = 3.0f * float(pictures_[0].pixels()) * float(pictures_.size());
+    input.half_scale = 3.0f * float(images_[0].pixels()) * float(images_.size());
   mlp_gradients_.resize(tasks.size());
   std::vector<BandReport> reports(tasks.size());
   pool_.run(tasks.size(), [&](std::size_t task) {
     const Band& band = tasks[task];
-    Picture& picture = pictures_[band.picture];
-    shade_rows_backward(picture, input, band.y0, band.y1, mlp_gradients_[task]);
-    reports[task] = take_advantage(picture, views[band.picture], band.y0, band.y1);
+    BatchImage& image = images_[band.image];
+    shade_rows_backward(image, input, band.y0, band.y1, mlp_gradients_[task]);
+    reports[task] = take_advantage(image, views[band.image], band.y0, band.y1);
   });
   std::size_t pixels = 0;
-  for (const Picture& picture : pictures_) pixels += picture.pixels();
+  for (const BatchImage& image : images_) pixels += image.pixels();
   for (const BandReport& band : reports) {
     report.mse += band.squared / (3.0 * double(pixels));
     times_.shaded_pixels += band.shaded;
@@ -206,7 +205,7 @@ void CpuBackend::shade_backward(std::span<const std::uint32_t> views, StepReport
 
 void CpuBackend::step_faces(const Rates& rates, StepReport& report) {
   const Stopwatch stopwatch(times_.faces);
-  const FaceStep face_step{.pictures = pictures_,
+  const FaceStep face_step{.images = images_,
                            .pyramid = pyramid_.get(),
                            .model = &state_.model,
                            .moments = &state_.moments,
@@ -235,17 +234,17 @@ void CpuBackend::take_loss(std::span<const std::uint32_t> views, StepReport& rep
   const float share = 1.0f / float(views.size());
   std::vector<ImageLossView<float>> inputs;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    Picture& picture = pictures_[i];
+    BatchImage& image = images_[i];
     const TrainingView& view = views_[views[i]];
-    inputs.push_back({.width = picture.view.width,
-                      .height = picture.view.height,
-                      .rendered = picture.color,
+    inputs.push_back({.width = image.view.width,
+                      .height = image.view.height,
+                      .rendered = image.color,
                       .target = view.target,
                       .ignored = view.ignored,
                       .l1_weight = config_.l1_weight * share,
                       .ssim_weight = config_.ssim_weight * share,
-                      .gradient = picture.by_color,
-                      .pixel_loss = picture.loss});
+                      .gradient = image.by_color,
+                      .pixel_loss = image.loss});
   }
   std::vector<ImageLoss> losses(views.size());
   image_losses<float>(inputs, losses, loss_scratch_, pool_);
@@ -259,23 +258,23 @@ void CpuBackend::take_loss(std::span<const std::uint32_t> views, StepReport& rep
 
 /// What a band of rows adds to the statistics, and its pixels' loss turned into what the score
 /// takes: its share of the batch's mean, less the running mean, which runs on.
-CpuBackend::BandReport CpuBackend::take_advantage(Picture& picture, std::uint32_t view_index,
+CpuBackend::BandReport CpuBackend::take_advantage(BatchImage& image, std::uint32_t view_index,
                                                   int y0, int y1) {
   BandReport report;
   const TrainingView& view = views_[view_index];
-  const std::size_t pixels = picture.pixels(), width = std::size_t(picture.view.width);
-  const float scale = config_.opacity_l1_weight / (float(pictures_.size()) * 3.0f * float(pixels));
+  const std::size_t pixels = image.pixels(), width = std::size_t(image.view.width);
+  const float scale = config_.opacity_l1_weight / (float(images_.size()) * 3.0f * float(pixels));
   for (std::size_t p = std::size_t(y0) * width; p < std::size_t(y1) * width; ++p) {
-    report.shaded += picture.visible[p].face != no_face;
+    report.shaded += image.visible[p].face != no_face;
     bool counts = view.ignored.empty() || !view.ignored[p];
     for (std::size_t c = 0; counts && c < 3; ++c) {
-      const double d = picture.color[c * pixels + p] - view.target[c * pixels + p] / 255.0;
+      const double d = image.color[c * pixels + p] - view.target[c * pixels + p] / 255.0;
       if (std::isfinite(d)) report.squared += d * d;
     }
     for (std::size_t c = 0; c < 3; ++c)
-      counts = counts && std::isfinite(picture.color[c * pixels + p]);
-    float loss = picture.loss[p];
-    picture.gradient[p].error = loss;
+      counts = counts && std::isfinite(image.color[c * pixels + p]);
+    float loss = image.loss[p];
+    image.gradient[p].error = loss;
     // A pixel that does not count has a loss of 0, which says nothing of what it mostly shows.
     if (config_.baseline && counts) {
       std::uint16_t& stored = state_.baseline[first_pixel_[view_index] + p];
@@ -285,7 +284,7 @@ CpuBackend::BandReport CpuBackend::take_advantage(Picture& picture, std::uint32_
       stored = std::uint16_t(std::clamp(65535 * std::sqrt(next / 3) + 0.5f, 1.0f, 65535.0f));
       loss -= mean;
     }
-    picture.loss[p] = loss * scale;
+    image.loss[p] = loss * scale;
   }
   return report;
 }
@@ -309,25 +308,25 @@ void CpuBackend::step_network(float rate, StepReport& report) {
 
 std::vector<std::uint64_t> CpuBackend::visible_pixels(std::span<const Camera> cameras) {
   std::vector<std::uint64_t> counts(state_.model.faces());
-  // A few pictures at a time: they are counted and forgotten.
+  // A few images at a time: they are counted and forgotten.
   const std::size_t at_once = 2 * std::size_t(pool_.threads());
   for (std::size_t begin = 0; begin < cameras.size(); begin += at_once) {
-    std::vector<Picture> pictures(std::min(at_once, cameras.size() - begin));
-    for (std::size_t i = 0; i < pictures.size(); ++i) prepare(pictures[i], cameras[begin + i]);
-    find_visible_faces(pictures, Masking::threshold);
-    for (const Picture& picture : pictures)
-      for (const VisiblePixel& pixel : picture.visible)
+    std::vector<BatchImage> images(std::min(at_once, cameras.size() - begin));
+    for (std::size_t i = 0; i < images.size(); ++i) prepare(images[i], cameras[begin + i]);
+    find_visible_faces(images, Masking::threshold);
+    for (const BatchImage& image : images)
+      for (const VisiblePixel& pixel : image.visible)
         if (pixel.face != no_face) ++counts[pixel.face];
   }
   return counts;
 }
 
 std::vector<float> CpuBackend::render(const Camera& camera) {
-  std::vector<Picture> picture(1);
-  prepare(picture[0], camera);
-  find_visible_faces(picture, Masking::threshold);
-  shade(picture);
-  return std::move(picture[0].color);
+  std::vector<BatchImage> image(1);
+  prepare(image[0], camera);
+  find_visible_faces(image, Masking::threshold);
+  shade(image);
+  return std::move(image[0].color);
 }
 
 }  // namespace

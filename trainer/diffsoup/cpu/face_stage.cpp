@@ -14,19 +14,19 @@ namespace tureen::trainer {
 
 namespace {
 
-/// A face's gradient from one picture, added up.
+/// A face's gradient from one image, added up.
 struct Gathered {
   float corners[3][3] = {};  // by the positions, world axes
   float error = 0;
   bool touched = false;
 };
 
-[[gnu::always_inline]] inline kernels::EdgePixel edge_pixel(const Picture& picture,
+[[gnu::always_inline]] inline kernels::EdgePixel edge_pixel(const BatchImage& image,
                                                             std::size_t pixel) {
-  const PixelGradient& gradient = picture.gradient[pixel];
+  const PixelGradient& gradient = image.gradient[pixel];
   kernels::EdgePixel result;
-  result.face = picture.visible[pixel].face;
-  result.inverse_depth = picture.visible[pixel].inverse_depth;
+  result.face = image.visible[pixel].face;
+  result.inverse_depth = image.visible[pixel].inverse_depth;
   for (int c = 0; c < 3; ++c) {
     result.color[c] = gradient.color[c];
     result.gradient[c] = gradient.by_color[c];
@@ -35,38 +35,38 @@ struct Gathered {
 }
 
 /// The four edges of a pixel that the face won.
-[[gnu::always_inline]] inline void gather_edges(const Picture& picture,
+[[gnu::always_inline]] inline void gather_edges(const BatchImage& image,
                                                 const kernels::ProjectedFace& face, int x, int y,
                                                 std::size_t pixel, float slide,
                                                 float (&corners)[3][3]) {
-  const kernels::EdgePixel p = edge_pixel(picture, pixel);
-  const int width = picture.view.width, height = picture.view.height;
+  const kernels::EdgePixel p = edge_pixel(image, pixel);
+  const int width = image.view.width, height = image.view.height;
   const int neighbours[4][2] = {{x - 1, y}, {x + 1, y}, {x, y - 1}, {x, y + 1}};
   for (const auto& n : neighbours) {
     if (n[0] < 0 || n[1] < 0 || n[0] >= width || n[1] >= height) continue;
-    const kernels::EdgePixel q = edge_pixel(picture, std::size_t(n[1]) * width + n[0]);
+    const kernels::EdgePixel q = edge_pixel(image, std::size_t(n[1]) * width + n[0]);
     const bool background = q.face == no_face;
-    const kernels::ProjectedFace* other = background ? nullptr : &picture.projected[q.face];
+    const kernels::ProjectedFace* other = background ? nullptr : &image.projected[q.face];
     const kernels::PointGradient point =
         kernels::edge_gradient(face, other, x, y, n[0], n[1], p, q, background, slide);
     if (point.kind != kernels::EdgeCase::none)
-      kernels::distribute(picture.view, face, point, corners);
+      kernels::distribute(image.view, face, point, corners);
   }
 }
 
-[[gnu::always_inline]] inline void gather_picture(const FaceStep& step, const Picture& picture,
-                                                  std::size_t index, FaceScratch& scratch,
-                                                  Gathered& out) {
-  const kernels::ProjectedFace& face = picture.projected[index];
-  const std::size_t width = std::size_t(picture.view.width);
+[[gnu::always_inline]] inline void gather_image(const FaceStep& step, const BatchImage& image,
+                                                std::size_t index, FaceScratch& scratch,
+                                                Gathered& out) {
+  const kernels::ProjectedFace& face = image.projected[index];
+  const std::size_t width = std::size_t(image.view.width);
   const int level = step.pyramid->max_level();
   const float* alpha = &step.store->alpha[index * step.pyramid->fine_texels()];
   float corners[3][3] = {};  // right, down, forward
   kernels::for_each_fragment(
-      picture.view, face, {0, 0, picture.view.width, picture.view.height},
+      image.view, face, {0, 0, image.view.width, image.view.height},
       [&](const kernels::Fragment& fragment) __attribute__((always_inline)) {
         const std::size_t pixel = std::size_t(fragment.y) * width + std::size_t(fragment.x);
-        const VisiblePixel& visible = picture.visible[pixel];
+        const VisiblePixel& visible = image.visible[pixel];
         const bool won = visible.face == index;
         // Behind the winner nothing depends on this face; of equal depths the lower face is in
         // front, as find_visible has it.
@@ -80,19 +80,17 @@ struct Gathered {
         const auto role = won ? kernels::FragmentRole::winner : kernels::FragmentRole::in_front;
         for (int j = 0; j < 3; ++j)
           scratch.alpha[at.texels[j]] +=
-              picture.loss[pixel] *
-              kernels::logit_score(role, a, at.weights[j], alpha[at.texels[j]]);
+              image.loss[pixel] * kernels::logit_score(role, a, at.weights[j], alpha[at.texels[j]]);
         if (!won) return;
-        out.error += picture.gradient[pixel].error;
-        const kernels::TexelPack by_features =
-            kernels::load_texel(picture.gradient[pixel].features);
+        out.error += image.gradient[pixel].error;
+        const kernels::TexelPack by_features = kernels::load_texel(image.gradient[pixel].features);
         for (int j = 0; j < 3; ++j) {
           float* texel = &scratch.gradient[std::size_t(at.texels[j]) * channels];
           kernels::store_texel(texel, kernels::load_texel(texel) + at.weights[j] * by_features);
         }
-        gather_edges(picture, face, fragment.x, fragment.y, pixel, step.slide, corners);
+        gather_edges(image, face, fragment.x, fragment.y, pixel, step.slide, corners);
       });
-  const kernels::View& view = picture.view;
+  const kernels::View& view = image.view;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       out.corners[i][j] += corners[i][0] * float(view.right[j]) +
@@ -157,8 +155,8 @@ TUREEN_VECTOR_CLONES TUREEN_FLATTEN unsigned step_face(const FaceStep& step, std
   std::fill(scratch.gradient.begin(), scratch.gradient.end(), 0.0f);
   std::fill(scratch.alpha.begin(), scratch.alpha.end(), 0.0f);
   Gathered gathered;
-  for (const Picture& picture : step.pictures)
-    if (!picture.projected[face].empty()) gather_picture(step, picture, face, scratch, gathered);
+  for (const BatchImage& image : step.images)
+    if (!image.projected[face].empty()) gather_image(step, image, face, scratch, gathered);
   if (!gathered.touched && !step.dense_updates) return 0;
 
   (*step.errors)[face] += gathered.error;

@@ -1,4 +1,4 @@
-// The last stage of a step: each face gathers what all pictures of the batch have for it, and is
+// The last stage of a step: each face gathers what all images of the batch have for it, and is
 // stepped by the optimiser at once. A face is one task's alone, so nothing is added atomically, no
 // gradient is ever stored, and the result does not depend on the number of threads.
 #pragma once
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "trainer/common/kernels/adam.hpp"
-#include "trainer/diffsoup/cpu/picture.hpp"
+#include "trainer/diffsoup/cpu/batch_image.hpp"
 #include "trainer/diffsoup/cpu/texture_store.hpp"
 #include "trainer/diffsoup/state.hpp"
 
@@ -15,7 +15,7 @@ namespace tureen::trainer {
 
 /// What all faces of a step share.
 struct FaceStep {
-  std::span<const Picture> pictures;
+  std::span<const BatchImage> images;
   const Pyramid* pyramid;
   Model* model;
   Moments* moments;
@@ -24,7 +24,7 @@ struct FaceStep {
   float texture_rate, vertex_rate;
   float beta1, beta2, epsilon;
   float slide;         // scale of the texture slide, kernels/edge_gradient.hpp
-  bool dense_updates;  // step faces that no picture touched, too
+  bool dense_updates;  // step faces that no image touched, too
 };
 
 /// Reused from face to face.

@@ -27,16 +27,16 @@ struct Batch {
 
 /// The network's input: features of the winner's texture, harmonics of the direction to the eye.
 /// Lanes without a pixel repeat the first one.
-[[gnu::always_inline]] inline void gather(const Picture& picture, const ShadingInput& input,
+[[gnu::always_inline]] inline void gather(const BatchImage& image, const ShadingInput& input,
                                           const Batch& batch, State& state) {
   const std::size_t texels = lattice::texel_count(input.level);
-  const kernels::View& view = picture.view;
+  const kernels::View& view = image.view;
   alignas(64) float inputs[channels][lanes];
   alignas(64) float pixel_x[lanes], pixel_y[lanes];
   for (int l = 0; l < lanes; ++l) {
     const int source = l < batch.count ? l : 0;
     const std::size_t pixel = batch.pixel[source];
-    const VisiblePixel& visible = picture.visible[pixel];
+    const VisiblePixel& visible = image.visible[pixel];
     const auto at = lattice::footprint(input.level, visible.b0, visible.b1);
     const float* texture = input.texture + visible.face * texels * channels;
     const auto texel = [&](std::size_t j) __attribute__((always_inline)) {
@@ -75,13 +75,13 @@ struct Batch {
 
 /// Calls visit(batch) for all visible pixels of the rows, the last batch may not be full.
 template <class Visitor>
-[[gnu::always_inline]] inline void for_each_batch(const Picture& picture, int y0, int y1,
+[[gnu::always_inline]] inline void for_each_batch(const BatchImage& image, int y0, int y1,
                                                   Visitor&& visit) {
   Batch batch;
   for (int y = y0; y < y1; ++y)
-    for (int x = 0; x < picture.view.width; ++x) {
-      const std::size_t pixel = std::size_t(y) * picture.view.width + x;
-      if (picture.visible[pixel].face == no_face) continue;
+    for (int x = 0; x < image.view.width; ++x) {
+      const std::size_t pixel = std::size_t(y) * image.view.width + x;
+      if (image.visible[pixel].face == no_face) continue;
       batch.pixel[batch.count] = pixel;
       batch.x[batch.count] = x;
       batch.y[batch.count] = y;
@@ -95,40 +95,40 @@ template <class Visitor>
 
 }  // namespace
 
-TUREEN_VECTOR_CLONES TUREEN_FLATTEN void shade_rows(Picture& picture, const ShadingInput& input,
+TUREEN_VECTOR_CLONES TUREEN_FLATTEN void shade_rows(BatchImage& image, const ShadingInput& input,
                                                     int y0, int y1) {
-  const std::size_t pixels = picture.pixels();
-  const std::size_t begin = std::size_t(y0) * picture.view.width;
-  const std::size_t end = std::size_t(y1) * picture.view.width;
+  const std::size_t pixels = image.pixels();
+  const std::size_t begin = std::size_t(y0) * image.view.width;
+  const std::size_t end = std::size_t(y1) * image.view.width;
   for (int c = 0; c < 3; ++c)
-    for (std::size_t p = begin; p < end; ++p) picture.color[c * pixels + p] = input.background[c];
+    for (std::size_t p = begin; p < end; ++p) image.color[c * pixels + p] = input.background[c];
   for_each_batch(
-      picture, y0, y1, [&](const Batch& batch) __attribute__((always_inline)) {
+      image, y0, y1, [&](const Batch& batch) __attribute__((always_inline)) {
         State state;
-        gather(picture, input, batch, state);
+        gather(image, input, batch, state);
         Pack color[3];
         kernels::shade(input.mlp->data(), state, color);
         for (int c = 0; c < 3; ++c)
           for (int l = 0; l < batch.count; ++l)
-            picture.color[c * pixels + batch.pixel[l]] = color[c][l];
+            image.color[c * pixels + batch.pixel[l]] = color[c][l];
       });
 }
 
-TUREEN_VECTOR_CLONES TUREEN_FLATTEN void shade_rows_backward(Picture& picture,
+TUREEN_VECTOR_CLONES TUREEN_FLATTEN void shade_rows_backward(BatchImage& image,
                                                              const ShadingInput& input, int y0,
                                                              int y1, MlpParameters& mlp_gradient) {
-  const std::size_t pixels = picture.pixels();
-  for (std::size_t p = std::size_t(y0) * picture.view.width;
-       p < std::size_t(y1) * picture.view.width; ++p)
+  const std::size_t pixels = image.pixels();
+  for (std::size_t p = std::size_t(y0) * image.view.width; p < std::size_t(y1) * image.view.width;
+       ++p)
     for (std::size_t c = 0; c < 3; ++c) {
-      picture.gradient[p].color[c] = picture.color[c * pixels + p];
-      picture.gradient[p].by_color[c] = picture.by_color[c * pixels + p];
+      image.gradient[p].color[c] = image.color[c * pixels + p];
+      image.gradient[p].by_color[c] = image.by_color[c * pixels + p];
     }
   Pack sums[mlp_parameters] = {};
   for_each_batch(
-      picture, y0, y1, [&](const Batch& batch) __attribute__((always_inline)) {
+      image, y0, y1, [&](const Batch& batch) __attribute__((always_inline)) {
         State state;
-        gather(picture, input, batch, state);
+        gather(image, input, batch, state);
         kernels::IntPack finite;
         quarantine(state, finite);
         Pack color[3], dcolor[3];
@@ -136,14 +136,14 @@ TUREEN_VECTOR_CLONES TUREEN_FLATTEN void shade_rows_backward(Picture& picture,
         for (int c = 0; c < 3; ++c) {
           alignas(64) float by_color[lanes] = {};
           for (int l = 0; l < batch.count; ++l)
-            by_color[l] = picture.by_color[c * pixels + batch.pixel[l]];
+            by_color[l] = image.by_color[c * pixels + batch.pixel[l]];
           std::memcpy(&dcolor[c], by_color, sizeof(Pack));
           dcolor[c] = finite ? dcolor[c] : Pack{};
         }
         Pack dfeatures[kernels::features];
         kernels::shade_backward(input.mlp->data(), state, dcolor, sums, dfeatures);
         for (int l = 0; l < batch.count; ++l) {
-          float* out = picture.gradient[batch.pixel[l]].features;
+          float* out = image.gradient[batch.pixel[l]].features;
           for (int f = 0; f < kernels::features; ++f) out[f] = dfeatures[f][l];
           if (input.half_scale != 0)
             for (int f = 0; f < kernels::features; ++f)

@@ -1,7 +1,7 @@
 // Colours of visible pixels, and the way back from the colour's gradient to features and network.
 #pragma once
 
-#include "trainer/diffsoup/cpu/picture.hpp"
+#include "trainer/diffsoup/cpu/batch_image.hpp"
 #include "trainer/diffsoup/cpu/texture_store.hpp"
 
 namespace tureen::trainer {
@@ -16,12 +16,12 @@ struct ShadingInput {
   float half_scale = 0;
 };
 
-/// Rows [y0, y1) of picture.color.
-void shade_rows(Picture& picture, const ShadingInput& input, int y0, int y1);
+/// Rows [y0, y1) of image.color.
+void shade_rows(BatchImage& image, const ShadingInput& input, int y0, int y1);
 
-/// Fills picture.gradient of rows [y0, y1) from picture.by_color, and returns what these
+/// Fills image.gradient of rows [y0, y1) from image.by_color, and returns what these
 /// rows add to the gradient of the network.
-void shade_rows_backward(Picture& picture, const ShadingInput& input, int y0, int y1,
+void shade_rows_backward(BatchImage& image, const ShadingInput& input, int y0, int y1,
                          MlpParameters& mlp_gradient);
 
 }  // namespace tureen::trainer

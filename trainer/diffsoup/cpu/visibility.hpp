@@ -2,17 +2,17 @@
 #pragma once
 
 #include "trainer/diffsoup/backend.hpp"
-#include "trainer/diffsoup/cpu/picture.hpp"
+#include "trainer/diffsoup/cpu/batch_image.hpp"
 #include "trainer/diffsoup/cpu/texture_store.hpp"
 
 namespace tureen::trainer {
 
 /// Projects all faces and sorts them into tiles.
-void bin_faces(Picture& picture, const Model& model);
+void bin_faces(BatchImage& image, const Model& model);
 
-/// Fills picture.visible of one tile. Of equal depths the lower face wins. Returns how many
+/// Fills image.visible of one tile. Of equal depths the lower face wins. Returns how many
 /// fragments there were.
-std::uint64_t find_visible(Picture& picture, std::size_t tile, const float* alpha, int level,
+std::uint64_t find_visible(BatchImage& image, std::size_t tile, const float* alpha, int level,
                            Masking masking);
 
 }  // namespace tureen::trainer

@@ -1,4 +1,4 @@
-// What pictures have for each face, and its step: the opposite of
+// What images have for each face, and its step: the opposite of
 // trainer/diffsoup/cpu/face_stage.hpp, where a face gathers all of it at once. Here pieces of faces
 // add to sums in fixed point, and a block a face steps it, makes its texture anew and leaves the
 // sums zero for the next step.
@@ -52,29 +52,28 @@ struct GatherFaces {
   template <class Atomics>
   TUREEN_HOST_DEVICE void gather(const Piece& piece, const kernels::ProjectedFace& face,
                                  const Thread& at) const {
-    const DevicePicture& picture = batch.pictures[piece.picture];
+    const DeviceImage& image = batch.images[piece.image];
     unsigned flags = 0;
     float errors = 0;
     float corners[3][3] = {};  // right, down, forward
-    for_each_own_fragment(picture.view, piece, face, at, [&](const kernels::Fragment& fragment) {
+    for_each_own_fragment(image.view, piece, face, at, [&](const kernels::Fragment& fragment) {
       const std::size_t pixel =
-          std::size_t(fragment.y) * std::size_t(picture.view.width) + std::size_t(fragment.x);
-      const VisibleKey key = keys[picture.first_pixel + pixel];
+          std::size_t(fragment.y) * std::size_t(image.view.width) + std::size_t(fragment.x);
+      const VisibleKey key = keys[image.first_pixel + pixel];
       const bool won = key != 0 && face_of(key) == piece.face;
       // Behind the winner nothing depends on this face.
       if (visible_key(fragment.inverse_depth, piece.face) < key) return;
       flags |= touched_flag;
       const auto texels = lattice::footprint(model.max_level, fragment.b0, fragment.b1);
-      if (!add_score<Atomics>(piece.face, picture.first_pixel + pixel, texels, won))
+      if (!add_score<Atomics>(piece.face, image.first_pixel + pixel, texels, won))
         flags |= bad_texture_flag;
       if (!won) return;
-      errors += error[picture.first_pixel + pixel];
-      if (!add_features<Atomics>(piece.face, picture.first_pixel + pixel, texels))
+      errors += error[image.first_pixel + pixel];
+      if (!add_features<Atomics>(piece.face, image.first_pixel + pixel, texels))
         flags |= bad_texture_flag;
-      gather_edges(picture, piece, face, fragment, corners);
+      gather_edges(image, piece, face, fragment, corners);
     });
-    if (flags && !add_corners<Atomics>(picture.view, piece.face, corners))
-      flags |= bad_corners_flag;
+    if (flags && !add_corners<Atomics>(image.view, piece.face, corners)) flags |= bad_corners_flag;
     if (errors > 0) Atomics::add(sums.errors[piece.face], to_fixed(errors, loss_scale));
     if (flags & ~Atomics::load(sums.flags[piece.face]))
       Atomics::set_bits(sums.flags[piece.face], flags);
@@ -117,14 +116,14 @@ struct GatherFaces {
     return good;
   }
 
-  TUREEN_HOST_DEVICE kernels::EdgePixel edge_pixel(const DevicePicture& picture,
+  TUREEN_HOST_DEVICE kernels::EdgePixel edge_pixel(const DeviceImage& image,
                                                    std::size_t pixel) const {
-    const VisibleKey key = keys[picture.first_pixel + pixel];
+    const VisibleKey key = keys[image.first_pixel + pixel];
     kernels::EdgePixel result;
     result.face = key ? face_of(key) : no_face;
     result.inverse_depth = inverse_depth_of(key);
     for (std::size_t c = 0; c < 3; ++c) {
-      const std::size_t at = 3 * picture.first_pixel + c * picture.pixels() + pixel;
+      const std::size_t at = 3 * image.first_pixel + c * image.pixels() + pixel;
       result.color[c] = color[at];
       result.gradient[c] = by_color[at];
     }
@@ -132,26 +131,26 @@ struct GatherFaces {
   }
 
   /// The four edges of a pixel that the face won.
-  TUREEN_HOST_DEVICE void gather_edges(const DevicePicture& picture, const Piece& piece,
+  TUREEN_HOST_DEVICE void gather_edges(const DeviceImage& image, const Piece& piece,
                                        const kernels::ProjectedFace& face,
                                        const kernels::Fragment& fragment,
                                        float (&corners)[3][3]) const {
-    const int width = picture.view.width, height = picture.view.height;
+    const int width = image.view.width, height = image.view.height;
     const kernels::EdgePixel p =
-        edge_pixel(picture, std::size_t(fragment.y) * std::size_t(width) + std::size_t(fragment.x));
+        edge_pixel(image, std::size_t(fragment.y) * std::size_t(width) + std::size_t(fragment.x));
     for (int side = 0; side < 4; ++side) {
       const int step = side % 2 ? 1 : -1;
       const int x = fragment.x + (side < 2 ? step : 0), y = fragment.y + (side < 2 ? 0 : step);
       if (x < 0 || y < 0 || x >= width || y >= height) continue;
       const kernels::EdgePixel q =
-          edge_pixel(picture, std::size_t(y) * std::size_t(width) + std::size_t(x));
+          edge_pixel(image, std::size_t(y) * std::size_t(width) + std::size_t(x));
       const bool background = q.face == no_face;
       const kernels::ProjectedFace* other =
-          background ? nullptr : projections.faces + piece.picture * model.faces + q.face;
+          background ? nullptr : projections.faces + piece.image * model.faces + q.face;
       const kernels::PointGradient point = kernels::edge_gradient(
           face, other, fragment.x, fragment.y, x, y, p, q, background, slide);
       if (point.kind != kernels::EdgeCase::none)
-        kernels::distribute(picture.view, face, point, corners);
+        kernels::distribute(image.view, face, point, corners);
     }
   }
 

@@ -24,7 +24,7 @@
 #include <utility>
 #include <vector>
 
-#include "trainer/diffsoup/cpu/picture.hpp"
+#include "trainer/diffsoup/cpu/batch_image.hpp"
 #include "trainer/diffsoup/cuda/face_kernels.hpp"
 #include "trainer/diffsoup/cuda/loss_kernels.hpp"
 #include "trainer/diffsoup/cuda/shading_kernels.hpp"
@@ -82,7 +82,7 @@ class Buffer {
 template <class Machine>
 class KernelBackend final : public Backend {
  public:
-  /// Copies the views' pictures into the machine's memory.
+  /// Copies the views' images into the machine's memory.
   KernelBackend(std::span<const TrainingView> views, const Config& config);
 
   std::string description() const override { return machine_.description(); }
@@ -97,8 +97,8 @@ class KernelBackend final : public Backend {
   template <class T>
   using Array = Buffer<Machine, T>;
 
-  DevicePicture picture_of(const Camera& camera) const;
-  void set_pictures(std::vector<DevicePicture> pictures);
+  DeviceImage image_of(const Camera& camera) const;
+  void set_images(std::vector<DeviceImage> images);
   void find_visible(Masking masking);
   void shade();
   void take_loss();
@@ -137,17 +137,17 @@ class KernelBackend final : public Backend {
   Array<unsigned> flags_{machine_};
 
   // Of a batch.
-  std::vector<DevicePicture> batch_pictures_;
+  std::vector<DeviceImage> batch_images_;
   DeviceBatch batch_{};
   unsigned tiles_ = 0;
-  Array<DevicePicture> pictures_{machine_};
+  Array<DeviceImage> images_{machine_};
   Array<kernels::ProjectedFace> projected_{machine_};
   Array<std::uint64_t> first_piece_{machine_};
   Array<VisibleKey> keys_{machine_};
   Array<float> color_{machine_}, by_color_{machine_}, windows_{machine_}, advantage_{machine_};
   Array<float> error_{machine_};
   Array<float> by_features_{machine_}, by_mlp_{machine_};
-  Array<PictureSums> sums_{machine_};  // one more than pictures: the last counts the parameters'
+  Array<ImageSums> sums_{machine_};  // one more than images: the last counts the parameters'
   Array<unsigned long long> counts_{machine_}, fragments_{machine_};
   StageTimes times_;
 };
@@ -275,27 +275,27 @@ Textures KernelBackend<Machine>::textures() const {
 }
 
 template <class Machine>
-DevicePicture KernelBackend<Machine>::picture_of(const Camera& camera) const {
-  DevicePicture picture{};
-  picture.view = view_of(camera, state_.model.origin, config_.near, config_.far);
-  return picture;
+DeviceImage KernelBackend<Machine>::image_of(const Camera& camera) const {
+  DeviceImage image{};
+  image.view = view_of(camera, state_.model.origin, config_.near, config_.far);
+  return image;
 }
 
-/// Lays out a batch; pictures have their view and what is a photograph's.
+/// Lays out a batch; images have their view and what is a photograph's.
 template <class Machine>
-void KernelBackend<Machine>::set_pictures(std::vector<DevicePicture> pictures) {
-  batch_ = {.pictures = nullptr, .count = unsigned(pictures.size()), .pixels = 0};
+void KernelBackend<Machine>::set_images(std::vector<DeviceImage> images) {
+  batch_ = {.images = nullptr, .count = unsigned(images.size()), .pixels = 0};
   tiles_ = 0;
-  for (DevicePicture& picture : pictures) {
-    picture.first_pixel = batch_.pixels;
-    picture.first_tile = tiles_;
-    picture.tiles_x = unsigned(picture.view.width + tile_width - 1) / tile_width;
-    batch_.pixels += picture.pixels();
-    tiles_ += picture.tiles_x * (unsigned(picture.view.height + tile_height - 1) / tile_height);
+  for (DeviceImage& image : images) {
+    image.first_pixel = batch_.pixels;
+    image.first_tile = tiles_;
+    image.tiles_x = unsigned(image.view.width + tile_width - 1) / tile_width;
+    batch_.pixels += image.pixels();
+    tiles_ += image.tiles_x * (unsigned(image.view.height + tile_height - 1) / tile_height);
   }
-  pictures_.upload(pictures);
-  batch_.pictures = pictures_.data();
-  batch_pictures_ = std::move(pictures);
+  images_.upload(images);
+  batch_.images = images_.data();
+  batch_images_ = std::move(images);
   projected_.resize(batch_.count * flags_.size());
   first_piece_.resize(projected_.size() + 1);
   keys_.resize(batch_.pixels);
@@ -331,15 +331,15 @@ void KernelBackend<Machine>::shade() {
 template <class Machine>
 StepReport KernelBackend<Machine>::step(std::span<const std::uint32_t> views, const Rates& rates) {
   const auto step_number = std::uint32_t(state_.step + 1);
-  std::vector<DevicePicture> pictures;
+  std::vector<DeviceImage> images;
   for (const std::uint32_t view : views) {
-    DevicePicture& picture = pictures.emplace_back(picture_of(views_[view].camera));
-    picture.draw_key = kernels::draw_key(config_.seed, step_number, view);
-    picture.target = targets_.data() + 3 * first_pixel_[view];
-    if (!views_[view].ignored.empty()) picture.ignored = ignored_.data() + first_pixel_[view];
-    if (config_.baseline) picture.baseline = baseline_.data() + first_pixel_[view];
+    DeviceImage& image = images.emplace_back(image_of(views_[view].camera));
+    image.draw_key = kernels::draw_key(config_.seed, step_number, view);
+    image.target = targets_.data() + 3 * first_pixel_[view];
+    if (!views_[view].ignored.empty()) image.ignored = ignored_.data() + first_pixel_[view];
+    if (config_.baseline) image.baseline = baseline_.data() + first_pixel_[view];
   }
-  set_pictures(std::move(pictures));
+  set_images(std::move(images));
   sums_.resize(views.size() + 1);
   sums_.clear();
 
@@ -388,10 +388,9 @@ void KernelBackend<Machine>::take_loss() {
 template <class Machine>
 void KernelBackend<Machine>::shade_backward() {
   // Gradients are means over the batch: scaled to a pixel's own they suit the range of a half.
-  const float half_scale =
-      config_.gradient_precision == GradientPrecision::float16
-          ? 3.0f * float(batch_pictures_.front().pixels()) * float(batch_.count)
-          : 0.0f;
+  const float half_scale = config_.gradient_precision == GradientPrecision::float16
+                               ? 3.0f * float(batch_images_.front().pixels()) * float(batch_.count)
+                               : 0.0f;
   by_features_.resize(batch_.pixels * channels);
   by_mlp_.resize(std::size_t(network_blocks) * mlp_parameters);
   machine_.launch(ShadeBackward{.batch = batch_,
@@ -455,7 +454,7 @@ void KernelBackend<Machine>::step_faces(const Rates& rates) {
 
 template <class Machine>
 StepReport KernelBackend<Machine>::read_report() {
-  std::vector<PictureSums> sums(sums_.size());
+  std::vector<ImageSums> sums(sums_.size());
   sums_.download(sums);
   const auto value = [](Fixed sum) {
     return double(static_cast<long long>(sum)) / double(loss_scale);
@@ -463,8 +462,8 @@ StepReport KernelBackend<Machine>::read_report() {
   const double share = 1.0 / double(batch_.count);
   StepReport report;
   report.non_finite = sums.back().non_finite;
-  for (std::size_t i = 0; i < batch_pictures_.size(); ++i) {
-    const kernels::View& view = batch_pictures_[i].view;
+  for (std::size_t i = 0; i < batch_images_.size(); ++i) {
+    const kernels::View& view = batch_images_[i].view;
     const double columns = view.width - ssim_reach, rows = view.height - ssim_reach;
     const double l1 = value(sums[i].l1) / (3.0 * view.width * view.height);
     const double dissimilar =
@@ -503,10 +502,10 @@ std::vector<std::uint64_t> KernelBackend<Machine>::visible_pixels(std::span<cons
   counts_.clear();
   constexpr std::size_t at_once = 8;  // as many as bear the cost of a launch
   for (std::size_t begin = 0; begin < cameras.size(); begin += at_once) {
-    std::vector<DevicePicture> pictures;
+    std::vector<DeviceImage> images;
     for (const Camera& camera : cameras.subspan(begin, std::min(at_once, cameras.size() - begin)))
-      pictures.push_back(picture_of(camera));
-    set_pictures(std::move(pictures));
+      images.push_back(image_of(camera));
+    set_images(std::move(images));
     find_visible(Masking::threshold);
     machine_.launch(
         CountVisible{.keys = keys_.data(), .pixels = batch_.pixels, .counts = counts_.data()},
@@ -519,7 +518,7 @@ std::vector<std::uint64_t> KernelBackend<Machine>::visible_pixels(std::span<cons
 
 template <class Machine>
 std::vector<float> KernelBackend<Machine>::render(const Camera& camera) {
-  set_pictures({picture_of(camera)});
+  set_images({image_of(camera)});
   find_visible(Masking::threshold);
   shade();
   std::vector<float> color(color_.size());

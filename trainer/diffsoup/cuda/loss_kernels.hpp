@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "trainer/common/kernels/image_loss.hpp"
-#include "trainer/diffsoup/cuda/device_picture.hpp"
+#include "trainer/diffsoup/cuda/device_image.hpp"
 
 namespace tureen::trainer::cuda {
 
@@ -16,40 +16,40 @@ inline constexpr int ssim_reach = ssim_window - 1;
 
 /// Where a tile lies.
 struct Tile {
-  const DevicePicture* picture;
-  unsigned index;  // of the picture
+  const DeviceImage* image;
+  unsigned index;  // of the image
   int x0, y0;
 };
 
 TUREEN_HOST_DEVICE Tile tile_of(const DeviceBatch& batch, unsigned block) {
   unsigned i = 0;
-  while (i + 1 < batch.count && batch.pictures[i + 1].first_tile <= block) ++i;
-  const DevicePicture& picture = batch.pictures[i];
-  const unsigned within = block - picture.first_tile;
-  return {&picture, i, int(within % picture.tiles_x) * tile_width,
-          int(within / picture.tiles_x) * tile_height};
+  while (i + 1 < batch.count && batch.images[i + 1].first_tile <= block) ++i;
+  const DeviceImage& image = batch.images[i];
+  const unsigned within = block - image.first_tile;
+  return {&image, i, int(within % image.tiles_x) * tile_width,
+          int(within / image.tiles_x) * tile_height};
 }
 
 /// Whether a pixel's loss counts. Where a channel is not finite it does not, as if the caller had
 /// said so.
 enum class Counted { yes, ignored, not_finite };
 
-TUREEN_HOST_DEVICE Counted counted(const DevicePicture& picture, const float* color,
+TUREEN_HOST_DEVICE Counted counted(const DeviceImage& image, const float* color,
                                    std::size_t pixel) {
-  const float* rendered = color + 3 * picture.first_pixel + pixel;
-  const std::size_t pixels = picture.pixels();
+  const float* rendered = color + 3 * image.first_pixel + pixel;
+  const std::size_t pixels = image.pixels();
   for (std::size_t c = 0; c < 3; ++c)
     if (!std::isfinite(rendered[c * pixels])) return Counted::not_finite;
-  return picture.ignored && picture.ignored[pixel] ? Counted::ignored : Counted::yes;
+  return image.ignored && image.ignored[pixel] ? Counted::ignored : Counted::yes;
 }
 
 /// The arguments of the moments; where the pixel does not count, the photograph's own colour.
-TUREEN_HOST_DEVICE SsimPixel<float> pixel_of(const DevicePicture& picture, const float* color,
+TUREEN_HOST_DEVICE SsimPixel<float> pixel_of(const DeviceImage& image, const float* color,
                                              std::size_t pixel, std::size_t channel) {
-  const std::size_t at = channel * picture.pixels() + pixel;
-  const float target = float(picture.target[at]) / 255.0f;
-  const bool counts = counted(picture, color, pixel) == Counted::yes;
-  return ssim_pixel(counts ? color[3 * picture.first_pixel + at] : target, target);
+  const std::size_t at = channel * image.pixels() + pixel;
+  const float target = float(image.target[at]) / 255.0f;
+  const bool counts = counted(image, color, pixel) == Counted::yes;
+  return ssim_pixel(counts ? color[3 * image.first_pixel + at] : target, target);
 }
 
 /// The eleven weights applied to in[0], in[stride] .. in[10 stride].
@@ -80,7 +80,7 @@ struct WeighedTile {
   }
 };
 
-/// Compares all windows: three planes of derivatives a channel, planes of a picture's size, of
+/// Compares all windows: three planes of derivatives a channel, planes of an image's size, of
 /// which the last ten rows and columns are not written. A block a tile.
 struct CompareWindows {
   static constexpr unsigned threads = 256;
@@ -94,8 +94,8 @@ struct CompareWindows {
   };
   DeviceBatch batch;
   const float* color;  // as Shade::color
-  float* windows;      // [picture][channel][3][y][x]
-  PictureSums* sums;
+  float* windows;      // [image][channel][3][y][x]
+  ImageSums* sums;
 
   TUREEN_HOST_DEVICE unsigned phases() const { return 3 * 3 + 2; }
 
@@ -118,12 +118,12 @@ struct CompareWindows {
 
   TUREEN_HOST_DEVICE void read(const Tile& tile, unsigned channel, const Thread& at,
                                Shared& shared) const {
-    const int width = tile.picture->view.width, height = tile.picture->view.height;
+    const int width = tile.image->view.width, height = tile.image->view.height;
     for (int i = int(at.thread); i < Tiles::wide * Tiles::high; i += int(threads)) {
       const int x = i % Tiles::wide, y = i / Tiles::wide;
       SsimPixel<float> pixel{0, 0};
       if (tile.x0 + x < width && tile.y0 + y < height)
-        pixel = pixel_of(*tile.picture, color,
+        pixel = pixel_of(*tile.image, color,
                          std::size_t(tile.y0 + y) * std::size_t(width) + std::size_t(tile.x0 + x),
                          channel);
       shared.tile.in[0][y][x] = pixel.sum;
@@ -135,13 +135,13 @@ struct CompareWindows {
 
   TUREEN_HOST_DEVICE void compare(const Tile& tile, unsigned channel, const Thread& at,
                                   const Shared& shared, Local& local) const {
-    const DevicePicture& picture = *tile.picture;
-    const std::size_t pixels = picture.pixels(), width = std::size_t(picture.view.width);
-    float* out = windows + 9 * picture.first_pixel + 3 * channel * pixels;
+    const DeviceImage& image = *tile.image;
+    const std::size_t pixels = image.pixels(), width = std::size_t(image.view.width);
+    float* out = windows + 9 * image.first_pixel + 3 * channel * pixels;
     for (int i = int(at.thread); i < tile_width * tile_height; i += int(threads)) {
       const int x = i % tile_width, y = i / tile_width;
-      if (tile.x0 + x + ssim_reach >= picture.view.width ||
-          tile.y0 + y + ssim_reach >= picture.view.height)
+      if (tile.x0 + x + ssim_reach >= image.view.width ||
+          tile.y0 + y + ssim_reach >= image.view.height)
         continue;
       SsimMoments<float> mean;
       mean.sum = shared.tile.at(0, x, y);
@@ -160,7 +160,7 @@ struct CompareWindows {
 
 /// What the loss of a step is made of.
 struct LossWeights {
-  float l1, ssim;  // of a picture's loss in the step's: the configuration's over the batch
+  float l1, ssim;  // of an image's loss in the step's: the configuration's over the batch
   float opacity;   // scale of the score's loss, before it is divided by 3 pixels
   float baseline_rate;
 };
@@ -187,7 +187,7 @@ struct TakeLoss {
   float* by_color;   // as Shade::color
   float* advantage;  // one a pixel: what the score takes
   float* error;      // one a pixel: sum over channels of |C - G|
-  PictureSums* sums;
+  ImageSums* sums;
 
   TUREEN_HOST_DEVICE unsigned phases() const { return 3 * 3 + 2; }
 
@@ -209,15 +209,15 @@ struct TakeLoss {
   /// The windows whose upper left pixel lies in the tile or up to ten above or to the left.
   TUREEN_HOST_DEVICE void read(const Tile& tile, unsigned channel, const Thread& at,
                                Shared& shared) const {
-    const DevicePicture& picture = *tile.picture;
-    const std::size_t pixels = picture.pixels(), width = std::size_t(picture.view.width);
-    const float* in = windows + 9 * picture.first_pixel + 3 * channel * pixels;
+    const DeviceImage& image = *tile.image;
+    const std::size_t pixels = image.pixels(), width = std::size_t(image.view.width);
+    const float* in = windows + 9 * image.first_pixel + 3 * channel * pixels;
     for (int i = int(at.thread); i < Tiles::wide * Tiles::high; i += int(threads)) {
       const int x = i % Tiles::wide, y = i / Tiles::wide;
       const int window_x = tile.x0 + x - ssim_reach, window_y = tile.y0 + y - ssim_reach;
       const bool there = window_x >= 0 && window_y >= 0 &&
-                         window_x + ssim_reach < picture.view.width &&
-                         window_y + ssim_reach < picture.view.height;
+                         window_x + ssim_reach < image.view.width &&
+                         window_y + ssim_reach < image.view.height;
       for (std::size_t p = 0; p < 3; ++p)
         shared.tile.in[p][y][x] =
             there ? in[p * pixels + std::size_t(window_y) * width + std::size_t(window_x)] : 0;
@@ -226,25 +226,25 @@ struct TakeLoss {
 
   TUREEN_HOST_DEVICE void write(const Tile& tile, unsigned channel, const Thread& at,
                                 const Shared& shared, Local& local) const {
-    const DevicePicture& picture = *tile.picture;
-    const std::size_t pixels = picture.pixels(), width = std::size_t(picture.view.width);
-    const float columns = float(picture.view.width - ssim_reach);
-    const float rows = float(picture.view.height - ssim_reach);
-    // Smaller pictures have no window; their planes hold nothing.
+    const DeviceImage& image = *tile.image;
+    const std::size_t pixels = image.pixels(), width = std::size_t(image.view.width);
+    const float columns = float(image.view.width - ssim_reach);
+    const float rows = float(image.view.height - ssim_reach);
+    // Smaller images have no window; their planes hold nothing.
     const float ssim_scale =
         columns > 0 && rows > 0 ? weights.ssim / (6.0f * (columns * rows)) : 0.0f;
     const float l1_scale = weights.l1 / float(3 * pixels);
     for (int k = 0; k < own; ++k) {
       const int i = int(at.thread) + k * int(threads);
       const int x = i % tile_width, y = i / tile_width;
-      if (tile.x0 + x >= picture.view.width || tile.y0 + y >= picture.view.height) continue;
+      if (tile.x0 + x >= image.view.width || tile.y0 + y >= image.view.height) continue;
       const std::size_t pixel = std::size_t(tile.y0 + y) * width + std::size_t(tile.x0 + x);
-      const bool counts = counted(picture, color, pixel) == Counted::yes;
-      const SsimPixel<float> here = pixel_of(picture, color, pixel, channel);
+      const bool counts = counted(image, color, pixel) == Counted::yes;
+      const SsimPixel<float> here = pixel_of(image, color, pixel, channel);
       float gradient = l1_scale * sign(here.difference);
       gradient += ssim_scale * ssim_derivative(here, shared.tile.at(0, x, y),
                                                shared.tile.at(1, x, y), shared.tile.at(2, x, y));
-      by_color[3 * picture.first_pixel + channel * pixels + pixel] = counts ? gradient : 0.0f;
+      by_color[3 * image.first_pixel + channel * pixels + pixel] = counts ? gradient : 0.0f;
       local.loss[k] += std::fabs(here.difference);
       local.l1 += double(std::fabs(here.difference));
       local.squared += double(here.difference) * double(here.difference);
@@ -253,22 +253,22 @@ struct TakeLoss {
 
   TUREEN_HOST_DEVICE void finish(const Tile& tile, const Thread& at, Shared& shared,
                                  Local& local) const {
-    const DevicePicture& picture = *tile.picture;
+    const DeviceImage& image = *tile.image;
     unsigned shaded = 0, non_finite = 0;
     for (int k = 0; k < own; ++k) {
       const int i = int(at.thread) + k * int(threads);
       const int x = tile.x0 + i % tile_width, y = tile.y0 + i / tile_width;
-      if (x >= picture.view.width || y >= picture.view.height) continue;
-      const std::size_t pixel = std::size_t(y) * std::size_t(picture.view.width) + std::size_t(x);
-      shaded += keys[picture.first_pixel + pixel] != 0;
-      const Counted counts = counted(picture, color, pixel);
+      if (x >= image.view.width || y >= image.view.height) continue;
+      const std::size_t pixel = std::size_t(y) * std::size_t(image.view.width) + std::size_t(x);
+      shaded += keys[image.first_pixel + pixel] != 0;
+      const Counted counts = counted(image, color, pixel);
       non_finite += counts == Counted::not_finite;
       float loss = local.loss[k];
-      error[picture.first_pixel + pixel] = loss;
+      error[image.first_pixel + pixel] = loss;
       // A pixel that does not count has a loss of 0, which says nothing of what it mostly shows.
-      if (picture.baseline && counts == Counted::yes) loss -= run_on(picture.baseline[pixel], loss);
-      advantage[picture.first_pixel + pixel] =
-          loss * (weights.opacity / (3.0f * float(picture.pixels())));
+      if (image.baseline && counts == Counted::yes) loss -= run_on(image.baseline[pixel], loss);
+      advantage[image.first_pixel + pixel] =
+          loss * (weights.opacity / (3.0f * float(image.pixels())));
     }
     shared.l1[at.thread] = local.l1;
     shared.squared[at.thread] = local.squared;
@@ -287,7 +287,7 @@ struct TakeLoss {
   }
 
   template <class Atomics>
-  TUREEN_HOST_DEVICE void report(PictureSums& out, const Shared& shared) const {
+  TUREEN_HOST_DEVICE void report(ImageSums& out, const Shared& shared) const {
     double l1 = 0, squared = 0;
     unsigned long long shaded = 0, non_finite = 0;
     for (unsigned t = 0; t < threads; ++t) {

@@ -14,10 +14,10 @@ namespace tureen::trainer::cuda {
 
 /// What a network needs of a pixel: the features where the winner's texture is hit, harmonics of
 /// the direction to the eye.
-TUREEN_HOST_DEVICE void network_input(const DevicePicture& picture, const DeviceModel& model,
+TUREEN_HOST_DEVICE void network_input(const DeviceImage& image, const DeviceModel& model,
                                       const kernels::ProjectedFace& projected, std::uint32_t face,
                                       std::size_t pixel, float* input) {
-  const kernels::View& view = picture.view;
+  const kernels::View& view = image.view;
   const int x = int(pixel % std::size_t(view.width)), y = int(pixel / std::size_t(view.width));
   kernels::Fragment fragment{};
   kernels::fragment_at(view, projected, x, y, fragment);
@@ -41,7 +41,7 @@ TUREEN_HOST_DEVICE void network_input(const DevicePicture& picture, const Device
                       input + kernels::features);
 }
 
-/// Fills `color`: three planes a picture, those of picture after picture. One thread a pixel.
+/// Fills `color`: three planes an image, those of image after image. One thread a pixel.
 struct Shade {
   static constexpr unsigned threads = 128;
   struct Shared {
@@ -63,19 +63,19 @@ struct Shade {
     }
     const std::size_t i = std::size_t(at.block) * threads + at.thread;
     if (i >= batch.pixels) return;
-    const DevicePicture& picture = batch.picture_of(i);
-    const std::size_t pixel = i - picture.first_pixel, pixels = picture.pixels();
+    const DeviceImage& image = batch.image_of(i);
+    const std::size_t pixel = i - image.first_pixel, pixels = image.pixels();
     float result[3] = {model.background[0], model.background[1], model.background[2]};
     if (keys[i] != 0) {
       const std::uint32_t face = face_of(keys[i]);
       kernels::NetworkState<float> state;
-      network_input(picture, model,
-                    projected[std::size_t(&picture - batch.pictures) * model.faces + face], face,
-                    pixel, state.input);
+      network_input(image, model,
+                    projected[std::size_t(&image - batch.images) * model.faces + face], face, pixel,
+                    state.input);
       kernels::shade(shared.mlp, state, result);
     }
     for (std::size_t c = 0; c < 3; ++c)
-      color[3 * picture.first_pixel + c * pixels + pixel] = result[c];
+      color[3 * image.first_pixel + c * pixels + pixel] = result[c];
   }
 };
 
@@ -157,13 +157,12 @@ struct ShadeBackward {
     const std::size_t i = first + at.thread;
     shared.shows[at.thread] = i < batch.pixels && keys[i] != 0;
     if (!shared.shows[at.thread]) return;
-    const DevicePicture& picture = batch.picture_of(i);
-    const std::size_t pixel = i - picture.first_pixel, pixels = picture.pixels();
+    const DeviceImage& image = batch.image_of(i);
+    const std::size_t pixel = i - image.first_pixel, pixels = image.pixels();
     const std::uint32_t face = face_of(keys[i]);
     kernels::NetworkState<float> state;
-    network_input(picture, model,
-                  projected[std::size_t(&picture - batch.pictures) * model.faces + face], face,
-                  pixel, state.input);
+    network_input(image, model, projected[std::size_t(&image - batch.images) * model.faces + face],
+                  face, pixel, state.input);
     // What is no number would reach the network's gradient even times zero.
     bool finite = true;
     for (int f = 0; f < kernels::features; ++f) finite = finite && std::isfinite(state.input[f]);
@@ -171,7 +170,7 @@ struct ShadeBackward {
     float color[3], dcolor[3], dfeatures[kernels::features];
     kernels::shade(shared.mlp, state, color);
     for (std::size_t c = 0; c < 3; ++c)
-      dcolor[c] = finite ? by_color[3 * picture.first_pixel + c * pixels + pixel] : 0.0f;
+      dcolor[c] = finite ? by_color[3 * image.first_pixel + c * pixels + pixel] : 0.0f;
     NetworkShare& share = shared.shares[at.thread];
     kernels::network_backward(shared.mlp, state, dcolor, KeptDerivatives{&share}, dfeatures);
     for (int k = 0; k < mlp_width; ++k) {

@@ -1,6 +1,6 @@
 // From triangles to the face that each pixel shows.
 //
-// A triangle's rectangle on a picture is cut into pieces of a warp's work, so that a large triangle
+// A triangle's rectangle on an image is cut into pieces of a warp's work, so that a large triangle
 // is not one thread's burden: faces are projected and their pieces counted, the counts summed, and
 // warps take piece after piece by looking it up in the sums. Which fragment is nearest is decided
 // by one atomic maximum, so that the order in which they come does not matter.
@@ -9,14 +9,14 @@
 #include "scene/triangle_soup.hpp"
 #include "trainer/common/kernels/random.hpp"
 #include "trainer/diffsoup/backend.hpp"
-#include "trainer/diffsoup/cuda/device_picture.hpp"
+#include "trainer/diffsoup/cuda/device_image.hpp"
 
 namespace tureen::trainer::cuda {
 
 inline constexpr unsigned warp_size = 32;
 inline constexpr int piece_width = 32, piece_height = 8;
 
-/// Faces on pictures: entry picture * faces + face.
+/// Faces on images: entry image * faces + face.
 struct Projections {
   kernels::ProjectedFace* faces;
   std::uint64_t* first_piece;  // counts, then their sums; one more entry than projections
@@ -42,7 +42,7 @@ struct ProjectFaces {
     if (i >= model.faces * batch.count) return;
     const std::size_t face = i % model.faces;
     const kernels::ProjectedFace projected =
-        kernels::project(batch.pictures[i / model.faces].view, model.positions + 9 * face);
+        kernels::project(batch.images[i / model.faces].view, model.positions + 9 * face);
     out.faces[i] = projected;
     const unsigned rows =
         unsigned(projected.y1 - projected.y0 + piece_height - 1) / unsigned(piece_height);
@@ -92,7 +92,7 @@ struct SumPieces {
 /// A piece of a projection's rectangle.
 struct Piece {
   std::size_t projection;
-  unsigned picture;
+  unsigned image;
   std::uint32_t face;
   int x0, y0;
   unsigned width, height;
@@ -102,7 +102,7 @@ TUREEN_HOST_DEVICE Piece piece_of(const Projections& projections, std::size_t co
                                   std::size_t faces, std::uint64_t index) {
   Piece piece;
   piece.projection = interval_of(projections.first_piece, count, index);
-  piece.picture = unsigned(piece.projection / faces);
+  piece.image = unsigned(piece.projection / faces);
   piece.face = std::uint32_t(piece.projection % faces);
   const kernels::ProjectedFace& face = projections.faces[piece.projection];
   const unsigned within = unsigned(index - projections.first_piece[piece.projection]);
@@ -178,25 +178,24 @@ struct FindVisible {
   TUREEN_HOST_DEVICE unsigned find(const Piece& piece, const kernels::ProjectedFace& projected,
                                    const Thread& at) const {
     unsigned count = 0;
-    const DevicePicture& picture = batch.pictures[piece.picture];
+    const DeviceImage& image = batch.images[piece.image];
     const float* alpha = model.alpha + piece.face * model.fine_texels();
-    for_each_own_fragment(
-        picture.view, piece, projected, at, [&](const kernels::Fragment& fragment) {
-          ++count;
-          const std::size_t pixel =
-              std::size_t(fragment.y) * std::size_t(picture.view.width) + std::size_t(fragment.x);
-          VisibleKey& visible = keys[picture.first_pixel + pixel];
-          const VisibleKey key = visible_key(fragment.inverse_depth, piece.face);
-          // Keys only grow: one that is behind an old value is behind the present one, too.
-          if (key <= Atomics::load(visible)) return;
-          const float a = lattice::interpolated(
-              lattice::footprint(model.max_level, fragment.b0, fragment.b1), alpha);
-          const float needed =
-              masking == Masking::threshold
-                  ? alpha_threshold
-                  : kernels::uniform_draw(picture.draw_key, std::uint32_t(pixel), piece.face);
-          if (a >= needed) Atomics::maximum(visible, key);
-        });
+    for_each_own_fragment(image.view, piece, projected, at, [&](const kernels::Fragment& fragment) {
+      ++count;
+      const std::size_t pixel =
+          std::size_t(fragment.y) * std::size_t(image.view.width) + std::size_t(fragment.x);
+      VisibleKey& visible = keys[image.first_pixel + pixel];
+      const VisibleKey key = visible_key(fragment.inverse_depth, piece.face);
+      // Keys only grow: one that is behind an old value is behind the present one, too.
+      if (key <= Atomics::load(visible)) return;
+      const float a = lattice::interpolated(
+          lattice::footprint(model.max_level, fragment.b0, fragment.b1), alpha);
+      const float needed =
+          masking == Masking::threshold
+              ? alpha_threshold
+              : kernels::uniform_draw(image.draw_key, std::uint32_t(pixel), piece.face);
+      if (a >= needed) Atomics::maximum(visible, key);
+    });
     return count;
   }
 };

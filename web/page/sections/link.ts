@@ -37,7 +37,7 @@ export class LinkSection {
       this.field.closest('details')!.open = true;
       this.field.select();
       return this.tell(
-        'The browser does not let the page copy; the link is selected in the panel, under “Picture and link”.');
+        'The browser does not let the page copy; the link is selected in the panel, under “Image and link”.');
     }
     this.tell(`The link is copied. ${this.hint()}`);
   }

@@ -1,4 +1,4 @@
-// What a frame takes, in the panel and over the picture. At rest nothing is drawn, and it says so.
+// What a frame takes, in the panel and over the image. At rest nothing is drawn, and it says so.
 
 import type { FrameStats, Viewer } from '../../viewer/types.js';
 import { block, fillFacts, input } from '../dom.js';

@@ -1,4 +1,4 @@
-// How two pictures are held against each other, and what is left for eyes when they differ.
+// How two images are held against each other, and what is left for eyes when they differ.
 
 import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
@@ -25,8 +25,8 @@ function differences(expected, actual) {
 function leave(name, expected, actual) {
   const folder = evidenceOf(`${name}-browser`);
   const enlarged = actual.pixels.map((value, i) => (i % 4 === 3 ? 255 : Math.min(255, 16 * Math.abs(value - expected.pixels[i]))));
-  const pictures = { expected, actual, difference: { ...actual, pixels: enlarged } };
-  for (const [what, picture] of Object.entries(pictures)) writeFileSync(folder.file(`${what}.png`), writePng(picture));
+  const images = { expected, actual, difference: { ...actual, pixels: enlarged } };
+  for (const [what, image] of Object.entries(images)) writeFileSync(folder.file(`${what}.png`), writePng(image));
 }
 
 function compare(name, expected, actual, isGood) {
@@ -35,7 +35,7 @@ function compare(name, expected, actual, isGood) {
   if (isGood({ off, offByMore, pixels, psnr })) return;
   leave(name, expected, actual);
   assert.fail(`${name} differs: of ${pixels} pixels ${off} are off, ${offByMore} by more than a step, ` +
-              `${psnr.toFixed(1)} dB; the pictures are in ${evidence}/${name}-browser`);
+              `${psnr.toFixed(1)} dB; the images are in ${evidence}/${name}-browser`);
 }
 
 /** The budget of native goldens (tests/support/golden.hpp): 1 pixel in 300 off at all, 1 in 3,000 by

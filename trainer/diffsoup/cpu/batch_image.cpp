@@ -1,10 +1,10 @@
-#include "trainer/diffsoup/cpu/picture.hpp"
+#include "trainer/diffsoup/cpu/batch_image.hpp"
 
 #include <algorithm>
 
 namespace tureen::trainer {
 
-kernels::Rectangle Picture::tile(std::size_t index) const {
+kernels::Rectangle BatchImage::tile(std::size_t index) const {
   const int x = int(index) % tiles_x * tile_side, y = int(index) / tiles_x * tile_side;
   return {x, y, std::min(x + tile_side, view.width), std::min(y + tile_side, view.height)};
 }

@@ -1,4 +1,4 @@
-// What plans leave out, seen in pictures: four views of a soup by two plans, and how they differ.
+// What plans leave out, seen in images: four views of a soup by two plans, and how they differ.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +25,8 @@ inline std::vector<Camera> four_views(std::uint64_t seed) {
 }
 
 /// One a view, over white.
-inline std::vector<Image8> pictures(const TriangleSoup& soup, const std::vector<Camera>& views,
-                                    const PlanPreferences& plan) {
+inline std::vector<Image8> images(const TriangleSoup& soup, const std::vector<Camera>& views,
+                                  const PlanPreferences& plan) {
   static gl::Context context = gl::Context::create(osmesa);
   context.make_current();
   Renderer renderer(context, soup, glm::dvec3(0.0), {.plan = plan, .background = glm::vec4(1.0f)});
@@ -40,9 +40,9 @@ inline std::vector<Image8> pictures(const TriangleSoup& soup, const std::vector<
 
 struct Difference {
   int largest = 0;           // steps of 8 bits
-  std::size_t channels = 0;  // of all pictures that differ at all
+  std::size_t channels = 0;  // of all images that differ at all
   std::size_t all_channels = 0;
-  /// The least part of a picture of `a` that is not background.
+  /// The least part of an image of `a` that is not background.
   double covered = 1.0;
 };
 

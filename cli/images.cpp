@@ -1,4 +1,4 @@
-#include "cli/pictures.hpp"
+#include "cli/images.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include "base/error.hpp"
 #include "base/output.hpp"
 #include "cli/contact_sheet.hpp"
-#include "cli/picture_file.hpp"
+#include "cli/image_file.hpp"
 #include "cli/progress.hpp"
 #include "image/png_rows.hpp"
 #include "image/video_file.hpp"
@@ -27,14 +27,14 @@ double timed_draw(const Drawer& drawer, const Camera& camera) {
       .count();
 }
 
-/// Whether a picture is beyond what the device draws, or so large that its targets would fill
+/// Whether an image is beyond what the device draws, or so large that its targets would fill
 /// memory. Never with a resolution scale, which tiles do not have.
 bool needs_tiles(const Drawer& drawer, const gl::Capabilities& device, const Camera& camera) {
   if (drawer.resolution_scale < 1) return false;
   constexpr std::int64_t max_samples = std::int64_t(1) << 26;  // a gibibyte of targets
   const std::int64_t columns = std::int64_t(camera.width) * drawer.supersampling;
   const std::int64_t rows = std::int64_t(camera.height) * drawer.supersampling;
-  return std::max(columns, rows) > device.max_picture_side || columns * rows > max_samples;
+  return std::max(columns, rows) > device.max_image_side || columns * rows > max_samples;
 }
 
 /// The same view no larger than a thumbnail.
@@ -45,20 +45,20 @@ Camera small_view(const Camera& camera) {
   return resampled(camera, side(camera.width), side(camera.height));
 }
 
-/// A picture that the device draws at once; returns its thumbnail.
+/// An image that the device draws at once; returns its thumbnail.
 Image8 draw_whole(const Drawer& drawer, const Camera& camera, const std::filesystem::path& path,
                   FrameTimes& times) {
   times.ms.push_back(timed_draw(drawer, camera));
-  const Image8 picture = drawer.read();
-  write_picture(picture, path);
-  return thumbnail(picture);
+  const Image8 image = drawer.read();
+  write_image(image, path);
+  return thumbnail(image);
 }
 
-/// A picture beyond that: written row by row, in some 400 MiB whatever its size.
+/// An image beyond that: written row by row, in some 400 MiB whatever its size.
 Image8 draw_large(const Drawer& drawer, const Camera& camera, const std::filesystem::path& path,
                   FrameTimes& times, const std::function<void(double)>& progress) {
   times.ms.push_back(0);
-  PictureTiles tiles = drawer.tiles();
+  ImageTiles tiles = drawer.tiles();
   tiles.draw = [&](const Camera& part) {
     times.ms.back() += timed_draw(drawer, part);
     return drawer.read();
@@ -110,11 +110,11 @@ Drawer drawer_of(DebugViewRenderer& debug_renderer, const gl::Capabilities& devi
           .tiles = [&debug_renderer, &device] { return tiles_of(debug_renderer, device); }};
 }
 
-Pictures draw_pictures(const Drawer& drawer, const gl::Capabilities& device,
-                       const std::vector<Camera>& cameras, const PictureNames& names) {
+WrittenImages draw_images(const Drawer& drawer, const gl::Capabilities& device,
+                          const std::vector<Camera>& cameras, const ImageNames& names) {
   const bool with_sheet = cameras.size() > 1 && names.sheet == Sheet::of_several;
   const int count = int(cameras.size());
-  Pictures result;
+  WrittenImages result;
   std::vector<Image8> thumbnails;
   Progress progress("drawing");
   // Compiles shaders and, where it is drawn whole, makes the targets; not counted.
@@ -124,7 +124,7 @@ Pictures draw_pictures(const Drawer& drawer, const gl::Capabilities& device,
     const auto update = [&](double done) { progress.update((i + done) / count); };
     update(0);
     const Camera& camera = cameras[std::size_t(i)];
-    const std::filesystem::path path = picture_name(names.pattern, i, count);
+    const std::filesystem::path path = image_name(names.pattern, i, count);
     Image8 small = needs_tiles(drawer, device, camera)
                        ? draw_large(drawer, camera, path, result.times, update)
                        : draw_whole(drawer, camera, path, result.times);
@@ -133,17 +133,17 @@ Pictures draw_pictures(const Drawer& drawer, const gl::Capabilities& device,
   }
   if (with_sheet) {
     const std::filesystem::path sheet =
-        picture_name(names.pattern, 0, count).replace_filename("contact_sheet.png");
-    write_picture(contact_sheet(thumbnails), sheet);
+        image_name(names.pattern, 0, count).replace_filename("contact_sheet.png");
+    write_image(contact_sheet(thumbnails), sheet);
     result.paths.push_back(sheet.string());
   }
   return result;
 }
 
-Pictures draw_video(const Drawer& drawer, const std::vector<Camera>& cameras,
-                    double frames_per_second, const std::string& path) {
+WrittenImages draw_video(const Drawer& drawer, const std::vector<Camera>& cameras,
+                         double frames_per_second, const std::string& path) {
   const Camera& first = cameras.front();
-  Pictures result{{path}, {}};
+  WrittenImages result{{path}, {}};
   VideoFile video(path, {first.width, first.height, frames_per_second});
   Progress progress("drawing");
   drawer.draw(first);  // compiles shaders; not counted

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "runtime/debug_views/debug_view_renderer.hpp"
-#include "runtime/picture_tiles.hpp"
+#include "runtime/image_tiles.hpp"
 #include "runtime/renderer.hpp"
 
 namespace tureen::cli {
@@ -24,7 +24,7 @@ struct FrameTimes {
 struct Drawer {
   std::function<void(const Camera& camera)> draw;  // and waits for the device
   std::function<Image8()> read;
-  std::function<PictureTiles()> tiles;
+  std::function<ImageTiles()> tiles;
   int supersampling = 1;
   double resolution_scale = 1.0;
 };
@@ -33,29 +33,29 @@ struct Drawer {
 Drawer drawer_of(Renderer& renderer, const gl::Capabilities& device);
 Drawer drawer_of(DebugViewRenderer& debug_renderer, const gl::Capabilities& device);
 
-struct Pictures {
+struct WrittenImages {
   std::vector<std::string> paths;
   FrameTimes times;
 };
 
 enum class Sheet { none, of_several };
 
-struct PictureNames {
-  std::string pattern;  // as cli/picture_file.hpp takes it
+struct ImageNames {
+  std::string pattern;  // as cli/image_file.hpp takes it
   Sheet sheet = Sheet::of_several;
 };
 
-/// A picture each, and where it is wanted a contact sheet of several beside them. What the device
+/// An image each, and where it is wanted a contact sheet of several beside them. What the device
 /// cannot draw at once is drawn in tiles, whose times are added up. Throws OutputError.
-Pictures draw_pictures(const Drawer& drawer, const gl::Capabilities& device,
-                       const std::vector<Camera>& cameras, const PictureNames& names);
+WrittenImages draw_images(const Drawer& drawer, const gl::Capabilities& device,
+                          const std::vector<Camera>& cameras, const ImageNames& names);
 
 /// Frame by frame into a video (image/video_file.hpp), whole or not at all.
-Pictures draw_video(const Drawer& drawer, const std::vector<Camera>& cameras,
-                    double frames_per_second, const std::string& path);
+WrittenImages draw_video(const Drawer& drawer, const std::vector<Camera>& cameras,
+                         double frames_per_second, const std::string& path);
 
 /// `frames` frames through all cameras in turn. The first ones, which compile shaders and fill
-/// caches, are drawn before and not counted. Throws UsageError for pictures that would be drawn in
+/// caches, are drawn before and not counted. Throws UsageError for images that would be drawn in
 /// tiles.
 FrameTimes benchmark(const Drawer& drawer, const gl::Capabilities& device,
                      const std::vector<Camera>& cameras, int frames);

@@ -1,5 +1,5 @@
-// Pictures put together of tiles, held against the same pictures drawn whole.
-#include "runtime/picture_tiles.hpp"
+// Images put together of tiles, held against the same images drawn whole.
+#include "runtime/image_tiles.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,20 +14,20 @@
 #include "tests/support/random_soups.hpp"
 
 namespace tureen::test {
-namespace picture_tiles_test {
+namespace image_tiles_test {
 
-// -- how a picture is cut, without GL -----------------------------------------------------------
+// -- how an image is cut, without GL -----------------------------------------------------------
 
 /// The pixel of a camera at the origin with a focal length of 1 shows where its ray goes: the same
-/// wherever the picture is cut.
-Image8 picture_of_rays(const Camera& camera) {
-  Image8 picture(camera.width, camera.height);
+/// wherever the image is cut.
+Image8 image_of_rays(const Camera& camera) {
+  Image8 image(camera.width, camera.height);
   for (int y = 0; y < camera.height; ++y)
     for (int x = 0; x < camera.width; ++x) {
       const int right = int(x - camera.cx), down = int(y - camera.cy);
-      picture.at(x, y) = glm::u8vec4(right & 255, right >> 8, down & 255, down >> 8);
+      image.at(x, y) = glm::u8vec4(right & 255, right >> 8, down & 255, down >> 8);
     }
-  return picture;
+  return image;
 }
 
 Camera camera_of_rays(int width, int height) {
@@ -38,21 +38,21 @@ Camera camera_of_rays(int width, int height) {
   return camera;
 }
 
-TEST(PictureTiles, EveryPixelComesFromItsOwnRay) {
+TEST(ImageTiles, EveryPixelComesFromItsOwnRay) {
   for (const auto& [width, height] : {std::pair(1, 1), {64, 64}, {65, 129}, {333, 257}, {20000, 3}})
     for (const int side : {1, 37, 64, 100, 4096}) {
       const Camera camera = camera_of_rays(width, height);
-      const Image8 picture =
-          draw_in_tiles(camera, {.draw = picture_of_rays, .side = side, .band_bytes = 1 << 20});
-      EXPECT_EQ(picture.pixels, picture_of_rays(camera).pixels)
+      const Image8 image =
+          draw_in_tiles(camera, {.draw = image_of_rays, .side = side, .band_bytes = 1 << 20});
+      EXPECT_EQ(image.pixels, image_of_rays(camera).pixels)
           << width << " x " << height << " in tiles of " << side;
     }
 }
 
-TEST(PictureTiles, TilesAndBandsStayWithinTheirBounds) {
+TEST(ImageTiles, TilesAndBandsStayWithinTheirBounds) {
   const Camera camera = camera_of_rays(1000, 501);
   std::vector<double> fractions;
-  PictureTiles tiles{.side = 300, .band_bytes = 4000 * 130};
+  ImageTiles tiles{.side = 300, .band_bytes = 4000 * 130};
   tiles.draw = [&](const Camera& part) {
     EXPECT_LE(part.width, 300);
     EXPECT_LE(part.height, 130);
@@ -60,7 +60,7 @@ TEST(PictureTiles, TilesAndBandsStayWithinTheirBounds) {
     const int below = camera.height - part.height + int(part.cy);
     EXPECT_EQ(below % 64, 0);
     EXPECT_EQ(int(-part.cx) % 64, 0);
-    return picture_of_rays(part);
+    return image_of_rays(part);
   };
   tiles.progress = [&](double fraction) { fractions.push_back(fraction); };
   int rows = 0;
@@ -75,10 +75,10 @@ TEST(PictureTiles, TilesAndBandsStayWithinTheirBounds) {
   EXPECT_GT(fractions.front(), 0.0);
 }
 
-TEST(PictureTiles, ProgressMayAbandonThePicture) {
+TEST(ImageTiles, ProgressMayAbandonTheImage) {
   int drawn = 0;
-  PictureTiles tiles{.side = 64};
-  tiles.draw = [&](const Camera& part) { return ++drawn, picture_of_rays(part); };
+  ImageTiles tiles{.side = 64};
+  tiles.draw = [&](const Camera& part) { return ++drawn, image_of_rays(part); };
   tiles.progress = [](double fraction) {
     if (fraction > 0.4) throw std::runtime_error("enough");
   };
@@ -90,7 +90,7 @@ TEST(PictureTiles, ProgressMayAbandonThePicture) {
 
 class DrawnInTiles : public testing::TestWithParam<NamedContext> {};
 
-/// Corners on whole pixels and faces that lie flat in the picture: nothing is rounded, and neither
+/// Corners on whole pixels and faces that lie flat in the image: nothing is rounded, and neither
 /// where a tile cuts through a face. Every byte must be the same.
 TEST_P(DrawnInTiles, NothingChangesWhereNothingIsRounded) {
   const gl::Context context = gl::Context::create(GetParam().request);
@@ -104,7 +104,7 @@ TEST_P(DrawnInTiles, NothingChangesWhereNothingIsRounded) {
     soup.positions.insert(soup.positions.end(),
                           {{corner, 0}, {corner + glm::vec2(size, 0), 0}, {corner + size, 0}});
     for (int k = 0; k < 3; ++k) {
-      // The same place in the picture, whatever the depth.
+      // The same place in the image, whatever the depth.
       glm::vec3& position = soup.positions[3 * t + std::uint32_t(k)];
       position = glm::vec3(glm::vec2(position) * (1 - z), z);
     }
@@ -118,7 +118,7 @@ TEST_P(DrawnInTiles, NothingChangesWhereNothingIsRounded) {
   renderer.draw(camera);
   const Image8 whole = renderer.read_color();
   for (const int side : {64, 128}) {
-    PictureTiles tiles = tiles_of(renderer, context.capabilities());
+    ImageTiles tiles = tiles_of(renderer, context.capabilities());
     tiles.side = side;
     EXPECT_EQ(draw_in_tiles(camera, tiles).pixels, whole.pixels) << side;
   }
@@ -144,19 +144,19 @@ TEST_P(DrawnInTiles, RandomSoupsLookAsTheyDoWhole) {
       const Camera camera = random_camera(random, 333, 257);
       renderer.draw(camera);
       const Image8 whole = renderer.read_color();
-      PictureTiles tiles = tiles_of(renderer, context.capabilities());
+      ImageTiles tiles = tiles_of(renderer, context.capabilities());
       tiles.side = 128;
-      const Image8 picture = draw_in_tiles(camera, tiles);
+      const Image8 image = draw_in_tiles(camera, tiles);
       std::size_t off = 0, off_by_more = 0, coverage = 0, transparent = 0;
-      for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+      for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         const glm::ivec4 difference =
-            abs(glm::ivec4(picture.pixels[i]) - glm::ivec4(whole.pixels[i]));
+            abs(glm::ivec4(image.pixels[i]) - glm::ivec4(whole.pixels[i]));
         const int largest = std::max({difference.r, difference.g, difference.b, difference.a});
         off += largest > 0;
         off_by_more += largest > 1;
         coverage += difference.a > 0;
-        transparent += picture.pixels[i].a == 0;
-        const bool straight = picture.pixels[i].a == 0 || picture.pixels[i].a == 255;
+        transparent += image.pixels[i].a == 0;
+        const bool straight = image.pixels[i].a == 0 || image.pixels[i].a == 255;
         ASSERT_TRUE(straight || supersampling > 1);
       }
       const std::string what = to_string(kind) + ", seed " + std::to_string(seed) + ", " +
@@ -164,8 +164,8 @@ TEST_P(DrawnInTiles, RandomSoupsLookAsTheyDoWhole) {
       EXPECT_LE(off_by_more, 34u) << what;
       EXPECT_LE(off, 374u) << what;
       EXPECT_LE(coverage, 18u) << what;
-      EXPECT_GT(transparent, picture.pixels.size() / 10) << what;
-      EXPECT_LT(transparent, picture.pixels.size()) << what;
+      EXPECT_GT(transparent, image.pixels.size() / 10) << what;
+      EXPECT_LT(transparent, image.pixels.size()) << what;
     }
 }
 
@@ -173,9 +173,9 @@ INSTANTIATE_TEST_SUITE_P(All, DrawnInTiles, testing::ValuesIn(every_context),
                          [](const auto& test) { return std::string(test.param.name); });
 
 /// Wider than any device draws: what the oracle, which has no limit, sees in a part of it.
-TEST(PictureTiles, APictureBeyondTheDeviceShowsWhatTheOracleSees) {
+TEST(ImageTiles, AImageBeyondTheDeviceShowsWhatTheOracleSees) {
   const gl::Context context = gl::Context::create(osmesa);
-  const int width = context.capabilities().max_picture_side + 5000;
+  const int width = context.capabilities().max_image_side + 5000;
   const TriangleSoup soup = random_soup(4, {.kind = Kind::face_colors, .faces = 40, .size = 0.4});
   Random random(4);
   Camera camera = random_camera(random, 320, 240);
@@ -189,12 +189,12 @@ TEST(PictureTiles, APictureBeyondTheDeviceShowsWhatTheOracleSees) {
   camera.height = 16;
   Renderer renderer(context, soup, {});
   EXPECT_THROW(renderer.draw(camera), DeviceLimitError);
-  const Image8 picture = draw_in_tiles(camera, tiles_of(renderer, context.capabilities()));
+  const Image8 image = draw_in_tiles(camera, tiles_of(renderer, context.capabilities()));
   const Image8 expected = quantised(
       render_oracle(soup, {}, camera, {.rays = {.coverage = oracle::Coverage::snapped}}).color);
   std::size_t off = 0, covered = 0;
   for (std::size_t i = 0; i < expected.pixels.size(); ++i) {
-    off += picture.pixels[i] != expected.pixels[i];
+    off += image.pixels[i] != expected.pixels[i];
     covered += expected.pixels[i] != glm::u8vec4(0, 0, 0, 255);
   }
   EXPECT_GT(covered, expected.pixels.size() / 20);
@@ -203,7 +203,7 @@ TEST(PictureTiles, APictureBeyondTheDeviceShowsWhatTheOracleSees) {
   EXPECT_LE(off, 5u);
 }
 
-TEST(PictureTiles, AResolutionScaleIsRefused) {
+TEST(ImageTiles, AResolutionScaleIsRefused) {
   const gl::Context context = gl::Context::create(osmesa);
   RenderOptions options;
   options.plan.quality.resolution_scale = 0.5;
@@ -211,5 +211,5 @@ TEST(PictureTiles, AResolutionScaleIsRefused) {
   EXPECT_THROW(tiles_of(renderer, context.capabilities()), UsageError);
 }
 
-}  // namespace picture_tiles_test
+}  // namespace image_tiles_test
 }  // namespace tureen::test

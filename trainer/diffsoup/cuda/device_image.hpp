@@ -17,14 +17,14 @@ namespace tureen::trainer::cuda {
 /// direction, are 22 KB of a block's memory.
 inline constexpr int tile_width = 32, tile_height = 16;
 
-/// One picture of a batch. Its pixels follow those of the pictures before it.
-struct DevicePicture {
+/// One image of a batch. Its pixels follow those of the images before it.
+struct DeviceImage {
   kernels::View view;
   std::uint32_t draw_key;
   std::size_t first_pixel;  // in arrays with one entry a pixel
   unsigned first_tile;      // of the loss kernels' tiles
   unsigned tiles_x;
-  // Of the photograph; null where the picture has none.
+  // Of the photograph; null where the image has none.
   const std::uint8_t* target;   // three planes
   const std::uint8_t* ignored;  // null where all pixels count
   std::uint16_t* baseline;      // null without a baseline
@@ -34,27 +34,27 @@ struct DevicePicture {
   }
 };
 
-/// The sums that a step reports, a picture each, in fixed point of loss_scale or counted.
-struct PictureSums {
+/// The sums that a step reports, an image each, in fixed point of loss_scale or counted.
+struct ImageSums {
   Fixed l1, dissimilarity, squared;
   unsigned long long shaded, non_finite;
 };
 
-/// All pictures of a batch.
+/// All images of a batch.
 struct DeviceBatch {
-  const DevicePicture* pictures;
+  const DeviceImage* images;
   unsigned count;
   std::size_t pixels;  // of all
 
-  /// The picture that holds a pixel of the batch.
-  TUREEN_HOST_DEVICE const DevicePicture& picture_of(std::size_t pixel) const {
+  /// The image that holds a pixel of the batch.
+  TUREEN_HOST_DEVICE const DeviceImage& image_of(std::size_t pixel) const {
     unsigned i = 0;
-    while (i + 1 < count && pictures[i + 1].first_pixel <= pixel) ++i;
-    return pictures[i];
+    while (i + 1 < count && images[i + 1].first_pixel <= pixel) ++i;
+    return images[i];
   }
 };
 
-/// The model and what is made of it, constant while a picture is drawn.
+/// The model and what is made of it, constant while an image is drawn.
 struct DeviceModel {
   std::size_t faces;
   int min_level, max_level;

@@ -1,4 +1,4 @@
-// Requests for pictures, films, camera paths and the command line, carried out.
+// Requests for images, films, camera paths and the command line, carried out.
 #include <algorithm>
 #include <span>
 
@@ -19,14 +19,14 @@ bool Application::has_scene() {
   return state_.stage != nullptr;
 }
 
-fs::path Application::folder_of_pictures() const {
-  if (!options_.pictures.empty()) return options_.pictures;
-  return state_.settings.pictures.empty() ? pictures_folder() : fs::path(state_.settings.pictures);
+fs::path Application::folder_of_images() const {
+  if (!options_.images.empty()) return options_.images;
+  return state_.settings.images.empty() ? images_folder() : fs::path(state_.settings.images);
 }
 
 /// A name that nothing has, and that nothing which waits to be written will have.
-fs::path Application::picture_path(const std::string& extension) {
-  const fs::path folder = folder_of_pictures();
+fs::path Application::image_path(const std::string& extension) {
+  const fs::path folder = folder_of_images();
   make_folder(folder);
   const std::string stem =
       state_.stage ? fs::path(short_name(state_.stage->path)).stem().string() : "tureen";
@@ -41,16 +41,16 @@ fs::path Application::picture_path(const std::string& extension) {
   }
 }
 
-void Application::carry_out(const TakePicture& request) {
+void Application::carry_out(const TakeImage& request) {
   if (!has_scene()) return;
   const glm::ivec2 size = request.size.x > 0 ? request.size : state_.pixels;
-  const PictureJob job{.scene = state_.stage->source(),
-                       .camera = state_.controls.camera(size.x, size.y),
-                       .debug_view = state_.debug_view,
-                       .transparent = request.transparent,
-                       .path = picture_path(".png")};
+  const ImageJob job{.scene = state_.stage->source(),
+                     .camera = state_.controls.camera(size.x, size.y),
+                     .debug_view = state_.debug_view,
+                     .transparent = request.transparent,
+                     .path = image_path(".png")};
   write("writing " + short_name(job.path), job.path,
-        [job](const StageRequest& with) { write_picture(job, with); });
+        [job](const StageRequest& with) { write_image(job, with); });
 }
 
 void Application::carry_out(const WriteFilm&) {
@@ -60,7 +60,7 @@ void Application::carry_out(const WriteFilm&) {
   const FilmJob job{.scene = state_.stage->source(),
                     .path = film.path,
                     .rate = {film.frames_per_second, film.size.x, film.size.y},
-                    .output = picture_path(endings[int(film.output)])};
+                    .output = image_path(endings[int(film.output)])};
   write("writing " + short_name(job.output), job.output,
         [job](const StageRequest& with) { write_film(job, with); });
 }
@@ -135,12 +135,12 @@ void Application::carry_out(const CopyCommand&) {
   const Camera camera = state_.controls.camera(state_.pixels.x, state_.pixels.y);
   fs::path file;
   if (needs_camera_file(camera)) {
-    file = picture_path(".camera.json");
+    file = image_path(".camera.json");
     write_file(file, cameras_to_json(std::span(&camera, 1)));
   }
   window_.set_clipboard(
       render_command(*state_.stage, state_.stage->choice, state_.debug_view, camera, file));
-  state_.messages.note("The command that draws this picture is in the clipboard", state_.now);
+  state_.messages.note("The command that draws this image is in the clipboard", state_.now);
 }
 
 }  // namespace tureen::viewer

@@ -1,4 +1,4 @@
-#include "runtime/picture_tiles.hpp"
+#include "runtime/image_tiles.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -15,7 +15,7 @@ constexpr int block = 64;
 /// Whole blocks where there is room for one.
 int in_blocks(int pixels) { return pixels < block ? pixels : pixels / block * block; }
 
-int tile_height(const Camera& camera, const PictureTiles& tiles) {
+int tile_height(const Camera& camera, const ImageTiles& tiles) {
   const std::size_t row_bytes = std::size_t(camera.width) * sizeof(glm::u8vec4);
   const std::size_t rows = std::max<std::size_t>(tiles.band_bytes / row_bytes, 1);
   return in_blocks(int(std::min<std::size_t>(rows, std::size_t(tiles.side))));
@@ -27,8 +27,8 @@ void copy_rows(const Image8& tile, int column, Image8& band) {
 }
 
 template <class Drawer>
-PictureTiles tiles_drawn_by(Drawer& drawer, int largest) {
-  PictureTiles tiles;
+ImageTiles tiles_drawn_by(Drawer& drawer, int largest) {
+  ImageTiles tiles;
   tiles.draw = [&drawer](const Camera& camera) {
     drawer.draw(camera);
     return drawer.read_color();
@@ -48,7 +48,7 @@ Camera cut_out_of(const Camera& camera, glm::ivec2 corner, glm::ivec2 size) {
   return part;
 }
 
-void draw_in_bands(const Camera& camera, const PictureTiles& tiles, const BandSink& sink) {
+void draw_in_bands(const Camera& camera, const ImageTiles& tiles, const BandSink& sink) {
   assert(camera.width > 0 && camera.height > 0 && tiles.side > 0);
   const int width = in_blocks(tiles.side), height = tile_height(camera, tiles);
   // Counted from the lower border, where devices count from: the uppermost band is what is left.
@@ -68,27 +68,27 @@ void draw_in_bands(const Camera& camera, const PictureTiles& tiles, const BandSi
   }
 }
 
-Image8 draw_in_tiles(const Camera& camera, const PictureTiles& tiles) {
-  Image8 picture(camera.width, camera.height);
-  auto next = picture.pixels.begin();
+Image8 draw_in_tiles(const Camera& camera, const ImageTiles& tiles) {
+  Image8 image(camera.width, camera.height);
+  auto next = image.pixels.begin();
   draw_in_bands(camera, tiles, [&](const Image8& rows) {
     next = std::copy(rows.pixels.begin(), rows.pixels.end(), next);
   });
-  return picture;
+  return image;
 }
 
-PictureTiles tiles_of(Renderer& renderer, const gl::Capabilities& capabilities) {
+ImageTiles tiles_of(Renderer& renderer, const gl::Capabilities& capabilities) {
   if (renderer.plan().quality.resolution_scale < 1)
     throw UsageError(
-        "a picture that is drawn in tiles has no resolution scale: coarser tiles would not meet");
-  // 2^26 samples at once: the gibibyte of targets that pictures drawn whole may have.
+        "an image that is drawn in tiles has no resolution scale: coarser tiles would not meet");
+  // 2^26 samples at once: the gibibyte of targets that images drawn whole may have.
   constexpr int max_samples = 8192;
-  return tiles_drawn_by(renderer, std::min(capabilities.max_picture_side, max_samples) /
+  return tiles_drawn_by(renderer, std::min(capabilities.max_image_side, max_samples) /
                                       renderer.plan().quality.supersampling);
 }
 
-PictureTiles tiles_of(DebugViewRenderer& debug_renderer, const gl::Capabilities& capabilities) {
-  return tiles_drawn_by(debug_renderer, capabilities.max_picture_side);
+ImageTiles tiles_of(DebugViewRenderer& debug_renderer, const gl::Capabilities& capabilities) {
+  return tiles_drawn_by(debug_renderer, capabilities.max_image_side);
 }
 
 }  // namespace tureen

@@ -1,4 +1,4 @@
-// Saving the picture as a file.
+// Saving the image as a file.
 
 import type { Viewer } from '../../viewer/types.js';
 import { button, make, select } from '../dom.js';
@@ -10,28 +10,28 @@ const sizes: readonly (readonly [string, number, number])[] = [
 ];
 
 /** What every file system takes: the scene's name without its ending, and what is seen of it. */
-export function pictureName(scene: string, look: string): string {
+export function imageName(scene: string, look: string): string {
   const stem = scene.replace(/\.[a-z0-9]{1,5}$/i, '').replace(/[^\p{L}\p{N}._-]+/gu, '-').replace(/^[-.]+|[-.]+$/g, '');
   return `${stem || 'tureen'}${look === 'color' ? '' : `-${look}`}.png`;
 }
 
-export class PictureSection {
-  private readonly size = select('picture-size');
+export class ImageSection {
+  private readonly size = select('image-size');
 
   constructor(private readonly viewer: Viewer, private readonly tell: (sentence: string) => void,
               private readonly failed: (what: unknown) => void) {
     this.size.append(...sizes.map(([text, width, height]) => make('option', { value: `${width}x${height}` }, text)));
-    button('save-picture').addEventListener('click', () => void this.save());
-    button('quick-picture').addEventListener('click', () => void this.save());
+    button('save-image').addEventListener('click', () => void this.save());
+    button('quick-image').addEventListener('click', () => void this.save());
   }
 
   async save(): Promise<void> {
     const { viewer } = this;
-    if (!viewer.scene) return this.tell('There is no picture to save yet.');
+    if (!viewer.scene) return this.tell('There is no image to save yet.');
     const [width = 0, height = 0] = this.size.value.split('x').map(Number);
     try {
       const png = await (width > 0 ? viewer.screenshot({ width, height }) : viewer.screenshot());
-      const name = pictureName(viewer.scene.name, viewer.shownLook);
+      const name = imageName(viewer.scene.name, viewer.shownLook);
       const url = URL.createObjectURL(png);
       make('a', { href: url, download: name }).click();
       setTimeout(() => URL.revokeObjectURL(url), 60_000);  // some browsers take their time to ask for it

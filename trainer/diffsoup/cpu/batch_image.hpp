@@ -1,4 +1,4 @@
-// One picture of a batch while a step works on it.
+// One image of a batch while a step works on it.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ struct alignas(64) PixelGradient {
   float error;        // sum over channels of |C - G|
 };
 
-struct Picture {
+struct BatchImage {
   kernels::View view;
   std::uint32_t draw_key = 0;
   int tiles_x = 0, tiles_y = 0;

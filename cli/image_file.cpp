@@ -1,4 +1,4 @@
-#include "cli/picture_file.hpp"
+#include "cli/image_file.hpp"
 
 #include <algorithm>
 
@@ -44,13 +44,13 @@ std::string expanded(const std::string& pattern, int index, bool& replaced) {
 
 }  // namespace
 
-Image8 read_picture(const std::filesystem::path& path) {
+Image8 read_image(const std::filesystem::path& path) {
   require_there(path);
   Input input = Input::open(path);
   return read_image(input);
 }
 
-void write_picture(const Image8& image, const std::filesystem::path& path) {
+void write_image(const Image8& image, const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = encode_png(image);
   Output output(path);
   output.write(bytes);
@@ -62,7 +62,7 @@ void require_png_name(const std::filesystem::path& path) {
     throw UsageError("'" + path.string() + "' does not end in .png; images are written as PNG");
 }
 
-std::filesystem::path picture_name(const std::string& pattern, int index, int count) {
+std::filesystem::path image_name(const std::string& pattern, int index, int count) {
   bool replaced = false;
   std::filesystem::path path = expanded(pattern, index, replaced);
   if (replaced || count == 1) return path;
