@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "base/extension.hpp"
 #include "cli/commands.hpp"
-#include "cli/convert_slim.hpp"
+#include "cli/convert_compress.hpp"
 #include "cli/edit_options.hpp"
 #include "cli/memory_option.hpp"
 #include "cli/output_argument.hpp"
@@ -30,7 +30,7 @@ struct ConvertOptions {
   bool json = false;
   Edits edits;
   std::optional<Quality> quality;  // by default the scene's own
-  SlimArguments slim;
+  CompressArguments compressed;
 };
 
 /// A folder, where no extension says otherwise.
@@ -60,7 +60,7 @@ void require_known_extension(const fs::path& output) {
 /// Before the scene is read, which may take a while.
 void check_output(const ConvertOptions& options) {
   const fs::path output = options.output;
-  check_slim(options.slim, output);
+  check_compressed(options.compressed, output);
   require_known_extension(output);
   if (options.quality && extension_of(output) != ".glb" && !is_scene_page(output))
     throw UsageError("only .glb and .html store --supersample and --resolution-scale");
@@ -94,7 +94,8 @@ void apply(const Edits& edits, Scene& scene) {
 
 /// Writes `file`, in the format that its name says. Says what that lost, and returns it.
 Json write(Scene scene, const ConvertOptions& options, const fs::path& file) {
-  if (options.slim.slim) return convert_slim(std::move(scene), options.slim, file);
+  if (options.compressed.compressed)
+    return convert_compressed(std::move(scene), options.compressed, file);
   const std::vector<std::string> lost = write_scene(scene, file);
   say_list("Lost in " + options.output + ":", lost);
   return {{"notes", all_notes(scene.info)},
@@ -104,7 +105,7 @@ Json write(Scene scene, const ConvertOptions& options, const fs::path& file) {
 
 /// Whether a page may hold the bytes of the scene's own file.
 bool is_page_of_file(const ConvertOptions& options) {
-  return !options.slim.slim && options.scene.up.empty() && options.edits == Edits{} &&
+  return !options.compressed.compressed && options.scene.up.empty() && options.edits == Edits{} &&
          !options.quality && is_our_glb(options.scene.path);
 }
 
@@ -192,7 +193,7 @@ Examples:
                    "print the output and the losses as JSON to standard output");
   add_edit_options(command, options->edits);
   add_quality_options(command, options->quality);
-  add_slim_arguments(command, options->slim);
+  add_compressed_arguments(command, options->compressed);
   command.does([options] { return convert_scene(*options); });
 }
 

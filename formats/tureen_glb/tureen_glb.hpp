@@ -20,9 +20,9 @@ struct GlbContainer;
 
 inline constexpr char tureen_extension[] = "TUREEN_triangle_soup";
 inline constexpr int tureen_extension_version = 1;
-/// Version of compressed files (formats/tureen_glb/tureen_glb_slim.hpp). Version 2 used another
-/// coding and was never released.
-inline constexpr int tureen_slim_version = 3;
+/// Version of compressed files (formats/tureen_glb/tureen_glb_compressed.hpp). Version 2 used
+/// another coding and was never released.
+inline constexpr int tureen_compressed_version = 3;
 
 /// Reads the binary chunk in file order, directly into the scene's vectors. Additional memory: one
 /// strip of texels. Every count is checked against the available bytes before any allocation. The

@@ -36,11 +36,11 @@ JsonView tureen_extension_of(const GlbArrays& arrays) {
   JsonView extension = arrays.root()["extensions"][tureen_extension];
   const std::uint64_t version = extension["version"].natural();
   if (version != std::uint64_t(tureen_extension_version) &&
-      version != std::uint64_t(tureen_slim_version))
+      version != std::uint64_t(tureen_compressed_version))
     extension["version"].fail("this file has version " + std::to_string(version) + " of " +
                               tureen_extension + "; only versions " +
                               std::to_string(tureen_extension_version) + " and " +
-                              std::to_string(tureen_slim_version) + " are read");
+                              std::to_string(tureen_compressed_version) + " are read");
   return extension;
 }
 

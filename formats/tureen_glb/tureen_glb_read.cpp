@@ -7,8 +7,8 @@
 #include "base/crc32.hpp"
 #include "base/json_vector.hpp"
 #include "formats/gltf/glb_arrays.hpp"
-#include "formats/tureen_glb/slim_geometry.hpp"
-#include "formats/tureen_glb/slim_texels.hpp"
+#include "formats/tureen_glb/compressed_geometry.hpp"
+#include "formats/tureen_glb/compressed_texels.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "formats/tureen_glb/tureen_glb_geometry.hpp"
 #include "formats/tureen_glb/tureen_glb_quality.hpp"
@@ -75,7 +75,7 @@ class Reader {
       return;
     }
     PassingMemory passing(input_.budget());
-    SlimGeometry geometry = decode_slim_geometry(
+    CompressedGeometry geometry = decode_compressed_geometry(
         coded(extension_, "slim_geometry"), arrays_.index(extension_["vertex_count"]),
         arrays_.index(extension_["face_count"]), arrays_.file(), input_.budget());
     passing.keep(geometry.positions.capacity() * sizeof geometry.positions[0] +
@@ -88,7 +88,7 @@ class Reader {
   /// than to nothing: the checksum beside it tells.
   std::vector<std::byte> coded(const JsonView& holder, const std::string& key) {
     const JsonView view = holder[key.c_str()];
-    auto bytes = arrays_.read_at<std::byte>(arrays_.view_location(view), "slim bytes");
+    auto bytes = arrays_.read_at<std::byte>(arrays_.view_location(view), "compressed bytes");
     const auto sum = holder.find((key + "_crc32").c_str());
     if (sum && sum->natural(0xffffffffu) != crc32_of(bytes))
       view.fail("it is damaged: its checksum is not that of its bytes");
@@ -218,8 +218,8 @@ class Reader {
       // The network lies before the texels.
       std::optional<ColorMlp> mlp = color_mlp(view);
       PassingMemory passing(input_.budget());
-      LatticeTexture texture = decode_slim_texels(coded(view, "slim_texels"), soup.triangles.size(),
-                                                  arrays_.file(), input_.budget());
+      LatticeTexture texture = decode_compressed_texels(
+          coded(view, "slim_texels"), soup.triangles.size(), arrays_.file(), input_.budget());
       passing.keep(soup.triangles.size() * sizeof texture.patches[0] +
                    texture.texel_count() * LatticeTexture::channels);
       texture.mlp = std::move(mlp);

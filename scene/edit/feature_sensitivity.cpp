@@ -79,8 +79,8 @@ FeatureMatrix mean_sensitivity(const TriangleSoup& soup, std::span<const glm::dv
   FeatureMatrix sum{};
   if (soup.triangles.empty()) return sum;
   Sampler sampler(soup, eyes, shown);
-  // About what features lose in a slim file: with the network's bends in between, the difference
-  // over it says more than the slope at the middle.
+  // About what features lose in a compressed file: with the network's bends in between, the
+  // difference over it says more than the slope at the middle.
   constexpr double reach = 12.0 / 255.0;
   int count = 0;
   for (int i = 0; i < samples; ++i) {

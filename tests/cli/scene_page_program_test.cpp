@@ -56,7 +56,7 @@ class ScenePage : public test::Program {
     return {reinterpret_cast<const char*>(bytes->data()), bytes->size()};
   }
 
-  /// A part of the example that is quickly slimmed, under a name that must be escaped.
+  /// A part of the example that is quickly compressed, under a name that must be escaped.
   void write_part() const {
     Scene scene = read_scene(std::string(TUREEN_SOURCE_DIR) + "/examples/soup.glb");
     auto& soup = std::get<TriangleSoup>(scene.primitives);
@@ -98,24 +98,24 @@ TEST_F(ScenePage, HoldsOtherScenesAsTheGlbThatConvertMakes) {
   EXPECT_FALSE(text_of("turned.glb") == text_of("scene.glb"));
 }
 
-TEST_F(ScenePage, MayBeSlim) {
+TEST_F(ScenePage, MayBeCompressed) {
   write_part();
-  const std::vector<std::string> slim{"--slim", "--max-error", "0.3"};
-  const auto convert = [&](const std::string& in, const std::string& out, bool with_slim) {
+  const std::vector<std::string> compressed{"--slim", "--max-error", "0.3"};
+  const auto convert = [&](const std::string& in, const std::string& out, bool with_compressed) {
     std::vector<std::string> arguments{"convert", in, out};
-    if (with_slim) arguments.insert(arguments.end(), slim.begin(), slim.end());
+    if (with_compressed) arguments.insert(arguments.end(), compressed.begin(), compressed.end());
     ChildResult result = run(arguments);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return result;
   };
-  convert("part.glb", "slim.glb", true);
-  EXPECT_THAT(convert("part.glb", "slim.html", true).err, Names("--compress"));
-  EXPECT_TRUE(scene_in("slim.html", part_name) == text_of("slim.glb"));
-  EXPECT_FALSE(exists("slim.html.glb"));
-  EXPECT_FALSE(exists("slim.html.glb.export"));
-  // What is slim stays so.
-  convert("slim.glb", "again.html", false);
-  EXPECT_TRUE(scene_in("again.html", part_name) == text_of("slim.glb"));
+  convert("part.glb", "compressed.glb", true);
+  EXPECT_THAT(convert("part.glb", "compressed.html", true).err, Names("--compress"));
+  EXPECT_TRUE(scene_in("compressed.html", part_name) == text_of("compressed.glb"));
+  EXPECT_FALSE(exists("compressed.html.glb"));
+  EXPECT_FALSE(exists("compressed.html.glb.export"));
+  // What is compressed stays so.
+  convert("compressed.glb", "again.html", false);
+  EXPECT_TRUE(scene_in("again.html", part_name) == text_of("compressed.glb"));
 }
 
 TEST_F(ScenePage, SpansManyPiecesAndLengths) {

@@ -16,8 +16,8 @@
 #include "formats/scene_file.hpp"
 #include "formats/torch/checkpoint.hpp"
 #include "formats/torch/zip_archive.hpp"
-#include "formats/tureen_glb/slim_geometry.hpp"
-#include "formats/tureen_glb/slim_texels.hpp"
+#include "formats/tureen_glb/compressed_geometry.hpp"
+#include "formats/tureen_glb/compressed_texels.hpp"
 #include "tests/formats/dataset/dataset_fixture.hpp"
 #include "tests/formats/hostile_bounds.hpp"
 #include "tests/formats/torch_fixture.hpp"
@@ -443,10 +443,10 @@ TEST(HostileSizes, OfMobileNerf) {
 }
 
 /// The numbers of faces and vertices lie beside what is coded: the decoders are told them.
-TEST(HostileSizes, OfSlimFiles) {
+TEST(HostileSizes, OfCompressedFiles) {
   std::set<std::string> tried;
   for (const fuzz::Fixture& fixture : fuzz::fixtures()) {
-    if (fixture.name == "slim.glb") {
+    if (fixture.name == "compressed.glb") {
       const nlohmann::json whole = test::glb_json(fixture.bytes);
       for (const char* key : {"vertex_count", "face_count"})
         for (const std::uint64_t size : false_sizes) {
@@ -460,21 +460,24 @@ TEST(HostileSizes, OfSlimFiles) {
     }
     const auto rest = [&](std::size_t head) { return std::span(fixture.bytes).subspan(head); };
     for (const std::uint64_t size : false_sizes) {
-      if (fixture.target == "slim_geometry") {
+      if (fixture.target == "compressed_geometry") {
         tried.insert(fixture.target);
         const auto says = ErrorIn("a.glb");
-        expect_refused([&] { decode_slim_geometry(rest(2), size, 3, "a.glb"); }, "vertices", says);
-        expect_refused([&] { decode_slim_geometry(rest(2), 3, size, "a.glb"); }, "faces", says);
-        expect_refused([&] { decode_slim_geometry(rest(2), size, size, "a.glb"); }, "both", says);
-      } else if (fixture.target == "slim_texels") {
+        expect_refused([&] { decode_compressed_geometry(rest(2), size, 3, "a.glb"); }, "vertices",
+                       says);
+        expect_refused([&] { decode_compressed_geometry(rest(2), 3, size, "a.glb"); }, "faces",
+                       says);
+        expect_refused([&] { decode_compressed_geometry(rest(2), size, size, "a.glb"); }, "both",
+                       says);
+      } else if (fixture.target == "compressed_texels") {
         tried.insert(fixture.target);
-        expect_refused([&] { decode_slim_texels(rest(1), size, "a.glb"); }, "texels",
+        expect_refused([&] { decode_compressed_texels(rest(1), size, "a.glb"); }, "texels",
                        ErrorIn("a.glb"));
       }
     }
   }
-  EXPECT_THAT(tried, ::testing::UnorderedElementsAre("vertex_count", "face_count", "slim_geometry",
-                                                     "slim_texels"));
+  EXPECT_THAT(tried, ::testing::UnorderedElementsAre("vertex_count", "face_count",
+                                                     "compressed_geometry", "compressed_texels"));
 }
 
 }  // namespace hostile_sizes_test

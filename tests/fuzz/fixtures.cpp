@@ -10,9 +10,9 @@
 #include "formats/dataset/camera_file.hpp"
 #include "formats/mesh/off.hpp"
 #include "formats/mesh/ply.hpp"
-#include "formats/tureen_glb/slim_geometry.hpp"
-#include "formats/tureen_glb/slim_texels.hpp"
-#include "formats/tureen_glb/tureen_glb_slim.hpp"
+#include "formats/tureen_glb/compressed_geometry.hpp"
+#include "formats/tureen_glb/compressed_texels.hpp"
+#include "formats/tureen_glb/tureen_glb_compressed.hpp"
 #include "tests/formats/dataset/dataset_fixture.hpp"
 #include "tests/formats/torch_fixture.hpp"
 #include "tests/formats/tureen_glb/tureen_glb_kinds.hpp"
@@ -72,7 +72,7 @@ class Collection {
 
 // ---- Scenes
 
-Scene slim_scene() {
+Scene compressed_scene() {
   RandomScene random(3);
   Scene scene = random.scene();
   TriangleSoup soup = random.geometry(3, true);
@@ -92,15 +92,17 @@ void add_glb(Collection& all) {
     all.add("gltf", name + ".glb", bytes);
     if (name == "face_bytes" || name == "vertex_floats") all.add("preview", name + ".glb", bytes);
   }
-  const Scene scene = slim_scene();
-  const SlimSoup slim = encode_slim(std::get<TriangleSoup>(scene.primitives), {});
-  all.add_file("gltf", "slim.glb", [&](const auto& path) { write_slim_glb(scene, slim, path); });
+  const Scene scene = compressed_scene();
+  const CompressedSoup compressed = encode_compressed(std::get<TriangleSoup>(scene.primitives), {});
+  all.add_file("gltf", "compressed.glb",
+               [&](const auto& path) { write_compressed_glb(scene, compressed, path); });
 
   const auto& soup = std::get<TriangleSoup>(scene.primitives);
   const std::size_t vertices = used_vertices(soup.triangles);
-  all.add("slim_geometry", "three_faces",
-          with_first_byte(soup.triangles.size(), with_first_byte(vertices, slim.geometry)));
-  all.add("slim_texels", "three_faces", with_first_byte(soup.triangles.size(), slim.texels));
+  all.add("compressed_geometry", "three_faces",
+          with_first_byte(soup.triangles.size(), with_first_byte(vertices, compressed.geometry)));
+  all.add("compressed_texels", "three_faces",
+          with_first_byte(soup.triangles.size(), compressed.texels));
 }
 
 /// A triangle with a texture, a sparse accessor, a transform and a camera, all within the JSON.

@@ -8,7 +8,7 @@
 #include <functional>
 #include <stdexcept>
 
-#include "formats/tureen_glb/tureen_glb_slim.hpp"
+#include "formats/tureen_glb/tureen_glb_compressed.hpp"
 #include "scene/edit/mean_color.hpp"
 #include "tests/formats/truncation.hpp"
 #include "tests/formats/tureen_glb/tureen_glb_kinds.hpp"
@@ -164,18 +164,18 @@ TEST(GlbPreviewFile, OtherFilesHaveNone) {
   EXPECT_FALSE(preview_of(text));
 }
 
-TEST(GlbPreviewFile, SlimFilesAndEmptySoupsHaveNone) {
+TEST(GlbPreviewFile, CompressedFilesAndEmptySoupsHaveNone) {
   RandomScene random(6);
   Scene scene = random.scene();
   TriangleSoup soup = random.geometry(4, true);
   soup.appearance = random.lattice_texture(4, 1, false);
   scene.primitives = soup;
-  const auto path = test::temporary_glb("slim_preview");
-  write_slim_glb(scene, encode_slim(soup, {}), path);
-  const std::vector<std::byte> slim = Input::open(path).read_rest();
+  const auto path = test::temporary_glb("compressed_preview");
+  write_compressed_glb(scene, encode_compressed(soup, {}), path);
+  const std::vector<std::byte> compressed = Input::open(path).read_rest();
   std::filesystem::remove(path);
-  EXPECT_EQ(size_of(slim), 0u);
-  EXPECT_FALSE(preview_of(slim));
+  EXPECT_EQ(size_of(compressed), 0u);
+  EXPECT_FALSE(preview_of(compressed));
 
   fill_soup(scene, {}, FaceColors{});
   const std::vector<std::byte> empty = test::glb_bytes(scene, "empty_preview");

@@ -1,5 +1,5 @@
-// Geometry of slim files: the same triangles, each corner within half a step of where it was.
-#include "formats/tureen_glb/slim_geometry.hpp"
+// Geometry of compressed files: the same triangles, each corner within half a step of where it was.
+#include "formats/tureen_glb/compressed_geometry.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,27 +12,27 @@
 #include "tests/formats/truncation.hpp"
 
 namespace tureen {
-namespace slim_geometry_test {
+namespace compressed_geometry_test {
 
 using test::RandomScene;
 
-SlimGeometry random_geometry(unsigned seed, std::size_t faces, bool shared) {
+CompressedGeometry random_geometry(unsigned seed, std::size_t faces, bool shared) {
   RandomScene random(seed);
   const TriangleSoup soup = random.geometry(faces, shared);
   return {soup.positions, soup.triangles};
 }
 
-class SlimGeometryBits : public ::testing::TestWithParam<int> {};
+class CompressedGeometryBits : public ::testing::TestWithParam<int> {};
 
-TEST_P(SlimGeometryBits, CornersStayWithinHalfAStep) {
+TEST_P(CompressedGeometryBits, CornersStayWithinHalfAStep) {
   const int bits = GetParam();
   for (const bool shared : {false, true}) {
     const unsigned seed = 61 + unsigned(bits);
     SCOPED_TRACE(::testing::Message() << "seed " << seed << ", shared " << shared);
-    const SlimGeometry before = random_geometry(seed, 200, shared);
-    const auto bytes = encode_slim_geometry(before, bits);
-    const SlimGeometry after =
-        decode_slim_geometry(bytes, used_vertices(before.triangles), 200, "slim");
+    const CompressedGeometry before = random_geometry(seed, 200, shared);
+    const auto bytes = encode_compressed_geometry(before, bits);
+    const CompressedGeometry after =
+        decode_compressed_geometry(bytes, used_vertices(before.triangles), 200, "compressed");
     ASSERT_EQ(after.triangles.size(), 200u);
     // Random positions in a box of side 4 at most; and the rounding of floats below 2 in the box's
     // corner, the step and the result.
@@ -50,50 +50,55 @@ TEST_P(SlimGeometryBits, CornersStayWithinHalfAStep) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Bits, SlimGeometryBits, ::testing::Values(1, 8, 14, 16, max_slim_bits));
+INSTANTIATE_TEST_SUITE_P(Bits, CompressedGeometryBits,
+                         ::testing::Values(1, 8, 14, 16, max_compressed_bits));
 
-TEST(SlimGeometry, NeighboursTakeLittle) {
+TEST(CompressedGeometry, NeighboursTakeLittle) {
   // A strip of small triangles along a line: far fewer than the 9 x 14 bits of three corners.
   const unsigned seed = 71;
   SCOPED_TRACE(::testing::Message() << "seed " << seed);
   RandomScene random(seed);
-  SlimGeometry strip;
+  CompressedGeometry strip;
   for (unsigned t = 0; t < 1000; ++t) {
     for (int k = 0; k < 3; ++k)
       strip.positions.emplace_back(float(t) / 1000 + random.real(0, 0.002f), random.real(0, 0.002f),
                                    random.real(0, 0.002f));
     strip.triangles.emplace_back(3 * t, 3 * t + 1, 3 * t + 2);
   }
-  EXPECT_LT(encode_slim_geometry(strip, 14).size(), 1000u * 9 * 14 / 8 / 2);
+  EXPECT_LT(encode_compressed_geometry(strip, 14).size(), 1000u * 9 * 14 / 8 / 2);
 }
 
-TEST(SlimGeometry, APointAndNothingComeBack) {
-  SlimGeometry point{{glm::vec3(3, -1, 2)}, {glm::uvec3(0)}};
-  const SlimGeometry back = decode_slim_geometry(encode_slim_geometry(point, 16), 1, 1, "slim");
+TEST(CompressedGeometry, APointAndNothingComeBack) {
+  CompressedGeometry point{{glm::vec3(3, -1, 2)}, {glm::uvec3(0)}};
+  const CompressedGeometry back =
+      decode_compressed_geometry(encode_compressed_geometry(point, 16), 1, 1, "compressed");
   EXPECT_EQ(back.positions[0], point.positions[0]);
-  EXPECT_TRUE(decode_slim_geometry(encode_slim_geometry({}, 16), 0, 0, "slim").triangles.empty());
+  EXPECT_TRUE(decode_compressed_geometry(encode_compressed_geometry({}, 16), 0, 0, "compressed")
+                  .triangles.empty());
 }
 
-TEST(SlimGeometry, HugeBoxesAreNoProblem) {
+TEST(CompressedGeometry, HugeBoxesAreNoProblem) {
   constexpr float most = std::numeric_limits<float>::max();
-  const SlimGeometry huge{{glm::vec3(-most), glm::vec3(most), glm::vec3(0)}, {glm::uvec3(0, 1, 2)}};
-  const SlimGeometry back = decode_slim_geometry(encode_slim_geometry(huge, 16), 3, 1, "slim");
+  const CompressedGeometry huge{{glm::vec3(-most), glm::vec3(most), glm::vec3(0)},
+                                {glm::uvec3(0, 1, 2)}};
+  const CompressedGeometry back =
+      decode_compressed_geometry(encode_compressed_geometry(huge, 16), 3, 1, "compressed");
   for (const glm::vec3& p : back.positions)
     for (int k = 0; k < 3; ++k) EXPECT_TRUE(std::isfinite(p[k]));
 }
 
-TEST(SlimGeometry, RefusesWhatIsNowhere) {
-  SlimGeometry geometry = random_geometry(72, 2, false);
+TEST(CompressedGeometry, RefusesWhatIsNowhere) {
+  CompressedGeometry geometry = random_geometry(72, 2, false);
   geometry.positions[4].y = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_THROW(encode_slim_geometry(geometry, 16), UsageError);
+  EXPECT_THROW(encode_compressed_geometry(geometry, 16), UsageError);
 }
 
-TEST(SlimGeometryBytes, SurviveDamage) {
-  const SlimGeometry geometry = random_geometry(73, 20, true);
+TEST(CompressedGeometryBytes, SurviveDamage) {
+  const CompressedGeometry geometry = random_geometry(73, 20, true);
   const std::size_t vertices = used_vertices(geometry.triangles);
-  const auto bytes = encode_slim_geometry(geometry, 12);
+  const auto bytes = encode_compressed_geometry(geometry, 12);
   const auto read = [&](std::span<const std::byte> b) {
-    const SlimGeometry back = decode_slim_geometry(b, vertices, 20, "slim");
+    const CompressedGeometry back = decode_compressed_geometry(b, vertices, 20, "compressed");
     ASSERT_EQ(back.triangles.size(), 20u);
     ASSERT_EQ(back.positions.size(), vertices);
     for (const glm::uvec3& triangle : back.triangles)
@@ -105,11 +110,13 @@ TEST(SlimGeometryBytes, SurviveDamage) {
   EXPECT_GT(damaged.refused, 0u);
 }
 
-TEST(SlimGeometryBytes, SurviveAnything) {
+TEST(CompressedGeometryBytes, SurviveAnything) {
   const unsigned seed = 74;
   SCOPED_TRACE(::testing::Message() << "seed " << seed);
   std::mt19937 random(seed);
-  const auto read = [](std::span<const std::byte> b) { decode_slim_geometry(b, 60, 30, "slim"); };
+  const auto read = [](std::span<const std::byte> b) {
+    decode_compressed_geometry(b, 60, 30, "compressed");
+  };
   test::Survival survival;
   for (int run = 0; run < 300; ++run) {
     std::vector<std::byte> bytes(random() % 600);
@@ -119,11 +126,12 @@ TEST(SlimGeometryBytes, SurviveAnything) {
   EXPECT_GT(survival.refused, 0u);
 }
 
-TEST(SlimGeometryBytes, FewCannotAskForMuch) {
+TEST(CompressedGeometryBytes, FewCannotAskForMuch) {
   const std::vector<std::byte> bytes(100, std::byte{1});
-  EXPECT_THROW(decode_slim_geometry(bytes, 3, std::size_t(1) << 32, "slim"), InputError);
-  EXPECT_THROW(decode_slim_geometry(bytes, 1000, 30, "slim"), InputError);
+  EXPECT_THROW(decode_compressed_geometry(bytes, 3, std::size_t(1) << 32, "compressed"),
+               InputError);
+  EXPECT_THROW(decode_compressed_geometry(bytes, 1000, 30, "compressed"), InputError);
 }
 
-}  // namespace slim_geometry_test
+}  // namespace compressed_geometry_test
 }  // namespace tureen

@@ -1,4 +1,4 @@
-#include "jobs/compress/slim_importance.hpp"
+#include "jobs/compress/importance.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,9 +11,9 @@ namespace tureen {
 
 namespace {
 
-/// What a bit is worth, in squared steps (SlimTexelOptions). Of 0.2, 0.25, 0.3, 0.4 and 0.5 this
-/// gave the fewest bytes at the same loss (the fox). Where every value takes bits, 2 ln 2 / 12 =
-/// 0.12 would be right: a step twice as large, whose errors are a twelfth of its square, is a bit
+/// What a bit is worth, in squared steps (CompressedTexelOptions). Of 0.2, 0.25, 0.3, 0.4 and 0.5
+/// this gave the fewest bytes at the same loss (the fox). Where every value takes bits, 2 ln 2 / 12
+/// = 0.12 would be right: a step twice as large, whose errors are a twelfth of its square, is a bit
 /// less.
 constexpr double bit_price = 0.3;
 /// How much of what a face's pixels and sensitivity differ from the mean its step follows; the
@@ -28,11 +28,11 @@ constexpr double usual_step = 8;
 using Features = std::array<double, LatticeTexture::features>;
 
 /// What a step along each axis of the basis changes, features in [0, 1].
-std::vector<Features> steps_of(const SlimBasis& basis) {
+std::vector<Features> steps_of(const CompressedBasis& basis) {
   std::vector<Features> result(basis.rows.size());
   for (std::size_t axis = 0; axis < result.size(); ++axis)
     for (std::size_t f = 0; f < basis.rows.size(); ++f)
-      result[axis][f] = double(basis.rows[f][axis]) / 65536.0 * slim_fraction / 255.0;
+      result[axis][f] = double(basis.rows[f][axis]) / 65536.0 * compress_fraction / 255.0;
   return result;
 }
 
@@ -46,18 +46,18 @@ double mean(const std::vector<double>& values) {
 std::uint8_t nearest_multiplier(double wanted) {
   std::size_t best = 0;
   const auto away = [&](std::size_t i) {
-    return std::abs(std::log(slim_multipliers[i] / 4.0 / wanted));
+    return std::abs(std::log(compress_multipliers[i] / 4.0 / wanted));
   };
-  for (std::size_t i = 1; i < slim_multipliers.size(); ++i)
+  for (std::size_t i = 1; i < compress_multipliers.size(); ++i)
     if (away(i) < away(best)) best = i;
   return std::uint8_t(best);
 }
 
 }  // namespace
 
-SlimImportance::SlimImportance(const gl::Context& context, const TriangleSoup& soup,
-                               glm::dvec3 origin, std::span<const Camera> views, bool by_texel,
-                               const std::function<void()>& cancel)
+CompressImportance::CompressImportance(const gl::Context& context, const TriangleSoup& soup,
+                                       glm::dvec3 origin, std::span<const Camera> views,
+                                       bool by_texel, const std::function<void()>& cancel)
     : texture_(std::get<LatticeTexture>(soup.appearance)),
       weights_(count_visible_texels(context, soup, origin, views, [&](double) { cancel(); })) {
   std::vector<glm::dvec3> eyes;
@@ -78,7 +78,7 @@ SlimImportance::SlimImportance(const gl::Context& context, const TriangleSoup& s
   const double texel_shown = mean_shown * double(shown.size()) / std::max(texels, 1.0);
 
   const std::vector<double> moved =
-      face_sensitivity(soup, eyes, steps_of(slim_basis(texture_, sensitivity_, usual_step)));
+      face_sensitivity(soup, eyes, steps_of(compressed_basis(texture_, sensitivity_, usual_step)));
   const double mean_moved = mean(moved);
   if (by_texel) unseen_texels_ = std::size_t(std::count(weights_.begin(), weights_.end(), 0.0f));
   std::vector<float> weights(weights_.size(), 0.0f);
@@ -98,10 +98,10 @@ SlimImportance::SlimImportance(const gl::Context& context, const TriangleSoup& s
   weights_ = std::move(weights);
 }
 
-SlimTexelOptions SlimImportance::options(double step, std::uint8_t alpha_step,
-                                         bool bits_have_a_price) const {
-  return {.basis = slim_basis(texture_, sensitivity_, step, weights_),
-          .feature_step = slim_fraction,
+CompressedTexelOptions CompressImportance::options(double step, std::uint8_t alpha_step,
+                                                   bool bits_have_a_price) const {
+  return {.basis = compressed_basis(texture_, sensitivity_, step, weights_),
+          .feature_step = compress_fraction,
           .alpha_step = alpha_step,
           .coarseness = coarseness_,
           .weights = weights_,

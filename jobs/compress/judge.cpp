@@ -1,4 +1,4 @@
-#include "jobs/compress/slim_judge.hpp"
+#include "jobs/compress/judge.hpp"
 
 #include <fmt/format.h>
 
@@ -28,8 +28,8 @@ Camera limited(const Camera& camera) {
 
 }  // namespace
 
-std::vector<Camera> slim_views(const Scene& scene, std::span<const Camera> recorded,
-                               std::size_t count) {
+std::vector<Camera> compress_views(const Scene& scene, std::span<const Camera> recorded,
+                                   std::size_t count) {
   std::vector<Camera> views;
   const std::size_t some = std::min(count, recorded.size());
   for (std::size_t i = 0; i < some; ++i)
@@ -42,8 +42,8 @@ std::vector<Camera> slim_views(const Scene& scene, std::span<const Camera> recor
   return views;
 }
 
-SlimJudge::SlimJudge(const gl::Context& context, const Scene& scene,
-                     std::span<const Photograph> photographs, Cancel cancel)
+CompressJudge::CompressJudge(const gl::Context& context, const Scene& scene,
+                             std::span<const Photograph> photographs, Cancel cancel)
     : context_(context),
       cancel_(std::move(cancel)),
       origin_(scene.origin),
@@ -55,7 +55,7 @@ SlimJudge::SlimJudge(const gl::Context& context, const Scene& scene,
   if (!photographs_.empty()) {
     views_.photographs = photographs_.size();
   } else {
-    cameras_ = slim_views(scene, scene.cameras, judged_views);
+    cameras_ = compress_views(scene, scene.cameras, judged_views);
     views_.recorded = scene.cameras.size();
     views_.cameras = std::min(views_.recorded, cameras_.size());
     views_.around = cameras_.size() - views_.cameras;
@@ -75,7 +75,7 @@ SlimJudge::SlimJudge(const gl::Context& context, const Scene& scene,
         "without --photographs the loss is estimated");
 }
 
-SlimLoss SlimJudge::loss(const TriangleSoup& soup) const {
+CompressLoss CompressJudge::loss(const TriangleSoup& soup) const {
   double squared = 0, pixels = 0;
   std::vector<double> errors;
   draw(soup, [&](std::size_t i, const ImageF& image) {
@@ -84,21 +84,21 @@ SlimLoss SlimJudge::loss(const TriangleSoup& soup) const {
     pixels += weight;
     if (!photographs_.empty()) errors.push_back(mean_squared_error(photographs_[i], image));
   });
-  SlimLoss result;
+  CompressLoss result;
   result.render_psnr_db = psnr_from_mse(squared / pixels);
   result.db = photographs_.empty() ? decibels_lost(model_db_, result.render_psnr_db)
                                    : model_db_ - model_db(errors);
   return result;
 }
 
-double SlimJudge::model_db(const std::vector<double>& squared_errors) const {
+double CompressJudge::model_db(const std::vector<double>& squared_errors) const {
   double sum = 0;
   for (const double mse : squared_errors) sum += psnr_from_mse(mse);
   return sum / double(squared_errors.size());
 }
 
-void SlimJudge::draw(const TriangleSoup& soup,
-                     const std::function<void(std::size_t, const ImageF&)>& visit) const {
+void CompressJudge::draw(const TriangleSoup& soup,
+                         const std::function<void(std::size_t, const ImageF&)>& visit) const {
   Renderer renderer(context_, soup, origin_, {.background = {background_, 1.0f}});
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     if (cancel_) cancel_();

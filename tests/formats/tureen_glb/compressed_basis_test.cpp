@@ -1,5 +1,6 @@
-// The basis of slim features: it comes back from whole numbers, and its axes do what they promise.
-#include "formats/tureen_glb/slim_basis.hpp"
+// The basis of compressed features: it comes back from whole numbers, and its axes do what they
+// promise.
+#include "formats/tureen_glb/compressed_basis.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,7 @@
 #include "tests/formats/random_scene.hpp"
 
 namespace tureen {
-namespace slim_basis_test {
+namespace compressed_basis_test {
 
 constexpr int features = LatticeTexture::features;
 constexpr int channels = LatticeTexture::channels;
@@ -30,11 +31,11 @@ FeatureMatrix random_sensitivity(std::mt19937& random) {
   return result;
 }
 
-TEST(SlimBasis, IdentityLosesNothing) {
+TEST(CompressedBasis, IdentityLosesNothing) {
   test::RandomScene random(81);
   const LatticeTexture texture = random.lattice_texture(5, 3, false);
   const auto& texels = std::get<std::vector<std::uint8_t>>(texture.texels);
-  const SlimBasis basis = SlimBasis::identity();
+  const CompressedBasis basis = CompressedBasis::identity();
   const auto values = basis.values_of(texels);
   for (std::size_t t = 0; t < texels.size(); t += channels)
     for (int f = 0; f < features; ++f)
@@ -42,14 +43,14 @@ TEST(SlimBasis, IdentityLosesNothing) {
                 texels[t + std::size_t(f)]);
 }
 
-TEST(SlimBasis, ValuesSayTheFeatures) {
+TEST(CompressedBasis, ValuesSayTheFeatures) {
   const unsigned seed = 82;
   SCOPED_TRACE(::testing::Message() << "seed " << seed);
   std::mt19937 engine(seed);
   test::RandomScene random(seed);
   const LatticeTexture texture = random.lattice_texture(20, 3, false);
   const auto& texels = std::get<std::vector<std::uint8_t>>(texture.texels);
-  const SlimBasis basis = slim_basis(texture, random_sensitivity(engine), 2.0);
+  const CompressedBasis basis = compressed_basis(texture, random_sensitivity(engine), 2.0);
   const auto values = basis.values_of(texels);
   for (std::size_t t = 0; t < texels.size(); t += channels) {
     for (int f = 0; f < features; ++f)
@@ -61,7 +62,7 @@ TEST(SlimBasis, ValuesSayTheFeatures) {
   }
 }
 
-TEST(SlimBasis, EveryAxisMovesTheColourAlike) {
+TEST(CompressedBasis, EveryAxisMovesTheColourAlike) {
   const unsigned seed = 83;
   SCOPED_TRACE(::testing::Message() << "seed " << seed);
   std::mt19937 engine(seed);
@@ -69,7 +70,7 @@ TEST(SlimBasis, EveryAxisMovesTheColourAlike) {
   const LatticeTexture texture = random.lattice_texture(20, 3, false);
   const FeatureMatrix sensitivity = random_sensitivity(engine);
   const double step = 6;
-  const SlimBasis basis = slim_basis(texture, sensitivity, step);
+  const CompressedBasis basis = compressed_basis(texture, sensitivity, step);
   for (std::size_t a = 0; a < features; ++a)
     for (std::size_t b = 0; b < features; ++b) {
       double moved = 0;  // x_a^T S x_b: squared movement, and none of one along the other
@@ -77,13 +78,13 @@ TEST(SlimBasis, EveryAxisMovesTheColourAlike) {
         for (std::size_t j = 0; j < features; ++j)
           moved += basis.rows[i][a] / 65536.0 * sensitivity[i][j] * basis.rows[j][b] / 65536.0;
       // The rounding of the fixed point is 2^-17 of values about one.
-      EXPECT_NEAR(moved * slim_fraction * slim_fraction, a == b ? step * step : 0.0, 1e-2)
+      EXPECT_NEAR(moved * compress_fraction * compress_fraction, a == b ? step * step : 0.0, 1e-2)
           << a << ", " << b;
     }
 }
 
 // The first axis is that of the largest residuals, of the texels that count.
-TEST(SlimBasis, AxesAreThoseOfTheTexelsThatCount) {
+TEST(CompressedBasis, AxesAreThoseOfTheTexelsThatCount) {
   LatticeTexture texture;
   std::vector<std::uint8_t> texels;
   std::vector<float> first, second;
@@ -103,7 +104,7 @@ TEST(SlimBasis, AxesAreThoseOfTheTexelsThatCount) {
   FeatureMatrix plain{};
   for (std::size_t i = 0; i < features; ++i) plain[i][i] = 1;
   const auto strongest = [&](const std::vector<float>& weights) {
-    const SlimBasis basis = slim_basis(texture, plain, 4, weights);
+    const CompressedBasis basis = compressed_basis(texture, plain, 4, weights);
     std::size_t best = 0;
     for (std::size_t f = 1; f < features; ++f)
       if (std::abs(basis.rows[f][0]) > std::abs(basis.rows[best][0])) best = f;
@@ -114,15 +115,15 @@ TEST(SlimBasis, AxesAreThoseOfTheTexelsThatCount) {
   // Where nothing counts, it is that of a texture without residuals.
   LatticeTexture nothing;
   nothing.texels = std::vector<std::uint8_t>();
-  EXPECT_EQ(slim_basis(texture, plain, 4, std::vector<float>(12, 0.0f)).rows,
-            slim_basis(nothing, plain, 4).rows);
+  EXPECT_EQ(compressed_basis(texture, plain, 4, std::vector<float>(12, 0.0f)).rows,
+            compressed_basis(nothing, plain, 4).rows);
 }
 
-TEST(SlimBasis, AColourThatNothingMovesStillHasABasis) {
+TEST(CompressedBasis, AColourThatNothingMovesStillHasABasis) {
   test::RandomScene random(84);
   const LatticeTexture texture = random.lattice_texture(3, 2, false);
   const auto& texels = std::get<std::vector<std::uint8_t>>(texture.texels);
-  const SlimBasis basis = slim_basis(texture, FeatureMatrix{}, 4.0);
+  const CompressedBasis basis = compressed_basis(texture, FeatureMatrix{}, 4.0);
   const auto values = basis.values_of(texels);
   for (int f = 0; f < features; ++f)
     // As above, with a sensitivity of 1.
@@ -130,5 +131,5 @@ TEST(SlimBasis, AColourThatNothingMovesStillHasABasis) {
                 0.5 + 7 * 0.5 * 0.25);
 }
 
-}  // namespace slim_basis_test
+}  // namespace compressed_basis_test
 }  // namespace tureen

@@ -1,4 +1,4 @@
-#include "formats/tureen_glb/tureen_glb_slim.hpp"
+#include "formats/tureen_glb/tureen_glb_compressed.hpp"
 
 #include <cassert>
 
@@ -11,42 +11,42 @@ namespace tureen {
 
 using namespace glb_writing;
 
-SlimSoup encode_slim(const TriangleSoup& soup, const SlimOptions& options) {
-  return {encode_slim_geometry({soup.positions, soup.triangles}, options.position_bits),
-          encode_slim_texels(std::get<LatticeTexture>(soup.appearance), options.texels)};
+CompressedSoup encode_compressed(const TriangleSoup& soup, const CompressOptions& options) {
+  return {encode_compressed_geometry({soup.positions, soup.triangles}, options.position_bits),
+          encode_compressed_texels(std::get<LatticeTexture>(soup.appearance), options.texels)};
 }
 
-TriangleSoup decode_slim(const SlimSoup& slim, const TriangleSoup& encoded) {
+TriangleSoup decode_compressed(const CompressedSoup& compressed, const TriangleSoup& encoded) {
   const std::size_t faces = encoded.triangles.size();
-  SlimGeometry geometry =
-      decode_slim_geometry(slim.geometry, used_vertices(encoded.triangles), faces, "a slim soup");
-  LatticeTexture texture = decode_slim_texels(slim.texels, faces, "a slim soup");
+  CompressedGeometry geometry = decode_compressed_geometry(
+      compressed.geometry, used_vertices(encoded.triangles), faces, "a compressed soup");
+  LatticeTexture texture = decode_compressed_texels(compressed.texels, faces, "a compressed soup");
   texture.mlp = std::get<LatticeTexture>(encoded.appearance).mlp;
   return {std::move(geometry.positions), std::move(geometry.triangles), std::move(texture)};
 }
 
-std::vector<std::string> write_slim_glb(const Scene& scene, const SlimSoup& slim,
-                                        const std::filesystem::path& path) {
+std::vector<std::string> write_compressed_glb(const Scene& scene, const CompressedSoup& compressed,
+                                              const std::filesystem::path& path) {
   const auto* soup = std::get_if<TriangleSoup>(&scene.primitives);
   const auto* texture = soup ? std::get_if<LatticeTexture>(&soup->appearance) : nullptr;
-  if (!texture) throw UsageError("a slim file holds lattice textures only");
+  if (!texture) throw UsageError("a compressed file holds lattice textures only");
   if (const auto reason = defect(*soup))
     throw UsageError("the scene cannot be written: " + *reason);
   std::vector<std::string> losses;
   BinaryPlan plan;
   json extension = info_json(scene, losses);
-  extension["version"] = tureen_slim_version;
+  extension["version"] = tureen_compressed_version;
   extension["vertex_count"] = used_vertices(soup->triangles);
   extension["face_count"] = soup->triangles.size();
   const auto put = [&](json& holder, const std::string& key, std::span<const std::byte> bytes) {
     holder[key] = plan.view(bytes);
     holder[key + "_crc32"] = crc32_of(bytes);
   };
-  put(extension, "slim_geometry", slim.geometry);
+  put(extension, "slim_geometry", compressed.geometry);
   extension["appearance"] = {{"type", "lattice_texture"}};
   json& appearance = extension["appearance"];
   if (texture->mlp) appearance["color_mlp"] = mlp_json(plan, *texture->mlp);
-  put(appearance, "slim_texels", slim.texels);
+  put(appearance, "slim_texels", compressed.texels);
   write_glb({{"asset", {{"version", "2.0"}, {"generator", "Tureen"}}},
              {"extensionsUsed", json::array({tureen_extension})},
              {"extensionsRequired", json::array({tureen_extension})},

@@ -1,5 +1,5 @@
-// The search for a slim file: what it promises holds, and what it is allowed to lose it uses.
-#include "jobs/compress/slim.hpp"
+// The search for a compressed file: what it promises holds, and what it is allowed to lose it uses.
+#include "jobs/compress/compress.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include "tests/support/random.hpp"
 
 namespace tureen {
-namespace slim_test {
+namespace compressed_test {
 
 /// The first faces of the example, from some of its cameras at a fifth of their size.
 Scene part_of_the_example(std::size_t faces, std::size_t cameras = 8) {
@@ -49,11 +49,11 @@ std::vector<Photograph> own_photographs(const Scene& scene, int off) {
   return photographs;
 }
 
-TEST(Slim, KeepsWithinItsBoundAndUsesIt) {
+TEST(Compress, KeepsWithinItsBoundAndUsesIt) {
   const Scene scene = part_of_the_example(500);
   const auto& soup = std::get<TriangleSoup>(scene.primitives);
-  const SlimResult large = slim(scene, {.max_loss_db = 0.1});
-  const SlimResult small = slim(scene, {.max_loss_db = 1});
+  const CompressResult large = compress(scene, {.max_loss_db = 0.1});
+  const CompressResult small = compress(scene, {.max_loss_db = 1});
   EXPECT_LE(large.loss.db, 0.1);
   EXPECT_LE(small.loss.db, 1);
   EXPECT_GT(large.loss.render_psnr_db, small.loss.render_psnr_db);
@@ -63,27 +63,27 @@ TEST(Slim, KeepsWithinItsBoundAndUsesIt) {
   EXPECT_GT(small.loss.db, 0.5);
   EXPECT_LT(small.soup.texels.size(), large.soup.texels.size());
   EXPECT_LE(small.position_bits, large.position_bits);
-  EXPECT_EQ(large.views, (SlimViews{.cameras = 8, .recorded = 8}));
+  EXPECT_EQ(large.views, (CompressViews{.cameras = 8, .recorded = 8}));
 
   // What is in the file loses just that.
   const gl::Context context = gl::Context::create({});
-  const SlimJudge judge(context, scene, {});
-  EXPECT_EQ(judge.loss(decode_slim(small.soup, small.kept)).db, small.loss.db);
+  const CompressJudge judge(context, scene, {});
+  EXPECT_EQ(judge.loss(decode_compressed(small.soup, small.kept)).db, small.loss.db);
   EXPECT_EQ(judge.loss(soup).render_psnr_db, 100);
 }
 
-TEST(Slim, MeasuresAgainstPhotographsWhereThereAreSome) {
+TEST(Compress, MeasuresAgainstPhotographsWhereThereAreSome) {
   const Scene scene = part_of_the_example(500);
-  const SlimResult result =
-      slim(scene, {.max_loss_db = 0.05, .photographs = own_photographs(scene, 40)});
+  const CompressResult result =
+      compress(scene, {.max_loss_db = 0.05, .photographs = own_photographs(scene, 40)});
   EXPECT_LE(result.loss.db, 0.05);
-  EXPECT_EQ(result.views, SlimViews{.photographs = 8});
+  EXPECT_EQ(result.views, CompressViews{.photographs = 8});
   // They are far from the scene, so much may be lost before it shows against them.
   EXPECT_LT(result.model_db, 30);
   EXPECT_LT(result.loss.render_psnr_db, 45);
 }
 
-TEST(Slim, LeavesOutWhatNoViewSees) {
+TEST(Compress, LeavesOutWhatNoViewSees) {
   Scene scene = part_of_the_example(300);
   auto& soup = std::get<TriangleSoup>(scene.primitives);
   // Three faces that are points.
@@ -92,22 +92,22 @@ TEST(Slim, LeavesOutWhatNoViewSees) {
     soup.triangles.push_back(glm::uvec3(soup.triangles[0].x));
     texture.patches.push_back(texture.patches[0]);
   }
-  const SlimResult some = slim(scene, {.max_loss_db = 1});
+  const CompressResult some = compress(scene, {.max_loss_db = 1});
   EXPECT_GE(some.unseen, 3u);
   EXPECT_EQ(some.kept.triangles.size() + some.unseen, 303u);
   EXPECT_EQ(some.seeing_views, 8u + 64u);
-  const SlimResult all = slim(scene, {.max_loss_db = 1, .keep_unseen = true});
+  const CompressResult all = compress(scene, {.max_loss_db = 1, .keep_unseen = true});
   EXPECT_EQ(all.unseen, 0u);
   EXPECT_EQ(all.kept.triangles, soup.triangles);
   // Nobody knows from where it is seen.
   const auto photographs = own_photographs(scene, 8);
   scene.cameras.clear();
-  EXPECT_EQ(slim(scene, {.max_loss_db = 1, .photographs = photographs}).unseen, 0u);
+  EXPECT_EQ(compress(scene, {.max_loss_db = 1, .photographs = photographs}).unseen, 0u);
 }
 
-TEST(Slim, TexelsThatNoViewShowsTakeLittle) {
+TEST(Compress, TexelsThatNoViewShowsTakeLittle) {
   Scene scene = part_of_the_example(300);
-  const SlimResult before = slim(scene, {.max_loss_db = 0.1, .keep_unseen = true});
+  const CompressResult before = compress(scene, {.max_loss_db = 0.1, .keep_unseen = true});
   EXPECT_EQ(before.weighing_views, 8u);
   // Behind the eyes of all cameras: the same faces once more.
   auto& soup = std::get<TriangleSoup>(scene.primitives);
@@ -131,7 +131,7 @@ TEST(Slim, TexelsThatNoViewShowsTakeLittle) {
       for (int c = 0; c < LatticeTexture::channels; ++c)
         bytes.push_back(std::uint8_t(c == LatticeTexture::features ? 255 : random.below(256)));
   }
-  const SlimResult after = slim(scene, {.max_loss_db = 0.1, .keep_unseen = true});
+  const CompressResult after = compress(scene, {.max_loss_db = 0.1, .keep_unseen = true});
   EXPECT_GE(after.unseen_texels, before.unseen_texels + texels * 9 / 10);
   EXPECT_LE(after.loss.db, 0.1);
   // Noise of seven channels takes 7 bytes a texel where it is kept to the byte.
@@ -140,19 +140,19 @@ TEST(Slim, TexelsThatNoViewShowsTakeLittle) {
 
   // Fewer cameras do not say that nobody looks there.
   scene.cameras.resize(7);
-  const SlimResult few = slim(scene, {.max_loss_db = 0.1, .keep_unseen = true});
+  const CompressResult few = compress(scene, {.max_loss_db = 0.1, .keep_unseen = true});
   EXPECT_EQ(few.unseen_texels, 0u);
 }
 
-TEST(Slim, TrainingCamerasJoinTheRecordedOnes) {
+TEST(Compress, TrainingCamerasJoinTheRecordedOnes) {
   Scene scene = part_of_the_example(300);
-  SlimRequest request{.max_loss_db = 0.1, .photographs = own_photographs(scene, 8)};
+  CompressRequest request{.max_loss_db = 0.1, .photographs = own_photographs(scene, 8)};
   request.training_cameras = scene.cameras;
-  const SlimResult recorded = slim(scene, request);
+  const CompressResult recorded = compress(scene, request);
   EXPECT_EQ(recorded.lent_cameras, 0u);
   EXPECT_GT(recorded.unseen_texels, 0u);
   scene.cameras.clear();
-  const SlimResult lent = slim(scene, request);
+  const CompressResult lent = compress(scene, request);
   EXPECT_EQ(lent.lent_cameras, 8u);
   EXPECT_EQ(lent.soup.texels, recorded.soup.texels);
   EXPECT_EQ(lent.unseen_texels, recorded.unseen_texels);
@@ -172,44 +172,44 @@ TEST(Slim, TrainingCamerasJoinTheRecordedOnes) {
         texture.texels)[(texture.patches[0].first_texel + i) * LatticeTexture::channels +
                         LatticeTexture::features] = 255;
   request.photographs = own_photographs(with_cameras(scene, request.training_cameras), 8);
-  const SlimResult without = slim(scene, request);
+  const CompressResult without = compress(scene, request);
   const glm::dvec3 eye = scene.origin + glm::dvec3(0, 0, -499.9);
   scene.cameras = {look_at(eye, eye - glm::dvec3(0, 0, 0.1), {0, 1, 0}, 0.7, 64, 48)};
-  const SlimResult with = slim(scene, request);
+  const CompressResult with = compress(scene, request);
   EXPECT_EQ(with.lent_cameras, 8u);
   EXPECT_EQ(with.seeing_views, 9u + 64u);
   EXPECT_EQ(with.unseen, without.unseen - 1);
 }
 
-TEST(Slim, TrainingCamerasThatSeeNothingOrTooFewDoNot) {
+TEST(Compress, TrainingCamerasThatSeeNothingOrTooFewDoNot) {
   const Scene all = part_of_the_example(300);
   const Scene scene = with_cameras(all, {all.cameras[0]});
-  SlimRequest request{.max_loss_db = 0.1, .photographs = own_photographs(all, 8)};
+  CompressRequest request{.max_loss_db = 0.1, .photographs = own_photographs(all, 8)};
   request.training_cameras = all.cameras;
   const Camera blind = look_at({0, 0, 50}, {0, 0, 100}, {0, 1, 0}, 0.7, 64, 48);
   request.training_cameras.push_back(blind);
-  EXPECT_EQ(slim(scene, request).lent_cameras, 8u);
+  EXPECT_EQ(compress(scene, request).lent_cameras, 8u);
   request.training_cameras[0] = blind;
-  const SlimResult few = slim(scene, request);
+  const CompressResult few = compress(scene, request);
   EXPECT_EQ(few.lent_cameras, 0u);
   EXPECT_EQ(few.unseen_texels, 0u);
   EXPECT_EQ(few.unseen, 0u);
   request.training_cameras.resize(7);
-  EXPECT_EQ(slim(scene, request).lent_cameras, 0u);
+  EXPECT_EQ(compress(scene, request).lent_cameras, 0u);
 }
 
-TEST(Slim, PhotographsOfAnotherSceneAreRefused) {
+TEST(Compress, PhotographsOfAnotherSceneAreRefused) {
   const Scene scene = part_of_the_example(300);
-  const SlimRequest request{.max_loss_db = 0.1, .photographs = own_photographs(scene, 127)};
-  EXPECT_THROW(slim(scene, request), UsageError);
+  const CompressRequest request{.max_loss_db = 0.1, .photographs = own_photographs(scene, 127)};
+  EXPECT_THROW(compress(scene, request), UsageError);
 }
 
 // A camera that sees nothing of the scene cannot make it lose nothing.
-TEST(Slim, OneCameraDoesNotSpeakForAll) {
+TEST(Compress, OneCameraDoesNotSpeakForAll) {
   Scene scene = part_of_the_example(100, 1);
   scene.cameras[0] = look_at({0, 0, 50}, {0, 0, 100}, {0, 1, 0}, 0.7, 64, 48);
-  const SlimResult result = slim(scene, {.max_loss_db = 0.1});
-  EXPECT_EQ(result.views, (SlimViews{.cameras = 1, .recorded = 1, .around = 23}));
+  const CompressResult result = compress(scene, {.max_loss_db = 0.1});
+  EXPECT_EQ(result.views, (CompressViews{.cameras = 1, .recorded = 1, .around = 23}));
   EXPECT_EQ(result.unseen, 0u);
   EXPECT_EQ(result.seeing_views, 0u);
   EXPECT_EQ(result.unseen_texels, 0u);
@@ -217,7 +217,7 @@ TEST(Slim, OneCameraDoesNotSpeakForAll) {
   EXPECT_LT(result.loss.render_psnr_db, 60) << "somebody sees it";
 }
 
-TEST(Slim, FacesOfOneColorHaveOneTexelACorner) {
+TEST(Compress, FacesOfOneColorHaveOneTexelACorner) {
   Scene scene = part_of_the_example(40);
   auto& texture = std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance);
   auto& texels = std::get<std::vector<std::uint8_t>>(texture.texels);
@@ -232,15 +232,15 @@ TEST(Slim, FacesOfOneColorHaveOneTexelACorner) {
     for (std::size_t i = 0; t < plain && i < lattice::texel_count(int(patch.level)); ++i)
       std::copy_n(first, channels, first + std::ptrdiff_t(i * channels));
   }
-  const SlimResult result = slim(scene, {.max_loss_db = 0.1, .keep_unseen = true});
-  const TriangleSoup decoded = decode_slim(result.soup, result.kept);
+  const CompressResult result = compress(scene, {.max_loss_db = 0.1, .keep_unseen = true});
+  const TriangleSoup decoded = decode_compressed(result.soup, result.kept);
   for (std::size_t t = 0; t < level.size(); ++t)
     EXPECT_EQ(std::get<LatticeTexture>(decoded.appearance).patches[t].level, level[t]) << t;
   EXPECT_LE(result.loss.db, 0.1);
 }
 
 // As before training: edges lie anywhere, and coarse alphas move them all.
-TEST(Slim, AlphasAroundTheThresholdHaveFinerSteps) {
+TEST(Compress, AlphasAroundTheThresholdHaveFinerSteps) {
   Scene scene = part_of_the_example(200);
   auto& texture = std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance);
   auto& texels = std::get<std::vector<std::uint8_t>>(texture.texels);
@@ -249,36 +249,37 @@ TEST(Slim, AlphasAroundTheThresholdHaveFinerSteps) {
     texels[i] = std::uint8_t(118 + random.below(20));
   const auto& soup = std::get<TriangleSoup>(scene.primitives);
   const gl::Context context = gl::Context::create({});
-  const SlimSoup coarse = encode_slim(soup, {.position_bits = 20, .texels = {.alpha_step = 85}});
-  EXPECT_GT(SlimJudge(context, scene, {}).loss(decode_slim(coarse, soup)).db, 0.1);
-  EXPECT_LE(slim(scene, {.max_loss_db = 0.1}).loss.db, 0.1);
+  const CompressedSoup coarse =
+      encode_compressed(soup, {.position_bits = 20, .texels = {.alpha_step = 85}});
+  EXPECT_GT(CompressJudge(context, scene, {}).loss(decode_compressed(coarse, soup)).db, 0.1);
+  EXPECT_LE(compress(scene, {.max_loss_db = 0.1}).loss.db, 0.1);
 }
 
-TEST(Slim, RefusesWhatItCannotHold) {
+TEST(Compress, RefusesWhatItCannotHold) {
   Scene scene = part_of_the_example(2);
   std::get<TriangleSoup>(scene.primitives).appearance = FaceColors{{glm::vec4(1), glm::vec4(1)}};
-  EXPECT_THAT(test::error_of<UsageError>([&] { slim(scene, {}); }),
+  EXPECT_THAT(test::error_of<UsageError>([&] { compress(scene, {}); }),
               test::ErrorAt("", appearance_name(FaceColors{})));
 }
 
-TEST(Slim, ViewsAreRecordedCamerasOrAround) {
+TEST(Compress, ViewsAreRecordedCamerasOrAround) {
   Scene scene = part_of_the_example(2);
-  EXPECT_EQ(slim_views(scene, scene.cameras, 2).size(), 2u);
-  EXPECT_EQ(slim_views(scene, scene.cameras, 9).size(), 8u);
+  EXPECT_EQ(compress_views(scene, scene.cameras, 2).size(), 2u);
+  EXPECT_EQ(compress_views(scene, scene.cameras, 9).size(), 8u);
   scene.cameras[0] = resized(scene.cameras[0], 4000, 2000);
-  EXPECT_EQ(slim_views(scene, scene.cameras, 1)[0].width, 800);
-  EXPECT_EQ(slim_views(scene, scene.cameras, 1)[0].height, 400);
+  EXPECT_EQ(compress_views(scene, scene.cameras, 1)[0].width, 800);
+  EXPECT_EQ(compress_views(scene, scene.cameras, 1)[0].height, 400);
   // Too few to tell: others join them.
   scene.cameras.resize(7);
-  EXPECT_EQ(slim_views(scene, scene.cameras, 5).size(), 5u);
-  EXPECT_EQ(slim_views(scene, scene.cameras, 9).size(), 9u);
-  EXPECT_EQ(slim_views(scene, scene.cameras, 9)[6].name, scene.cameras[6].name);
-  EXPECT_EQ(slim_views(scene, scene.cameras, 9)[7].name, "hemisphere 0");
-  EXPECT_EQ(slim_views(scene, scene.cameras, 200).size(), 7u + 64u);
+  EXPECT_EQ(compress_views(scene, scene.cameras, 5).size(), 5u);
+  EXPECT_EQ(compress_views(scene, scene.cameras, 9).size(), 9u);
+  EXPECT_EQ(compress_views(scene, scene.cameras, 9)[6].name, scene.cameras[6].name);
+  EXPECT_EQ(compress_views(scene, scene.cameras, 9)[7].name, "hemisphere 0");
+  EXPECT_EQ(compress_views(scene, scene.cameras, 200).size(), 7u + 64u);
   scene.cameras.clear();
-  EXPECT_EQ(slim_views(scene, scene.cameras, 9).size(), 9u);
-  EXPECT_EQ(slim_views(scene, scene.cameras, 200).size(), 64u);
+  EXPECT_EQ(compress_views(scene, scene.cameras, 9).size(), 9u);
+  EXPECT_EQ(compress_views(scene, scene.cameras, 200).size(), 64u);
 }
 
-}  // namespace slim_test
+}  // namespace compressed_test
 }  // namespace tureen

@@ -1,5 +1,5 @@
 // The traversal of a compressed file's texels, shared by encoder and decoder: the order of the
-// coded values and their probability models. Internal to slim_texels_*.cpp.
+// coded values and their probability models. Internal to compressed_texels_*.cpp.
 #pragma once
 
 #include <algorithm>
@@ -9,11 +9,11 @@
 #include <memory>
 #include <vector>
 
+#include "formats/tureen_glb/compressed_texels.hpp"
 #include "formats/tureen_glb/range_coder.hpp"
-#include "formats/tureen_glb/slim_texels.hpp"
 #include "scene/lattice.hpp"
 
-namespace tureen::slim {
+namespace tureen::compressed {
 
 inline constexpr int channels = LatticeTexture::channels;
 inline constexpr int alpha = LatticeTexture::features;
@@ -244,7 +244,7 @@ class Walk {
 
   int step_of(const Patch& patch, int c) const {
     if (c == alpha) return steps_.alpha;
-    return std::max(steps_.features * slim_multipliers[patch.coarseness] / 4, 1);
+    return std::max(steps_.features * compress_multipliers[patch.coarseness] / 4, 1);
   }
 
   static std::int16_t moved(int c, int prediction, int by) {
@@ -279,4 +279,4 @@ class Walk {
   std::vector<Activity> activity_;
 };
 
-}  // namespace tureen::slim
+}  // namespace tureen::compressed

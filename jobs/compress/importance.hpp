@@ -1,5 +1,6 @@
 // The visible effect of errors of a soup's texels, and the steps that follow from it. This part of
-// the search for a compressed file (jobs/compress/slim.hpp) is independent of the step of colour.
+// the search for a compressed file (jobs/compress/compress.hpp) is independent of the step of
+// colour.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "formats/tureen_glb/slim_texels.hpp"
+#include "formats/tureen_glb/compressed_texels.hpp"
 #include "runtime/gl/context.hpp"
 #include "scene/camera.hpp"
 #include "scene/edit/feature_sensitivity.hpp"
@@ -16,17 +17,19 @@
 
 namespace tureen {
 
-class SlimImportance {
+class CompressImportance {
  public:
   /// Measures a soup with a lattice texture, which must outlive this object, in these views (at
   /// least one). Unless `by_texel` is set, all texels of a face have the same weight. `cancel` is
   /// called often and may throw.
-  SlimImportance(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
-                 std::span<const Camera> views, bool by_texel, const std::function<void()>& cancel);
+  CompressImportance(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
+                     std::span<const Camera> views, bool by_texel,
+                     const std::function<void()>& cancel);
 
-  /// Options for steps of `step` / 255 of colour in the mean (slim_basis). Without a bit price each
-  /// value is rounded to its nearest step.
-  SlimTexelOptions options(double step, std::uint8_t alpha_step, bool bits_have_a_price) const;
+  /// Options for steps of `step` / 255 of colour in the mean (compressed_basis). Without a bit
+  /// price each value is rounded to its nearest step.
+  CompressedTexelOptions options(double step, std::uint8_t alpha_step,
+                                 bool bits_have_a_price) const;
 
   /// Number of texels that no pixel of the views uses; they have a lower weight.
   std::size_t unseen_texels() const { return unseen_texels_; }

@@ -1,18 +1,18 @@
 // Searches for the smallest compressed file whose loss stays within a bound (`tureen convert
-// --compress`). formats/tureen_glb/tureen_glb_slim.hpp writes it; docs/slim.md describes the method
-// and its results.
+// --compress`). formats/tureen_glb/tureen_glb_compressed.hpp writes it; docs/compressed-files.md
+// describes the method and its results.
 #pragma once
 
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "formats/tureen_glb/tureen_glb_slim.hpp"
-#include "jobs/compress/slim_judge.hpp"
+#include "formats/tureen_glb/tureen_glb_compressed.hpp"
+#include "jobs/compress/judge.hpp"
 
 namespace tureen {
 
-struct SlimRequest {
+struct CompressRequest {
   /// Largest loss in decibels, above 0, default 0.1.
   double max_loss_db = 0.1;
   /// Whether faces that no view sees are kept.
@@ -27,10 +27,10 @@ struct SlimRequest {
   std::function<void(double)> progress = {};
 };
 
-struct SlimResult {
+struct CompressResult {
   /// The scene's soup with only the kept faces.
   TriangleSoup kept;
-  SlimSoup soup;                 // the compressed form of `kept`
+  CompressedSoup soup;           // the compressed form of `kept`
   std::size_t unseen = 0;        // number of removed faces
   std::size_t seeing_views = 0;  // views that see no removed face, if faces may be removed
   /// Number of texels of the kept faces that no pixel of the `weighing_views` shows. They are
@@ -38,12 +38,12 @@ struct SlimResult {
   std::size_t unseen_texels = 0;
   std::size_t weighing_views = 0;
   std::size_t lent_cameras = 0;  // training cameras added to the recorded ones
-  SlimLoss loss;
-  SlimLoss geometry_loss;  // the part from positions alone
+  CompressLoss loss;
+  CompressLoss geometry_loss;  // the part from positions alone
   int position_bits = 0;
-  double color_step = 0;  // slim_basis
-  double model_db = 0;    // of the uncompressed scene: SlimJudge::model_db
-  SlimViews views;        // the views of the measurement
+  double color_step = 0;  // compressed_basis
+  double model_db = 0;    // of the uncompressed scene: CompressJudge::model_db
+  CompressViews views;    // the views of the measurement
 };
 
 /// The search. If the scene has telling_cameras, including added training cameras, unseen faces are
@@ -55,10 +55,10 @@ struct SlimResult {
 /// level represents to half a step of 8 bits get that level. Bisection and a scan then find the
 /// largest step of colour within the bound, with finer alphas if the coarse ones alone lose more.
 /// Texels get a larger error if they are rarely visible in the recorded views (given
-/// telling_cameras), or if their features hardly change the colour (SlimImportance).
+/// telling_cameras), or if their features hardly change the colour (CompressImportance).
 ///
 /// Throws UsageError if the scene has no lattice texture or no result is within the bound; throws
-/// the errors of SlimJudge.
-SlimResult slim(const Scene& scene, const SlimRequest& request);
+/// the errors of CompressJudge.
+CompressResult compress(const Scene& scene, const CompressRequest& request);
 
 }  // namespace tureen

@@ -12,8 +12,8 @@
 
 namespace tureen::cli {
 
-struct SlimArguments {
-  bool slim = false;
+struct CompressArguments {
+  bool compressed = false;
   bool keep_cameras = false;
   bool keep_unseen = false;
   double max_error_db = 0.1;
@@ -22,14 +22,15 @@ struct SlimArguments {
 
 /// --compress (also --slim), --max-error, --photographs, --scale, --keep-unseen and --keep-cameras.
 /// `arguments` must live until the arguments are parsed.
-void add_slim_arguments(Command& command, SlimArguments& arguments);
+void add_compressed_arguments(Command& command, CompressArguments& arguments);
 
 /// Throws UsageError for what can be known to be wrong before the scene is read.
-void check_slim(const SlimArguments& arguments, const std::filesystem::path& output);
+void check_compressed(const CompressArguments& arguments, const std::filesystem::path& output);
 
-/// Writes the slim file `glb`; says in full what was lost, and how small it is beside the published
-/// export of the same soup. Returns the same as JSON. Throws what slim() and write_slim_glb()
-/// throw, and Interrupted.
-Json convert_slim(Scene scene, const SlimArguments& arguments, const std::filesystem::path& glb);
+/// Writes the compressed file `glb`; says in full what was lost, and how small it is beside the
+/// published export of the same soup. Returns the same as JSON. Throws what compress() and
+/// write_compressed_glb() throw, and Interrupted.
+Json convert_compressed(Scene scene, const CompressArguments& arguments,
+                        const std::filesystem::path& glb);
 
 }  // namespace tureen::cli

@@ -1,20 +1,20 @@
 // The header before the coded texels of a compressed file, byte for byte. Internal to
-// slim_texels_*.cpp.
+// compressed_texels_*.cpp.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
-#include "formats/tureen_glb/slim_basis.hpp"
+#include "formats/tureen_glb/compressed_basis.hpp"
 
-namespace tureen::slim {
+namespace tureen::compressed {
 
 struct TexelHeader {
   std::uint8_t feature_step = 1;
   std::uint8_t alpha_step = 1;
   std::array<std::uint8_t, 2> zeros{};
-  SlimBasis basis;
+  CompressedBasis basis;
 };
 static_assert(sizeof(TexelHeader) == 4 + 4 * 49);
 
-}  // namespace tureen::slim
+}  // namespace tureen::compressed

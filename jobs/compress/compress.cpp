@@ -1,4 +1,4 @@
-#include "jobs/compress/slim.hpp"
+#include "jobs/compress/compress.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "base/error.hpp"
 #include "camera/camera_sets.hpp"
-#include "jobs/compress/slim_importance.hpp"
+#include "jobs/compress/importance.hpp"
 #include "jobs/visibility/visibility_count.hpp"
 #include "scene/edit/keep_faces.hpp"
 #include "scene/edit/lattice_levels.hpp"
@@ -68,9 +68,9 @@ void lower_levels(TriangleSoup& soup, const Cancel& cancel) {
   texture = at_levels(texture, smallest_levels(texture, {}, progress), progress);
 }
 
-/// The scene's own, first of all the one that its slim file keeps, and what joins them.
+/// The scene's own, first of all the one that its compressed file keeps, and what joins them.
 std::vector<Camera> recorded_cameras(const gl::Context& context, const Scene& scene,
-                                     const SlimRequest& request, const Cancel& cancel) {
+                                     const CompressRequest& request, const Cancel& cancel) {
   std::vector<Camera> cameras = scene.cameras;
   if (cameras.size() >= telling_cameras || request.training_cameras.size() < telling_cameras)
     return cameras;
@@ -78,7 +78,7 @@ std::vector<Camera> recorded_cameras(const gl::Context& context, const Scene& sc
   const std::vector<Camera>& others = request.training_cameras;
   const auto pixels =
       count_covered_pixels(context, std::get<TriangleSoup>(scene.primitives), scene.origin,
-                           slim_views(scene, others, others.size()), [&](double) { cancel(); });
+                           compress_views(scene, others, others.size()), [&](double) { cancel(); });
   std::vector<Camera> showing;
   for (std::size_t i = 0; i < others.size(); ++i)
     if (pixels[i] > 0) showing.push_back(others[i]);
@@ -89,7 +89,7 @@ std::vector<Camera> recorded_cameras(const gl::Context& context, const Scene& sc
 
 class Search {
  public:
-  Search(const Scene& scene, const SlimRequest& request)
+  Search(const Scene& scene, const CompressRequest& request)
       : request_(request),
         cancel_([this] { report_progress(); }),
         origin_(scene.origin),
@@ -97,7 +97,7 @@ class Search {
         judge_(context_, scene, request.photographs, cancel_),
         recorded_(recorded_cameras(context_, scene, request, cancel_)),
         lent_(recorded_.size() - scene.cameras.size()),
-        views_(slim_views(scene, recorded_, counted_views)),
+        views_(compress_views(scene, recorded_, counted_views)),
         soup_(std::get<TriangleSoup>(scene.primitives)) {
     // Of fewer nobody knows where the scene is looked at from.
     if (request.keep_unseen || recorded_.size() < telling_cameras) return;
@@ -108,22 +108,23 @@ class Search {
     seeing_views_ = all.size();
   }
 
-  SlimResult run() {
-    SlimResult result;
+  CompressResult run() {
+    CompressResult result;
     result.model_db = judge_.model_db();
     result.views = judge_.views();
     find_bits(result);
     lower_levels(soup_, cancel_);
-    const SlimImportance importance(context_, soup_, origin_, views_,
-                                    recorded_.size() >= telling_cameras, cancel_);
+    const CompressImportance importance(context_, soup_, origin_, views_,
+                                        recorded_.size() >= telling_cameras, cancel_);
     const bool found = std::any_of(alpha_steps.begin(), alpha_steps.end(), [&](std::uint8_t alpha) {
       return find_step(result, importance, alpha);
     });
     if (!found)
-      throw UsageError(fmt::format(
-          "a slim file of this scene loses more than the {:g} dB that are allowed: {:.4f} dB with "
-          "the finest steps",
-          request_.max_loss_db, least_loss_));
+      throw UsageError(
+          fmt::format("a compressed file of this scene loses more than the {:g} dB that are "
+                      "allowed: {:.4f} dB with "
+                      "the finest steps",
+                      request_.max_loss_db, least_loss_));
     result.unseen = unseen_;
     result.seeing_views = seeing_views_;
     result.weighing_views = views_.size();
@@ -135,18 +136,19 @@ class Search {
 
  private:
   /// The largest step of colour that keeps within the bound; whether there is one.
-  bool find_step(SlimResult& result, const SlimImportance& importance, std::uint8_t alpha_step) {
+  bool find_step(CompressResult& result, const CompressImportance& importance,
+                 std::uint8_t alpha_step) {
     const auto fits = [&](double step, bool bits_have_a_price = true) {
       next_try();
-      SlimSoup slim =
-          encode_slim(soup_, {.position_bits = result.position_bits,
-                              .texels = importance.options(step, alpha_step, bits_have_a_price)});
-      const SlimLoss loss = judge_.loss(decode_slim(slim, soup_));
+      CompressedSoup compressed = encode_compressed(
+          soup_, {.position_bits = result.position_bits,
+                  .texels = importance.options(step, alpha_step, bits_have_a_price)});
+      const CompressLoss loss = judge_.loss(decode_compressed(compressed, soup_));
       least_loss_ = std::min(least_loss_, loss.db);
       if (loss.db > request_.max_loss_db) return false;
       result.color_step = step;
       result.loss = loss;
-      result.soup = std::move(slim);
+      result.soup = std::move(compressed);
       return true;
     };
     // The least loss there is.
@@ -161,18 +163,18 @@ class Search {
   }
 
   /// The texels as they are, on positions of so many bits.
-  SlimLoss geometry_loss(int bits) {
-    const auto bytes = encode_slim_geometry({soup_.positions, soup_.triangles}, bits);
+  CompressLoss geometry_loss(int bits) {
+    const auto bytes = encode_compressed_geometry({soup_.positions, soup_.triangles}, bits);
     TriangleSoup moved = soup_;
-    SlimGeometry geometry = decode_slim_geometry(bytes, used_vertices(soup_.triangles),
-                                                 soup_.triangles.size(), "slim geometry");
+    CompressedGeometry geometry = decode_compressed_geometry(
+        bytes, used_vertices(soup_.triangles), soup_.triangles.size(), "compressed geometry");
     moved.positions = std::move(geometry.positions);
     moved.triangles = std::move(geometry.triangles);
     return judge_.loss(moved);
   }
 
-  void find_bits(SlimResult& result) {
-    for (int bits = fewest_bits; bits <= max_slim_bits; ++bits) {
+  void find_bits(CompressResult& result) {
+    for (int bits = fewest_bits; bits <= max_compressed_bits; ++bits) {
       next_try();
       result.position_bits = bits;
       result.geometry_loss = geometry_loss(bits);
@@ -193,12 +195,12 @@ class Search {
     if (request_.progress) request_.progress(std::min(0.99, done / usual_tries));
   }
 
-  const SlimRequest& request_;
+  const CompressRequest& request_;
   int tries_ = 0;
   const Cancel cancel_;  // reports progress, which may throw
   const glm::dvec3 origin_;
   gl::Context context_;
-  SlimJudge judge_;
+  CompressJudge judge_;
   const std::vector<Camera> recorded_;
   const std::size_t lent_;
   std::vector<Camera> views_;
@@ -209,10 +211,10 @@ class Search {
 
 }  // namespace
 
-SlimResult slim(const Scene& scene, const SlimRequest& request) {
+CompressResult compress(const Scene& scene, const CompressRequest& request) {
   const auto* soup = std::get_if<TriangleSoup>(&scene.primitives);
   if (!soup || !std::holds_alternative<LatticeTexture>(soup->appearance))
-    throw UsageError("a slim file holds lattice textures only; this scene has " +
+    throw UsageError("a compressed file holds lattice textures only; this scene has " +
                      std::string(soup ? appearance_name(soup->appearance) : "soft triangles"));
   return Search(scene, request).run();
 }

@@ -13,7 +13,7 @@
 
 namespace tureen {
 
-struct SlimLoss {
+struct CompressLoss {
   /// Decrease of the mean PSNR over the views, against photographs. Without photographs
   /// decibels_lost() for a model of assumed_model_db.
   double db = 0;
@@ -22,36 +22,37 @@ struct SlimLoss {
 };
 
 /// The views of a measurement: photographs alone, or recorded cameras and views around the scene.
-struct SlimViews {
+struct CompressViews {
   std::size_t photographs = 0;
   std::size_t cameras = 0;   // number of used recorded cameras
   std::size_t recorded = 0;  // recorded cameras of the scene
   std::size_t around = 0;    // only if the scene has fewer than telling_cameras
 
-  bool operator==(const SlimViews&) const = default;
+  bool operator==(const CompressViews&) const = default;
 };
 
 /// Called often during long work; throws to cancel. May be empty only where documented.
 using Cancel = std::function<void()>;
 
-class SlimJudge {
+class CompressJudge {
  public:
   /// Assumed PSNR of a model against photographs. It exceeds the PSNR of trained soups: the same
   /// error costs better models more.
   static constexpr double assumed_model_db = 32;
 
-  /// Draws the scene from the cameras of the photographs, or without them from up to 24 slim_views.
-  /// `context` must be current and outlive the judge. The scene holds a soup without defect().
-  /// Throws UsageError if the scene's PSNR against the photographs is below hopeless_db, where the
-  /// loss is meaningless. Throws the errors of drawing. `cancel` may be empty.
-  SlimJudge(const gl::Context& context, const Scene& scene, std::span<const Photograph> photographs,
-            Cancel cancel = {});
+  /// Draws the scene from the cameras of the photographs, or without them from up to 24
+  /// compress_views. `context` must be current and outlive the judge. The scene holds a soup
+  /// without defect(). Throws UsageError if the scene's PSNR against the photographs is below
+  /// hopeless_db, where the loss is meaningless. Throws the errors of drawing. `cancel` may be
+  /// empty.
+  CompressJudge(const gl::Context& context, const Scene& scene,
+                std::span<const Photograph> photographs, Cancel cancel = {});
 
-  SlimLoss loss(const TriangleSoup& soup) const;
+  CompressLoss loss(const TriangleSoup& soup) const;
 
   /// Mean PSNR of the original scene against the photographs; without them assumed_model_db.
   double model_db() const { return model_db_; }
-  const SlimViews& views() const { return views_; }
+  const CompressViews& views() const { return views_; }
 
  private:
   /// Calls visit(view, image) for each view.
@@ -66,7 +67,7 @@ class SlimJudge {
   std::vector<Camera> cameras_;
   std::vector<ImageF> photographs_;  // composited over the background
   std::vector<ImageF> images_;       // of the original scene
-  SlimViews views_;
+  CompressViews views_;
   double model_db_ = assumed_model_db;
 };
 
@@ -74,15 +75,15 @@ class SlimJudge {
 /// compressed file keeps one camera, a training set has dozens.
 inline constexpr std::size_t telling_cameras = 8;
 
-/// A scene with a lower SlimJudge::model_db most likely does not belong to the photographs. Soups
-/// against photographs of another scene have 5 to 8 dB (four pairs of the example, the fox and
-/// lego). Soups after 20 training steps have 12 and 13 dB against their own.
+/// A scene with a lower CompressJudge::model_db most likely does not belong to the photographs.
+/// Soups against photographs of another scene have 5 to 8 dB (four pairs of the example, the fox
+/// and lego). Soups after 20 training steps have 12 and 13 dB against their own.
 inline constexpr double hopeless_db = 10;
 
 /// At most `count` of the recorded cameras, evenly spaced in their order. With fewer than
 /// telling_cameras also `count` views, at most 64, on the upper half of a sphere around the scene.
 /// No image side exceeds 800 pixels.
-std::vector<Camera> slim_views(const Scene& scene, std::span<const Camera> recorded,
-                               std::size_t count);
+std::vector<Camera> compress_views(const Scene& scene, std::span<const Camera> recorded,
+                                   std::size_t count);
 
 }  // namespace tureen

@@ -1,5 +1,5 @@
-// Slim files: what a reader makes of them is what the encoder said it would.
-#include "formats/tureen_glb/tureen_glb_slim.hpp"
+// Compressed files: what a reader makes of them is what the encoder said it would.
+#include "formats/tureen_glb/tureen_glb_compressed.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 #include "tests/support/errors.hpp"
 
 namespace tureen {
-namespace tureen_glb_slim_test {
+namespace tureen_glb_compressed_test {
 
 using test::error_of;
 using test::Names;
@@ -40,9 +40,10 @@ std::vector<std::byte> bytes_of_file(const std::filesystem::path& path) {
   return {bytes.begin(), bytes.end()};
 }
 
-std::vector<std::byte> written(const Scene& scene, const SlimSoup& slim, const std::string& name) {
-  const auto path = std::filesystem::path(::testing::TempDir()) / ("slim_" + name + ".glb");
-  EXPECT_TRUE(write_slim_glb(scene, slim, path).empty());
+std::vector<std::byte> written(const Scene& scene, const CompressedSoup& compressed,
+                               const std::string& name) {
+  const auto path = std::filesystem::path(::testing::TempDir()) / ("compressed_" + name + ".glb");
+  EXPECT_TRUE(write_compressed_glb(scene, compressed, path).empty());
   auto bytes = bytes_of_file(path);
   std::filesystem::remove(path);
   return bytes;
@@ -61,61 +62,61 @@ std::vector<std::byte> without_checksums(std::span<const std::byte> bytes) {
   return test::with_glb_json(bytes, json);
 }
 
-TEST(SlimGlb, IsReadAsTheEncoderSaid) {
+TEST(CompressedGlb, IsReadAsTheEncoderSaid) {
   for (unsigned seed = 91; seed < 97; ++seed) {
     const bool shared = seed % 2 == 0;
     SCOPED_TRACE(::testing::Message() << "seed " << seed);
     Scene scene = random_scene(seed, 30, seed % 3 ? std::optional<int>(2) : std::nullopt, shared);
     const auto& soup = std::get<TriangleSoup>(scene.primitives);
-    const SlimSoup slim =
-        encode_slim(soup, {.position_bits = 12, .texels = {.feature_step = 9, .alpha_step = 85}});
-    TriangleSoup promised = decode_slim(slim, soup);
+    const CompressedSoup compressed = encode_compressed(
+        soup, {.position_bits = 12, .texels = {.feature_step = 9, .alpha_step = 85}});
+    TriangleSoup promised = decode_compressed(compressed, soup);
     EXPECT_EQ(promised.triangles.size(), 30u);
     EXPECT_FALSE(defect(promised));
-    const Scene back = read_back(written(scene, slim, std::to_string(seed)));
+    const Scene back = read_back(written(scene, compressed, std::to_string(seed)));
     scene.primitives = std::move(promised);
     EXPECT_EQ(test::difference(scene, back), "");
   }
 }
 
-TEST(SlimGlb, TellsOtherViewersThatItIsNotForThem) {
+TEST(CompressedGlb, TellsOtherViewersThatItIsNotForThem) {
   Scene scene = random_scene(98, 4, 1, false);
-  const SlimSoup slim = encode_slim(std::get<TriangleSoup>(scene.primitives), {});
-  const auto json = test::glb_json(written(scene, slim, "required"));
+  const CompressedSoup compressed = encode_compressed(std::get<TriangleSoup>(scene.primitives), {});
+  const auto json = test::glb_json(written(scene, compressed, "required"));
   EXPECT_EQ(json["extensionsRequired"], nlohmann::json::array({tureen_extension}));
-  EXPECT_EQ(json["extensions"][tureen_extension]["version"], tureen_slim_version);
+  EXPECT_EQ(json["extensions"][tureen_extension]["version"], tureen_compressed_version);
   EXPECT_FALSE(json.contains("meshes"));
 }
 
-TEST(SlimGlb, HoldsLatticeTexturesOnly) {
+TEST(CompressedGlb, HoldsLatticeTexturesOnly) {
   RandomScene random(99);
   Scene scene = random.scene();
   TriangleSoup soup = random.geometry(2, false);
   soup.appearance = FaceColors{random.colors(2, true)};
   scene.primitives = std::move(soup);
-  EXPECT_THROW(write_slim_glb(scene, {}, "never_written.glb"), UsageError);
+  EXPECT_THROW(write_compressed_glb(scene, {}, "never_written.glb"), UsageError);
   EXPECT_FALSE(std::filesystem::exists("never_written.glb"));
 }
 
-TEST(SlimGlb, AnEmptySoupComesBackEmpty) {
+TEST(CompressedGlb, AnEmptySoupComesBackEmpty) {
   Scene scene;
   TriangleSoup soup;
   soup.appearance = LatticeTexture{};
   scene.primitives = soup;
-  const SlimSoup slim = encode_slim(soup, {});
-  const Scene back = read_back(written(scene, slim, "empty"));
+  const CompressedSoup compressed = encode_compressed(soup, {});
+  const Scene back = read_back(written(scene, compressed, "empty"));
   EXPECT_TRUE(std::get<TriangleSoup>(back.primitives).triangles.empty());
 }
 
-TEST(SlimGlb, SurvivesDamage) {
+TEST(CompressedGlb, SurvivesDamage) {
   Scene scene = random_scene(100, 3, 0, false);
   scene.cameras.clear();
   // The network is as in other files, and thousands of bytes.
   std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance).mlp.reset();
-  const SlimSoup slim = encode_slim(std::get<TriangleSoup>(scene.primitives),
-                                    {.texels = {.feature_step = 16, .alpha_step = 85}});
+  const CompressedSoup compressed = encode_compressed(
+      std::get<TriangleSoup>(scene.primitives), {.texels = {.feature_step = 16, .alpha_step = 85}});
   // Nothing stands between the damage and the decoders.
-  const auto bytes = without_checksums(written(scene, slim, "damage"));
+  const auto bytes = without_checksums(written(scene, compressed, "damage"));
   const auto read = [](std::span<const std::byte> b) {
     const Scene back = read_back(b);
     ASSERT_FALSE(defect(std::get<TriangleSoup>(back.primitives)));
@@ -124,12 +125,12 @@ TEST(SlimGlb, SurvivesDamage) {
   EXPECT_GT(test::survive_damage(bytes, read).refused, 0u);
 }
 
-TEST(SlimGlb, DamageIsToldByChecksums) {
+TEST(CompressedGlb, DamageIsToldByChecksums) {
   Scene scene = random_scene(102, 20, 2, false);
-  const SlimSoup slim = encode_slim(std::get<TriangleSoup>(scene.primitives), {});
-  auto bytes = written(scene, slim, "checksum");
-  for (const auto& [key, array] :
-       {std::pair("slim_geometry", slim.geometry), std::pair("slim_texels", slim.texels)}) {
+  const CompressedSoup compressed = encode_compressed(std::get<TriangleSoup>(scene.primitives), {});
+  auto bytes = written(scene, compressed, "checksum");
+  for (const auto& [key, array] : {std::pair("slim_geometry", compressed.geometry),
+                                   std::pair("slim_texels", compressed.texels)}) {
     const auto found = std::search(bytes.begin(), bytes.end(), array.begin(), array.end());
     ASSERT_NE(found, bytes.end());
     // What a decoder has no way to notice: bytes at the end say little, or nothing.
@@ -145,10 +146,10 @@ TEST(SlimGlb, DamageIsToldByChecksums) {
   EXPECT_NO_THROW(read_back(without_checksums(bytes))) << "files of before have none";
 }
 
-TEST(SlimGlb, CountsThatDoNotFitAreRefused) {
+TEST(CompressedGlb, CountsThatDoNotFitAreRefused) {
   Scene scene = random_scene(101, 5, 1, false);
-  const SlimSoup slim = encode_slim(std::get<TriangleSoup>(scene.primitives), {});
-  const auto bytes = written(scene, slim, "counts");
+  const CompressedSoup compressed = encode_compressed(std::get<TriangleSoup>(scene.primitives), {});
+  const auto bytes = written(scene, compressed, "counts");
   const auto json = test::glb_json(bytes);
   for (const auto& [key, value] :
        {std::pair("face_count", 4000000000u), std::pair("vertex_count", 4000000000u),
@@ -160,5 +161,5 @@ TEST(SlimGlb, CountsThatDoNotFitAreRefused) {
   }
 }
 
-}  // namespace tureen_glb_slim_test
+}  // namespace tureen_glb_compressed_test
 }  // namespace tureen

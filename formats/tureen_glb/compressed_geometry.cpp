@@ -1,4 +1,4 @@
-#include "formats/tureen_glb/slim_geometry.hpp"
+#include "formats/tureen_glb/compressed_geometry.hpp"
 
 #include <algorithm>
 #include <array>
@@ -80,7 +80,7 @@ class GeometryWalk {
           models_->difference[corner][axis][length].code(coder_, wanted[axis] - first_[axis]);
       length = bit_length(difference);
       // Damaged bytes must not add up beyond what an int holds.
-      result[axis] = std::clamp(first_[axis] + difference, 0, 1 << max_slim_bits);
+      result[axis] = std::clamp(first_[axis] + difference, 0, 1 << max_compressed_bits);
     }
     return result;
   }
@@ -93,10 +93,10 @@ class GeometryWalk {
 };
 
 /// The geometry with vertices in the order of their first use.
-SlimGeometry in_order_of_use(const SlimGeometry& geometry) {
+CompressedGeometry in_order_of_use(const CompressedGeometry& geometry) {
   constexpr std::uint32_t unused = 0xffffffffu;
   std::vector<std::uint32_t> place(geometry.positions.size(), unused);
-  SlimGeometry result;
+  CompressedGeometry result;
   for (glm::uvec3 triangle : geometry.triangles) {
     for (int k = 0; k < 3; ++k) {
       std::uint32_t& at = place[triangle[k]];
@@ -117,7 +117,7 @@ Grid grid_of(const std::vector<glm::vec3>& positions, int bits) {
   for (const glm::vec3& p : positions)
     for (int k = 0; k < 3; ++k) {
       if (!std::isfinite(p[k]))
-        throw UsageError("a slim file cannot hold a vertex that is not finite");
+        throw UsageError("a compressed file cannot hold a vertex that is not finite");
       low[k] = std::min(low[k], p[k]);
       high[k] = std::max(high[k], p[k]);
     }
@@ -143,9 +143,9 @@ std::size_t used_vertices(std::span<const glm::uvec3> triangles) {
   return count;
 }
 
-std::vector<std::byte> encode_slim_geometry(const SlimGeometry& geometry, int bits) {
-  assert(bits >= 1 && bits <= max_slim_bits);
-  const SlimGeometry ordered = in_order_of_use(geometry);
+std::vector<std::byte> encode_compressed_geometry(const CompressedGeometry& geometry, int bits) {
+  assert(bits >= 1 && bits <= max_compressed_bits);
+  const CompressedGeometry ordered = in_order_of_use(geometry);
   const Grid grid = grid_of(ordered.positions, bits);
   std::vector<glm::ivec3> cells;
   for (const glm::vec3& p : ordered.positions) {
@@ -170,16 +170,17 @@ std::vector<std::byte> encode_slim_geometry(const SlimGeometry& geometry, int bi
   return result;
 }
 
-SlimGeometry decode_slim_geometry(std::span<const std::byte> bytes, std::size_t vertices,
-                                  std::size_t faces, const std::string& file, MemoryBudget budget) {
+CompressedGeometry decode_compressed_geometry(std::span<const std::byte> bytes,
+                                              std::size_t vertices, std::size_t faces,
+                                              const std::string& file, MemoryBudget budget) {
   const auto damaged = [&]() -> InputError {
-    return InputError({file, {}, {}}, "the slim geometry is cut short or damaged");
+    return InputError({file, {}, {}}, "the compressed geometry is cut short or damaged");
   };
   if (bytes.size() < sizeof(Grid) || faces / max_faces_per_byte > bytes.size() ||
       vertices > 3 * faces)
     throw damaged();
   if (!budget.take(faces, bytes_a_face))
-    throw InputError({file, {}, {}}, budget.refusal("the slim geometry"), max_memory_hint);
+    throw InputError({file, {}, {}}, budget.refusal("the compressed geometry"), max_memory_hint);
   Grid grid;
   std::memcpy(&grid, bytes.data(), sizeof(Grid));
   for (int k = 0; k < 3; ++k)
@@ -188,7 +189,7 @@ SlimGeometry decode_slim_geometry(std::span<const std::byte> bytes, std::size_t 
 
   RangeDecoder coder(bytes.subspan(sizeof(Grid)));
   GeometryWalk walk(coder, std::span<const glm::ivec3>());
-  SlimGeometry result;
+  CompressedGeometry result;
   for (std::size_t t = 0; t < faces; ++t) {
     glm::uvec3 triangle;
     // No vertex of a decoder's is known before it is made.

@@ -1,4 +1,4 @@
-#include "formats/tureen_glb/slim_basis.hpp"
+#include "formats/tureen_glb/compressed_basis.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -121,19 +121,19 @@ FeatureMatrix inverse(FeatureMatrix a) {
 
 }  // namespace
 
-SlimBasis SlimBasis::identity() {
-  SlimBasis basis;
+CompressedBasis CompressedBasis::identity() {
+  CompressedBasis basis;
   for (std::size_t i = 0; i < features; ++i) basis.rows[i][i] = int(one);
   return basis;
 }
 
-std::uint8_t SlimBasis::feature(int f, std::span<const std::int16_t> values) const {
+std::uint8_t CompressedBasis::feature(int f, std::span<const std::int16_t> values) const {
   std::int64_t sum = 1 << 15;  // rounds to the nearest
   for (std::size_t j = 0; j < features; ++j) sum += std::int64_t(rows[at(f)][j]) * values[j];
   return static_cast<std::uint8_t>(std::clamp<std::int64_t>(sum >> 16, 0, 255));
 }
 
-std::vector<std::int16_t> SlimBasis::values_of(std::span<const std::uint8_t> texels) const {
+std::vector<std::int16_t> CompressedBasis::values_of(std::span<const std::uint8_t> texels) const {
   FeatureMatrix forward;
   for (std::size_t i = 0; i < features; ++i)
     for (std::size_t j = 0; j < features; ++j) forward[i][j] = double(rows[i][j]) / one;
@@ -150,8 +150,8 @@ std::vector<std::int16_t> SlimBasis::values_of(std::span<const std::uint8_t> tex
   return result;
 }
 
-SlimBasis slim_basis(const LatticeTexture& texture, const FeatureMatrix& sensitivity, double step,
-                     std::span<const float> weights) {
+CompressedBasis compressed_basis(const LatticeTexture& texture, const FeatureMatrix& sensitivity,
+                                 double step, std::span<const float> weights) {
   assert(step > 0);
   assert(weights.empty() || weights.size() == texture.texel_count());
   Eigen metric = eigen(sensitivity);
@@ -177,11 +177,11 @@ SlimBasis slim_basis(const LatticeTexture& texture, const FeatureMatrix& sensiti
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return residual.values[a] > residual.values[b];
   });
-  SlimBasis basis;
+  CompressedBasis basis;
   for (std::size_t i = 0; i < features; ++i)
     for (std::size_t j = 0; j < features; ++j)
-      basis.rows[i][j] =
-          static_cast<std::int32_t>(std::lround(columns[i][order[j]] * step / slim_fraction * one));
+      basis.rows[i][j] = static_cast<std::int32_t>(
+          std::lround(columns[i][order[j]] * step / compress_fraction * one));
   return basis;
 }
 

@@ -1,4 +1,4 @@
-#include "cli/convert_slim.hpp"
+#include "cli/convert_compress.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 #include "cli/scene_page.hpp"
 #include "cli/scratch.hpp"
 #include "formats/diffsoup/diffsoup_export.hpp"
-#include "jobs/compress/slim.hpp"
+#include "jobs/compress/compress.hpp"
 
 namespace tureen::cli {
 
@@ -23,7 +23,7 @@ namespace {
 
 /// "25 photographs", "24 of its 100 recorded cameras", "1 recorded camera and 23 views from above
 /// and around", ..
-std::string views_text(const SlimViews& views) {
+std::string views_text(const CompressViews& views) {
   if (views.photographs > 0) return count_text(int(views.photographs), "photograph");
   if (views.around == 0)
     return fmt::format("{} of its {} recorded cameras", views.cameras, views.recorded);
@@ -68,7 +68,7 @@ std::vector<Camera> training_cameras(const DatasetArgument& dataset,
     say(fmt::format("the training photographs of {} cannot be read: {}", name_of(dataset),
                     error.what()));
     lost.push_back(fmt::format(
-        "Slim: the training cameras of {} say nothing of what shows: not all can be read.",
+        "Compressed: the training cameras of {} say nothing of what shows: not all can be read.",
         name_of(dataset)));
     return {};
   }
@@ -76,7 +76,7 @@ std::vector<Camera> training_cameras(const DatasetArgument& dataset,
 }
 
 /// What the loss was measured on: "9 photographs of fox at scale 0.25", or recorded cameras.
-std::string measured_on(const SlimResult& result, const DatasetArgument& photographs) {
+std::string measured_on(const CompressResult& result, const DatasetArgument& photographs) {
   if (photographs.path.empty()) return views_text(result.views);
   return fmt::format("{} of {} at scale {:g}", views_text(result.views), name_of(photographs),
                      photographs.options.scale);
@@ -87,10 +87,11 @@ std::vector<std::string> doubts_about(const Scene& scene, bool with_photographs)
   std::vector<std::string> doubts;
   if (scene.info.compressed)
     doubts.push_back(
-        "Slim: the scene was slim already: what it lost then comes on top, and is not counted.");
+        "Compressed: the scene was compressed already: what it lost then comes on top, and is not "
+        "counted.");
   if (!with_photographs && scene.cameras.size() < telling_cameras)
     doubts.push_back(fmt::format(
-        "Slim: {} nobody knows where the scene is looked at from: the loss is estimated "
+        "Compressed: {} nobody knows where the scene is looked at from: the loss is estimated "
         "from above and around. From within it may be much more; --photographs measures it.",
         scene.cameras.empty()
             ? "without recorded cameras"
@@ -98,39 +99,40 @@ std::vector<std::string> doubts_about(const Scene& scene, bool with_photographs)
   return doubts;
 }
 
-/// Sentences on what a slim file loses; they are stored in it, too. `training_cameras` are those
-/// that the search was given.
-std::vector<std::string> losses_of(const SlimResult& result, const DatasetArgument& photographs,
+/// Sentences on what a compressed file loses; they are stored in it, too. `training_cameras` are
+/// those that the search was given.
+std::vector<std::string> losses_of(const CompressResult& result, const DatasetArgument& photographs,
                                    std::size_t training_cameras) {
   const std::string views = measured_on(result, photographs);
   std::vector<std::string> losses{
       photographs.path.empty()
           ? fmt::format(
-                "Slim: coded with a loss of {:.3f} dB of PSNR or less, estimated for a scene "
+                "Compressed: coded with a loss of {:.3f} dB of PSNR or less, estimated for a scene "
                 "that comes within {:.0f} dB of its photographs; against the scene as it "
                 "was, in {}: {:.2f} dB.",
                 result.loss.db, result.model_db, views, result.loss.render_psnr_db)
-          : fmt::format("Slim: coded with a loss of {:.3f} dB of PSNR against {} (from {:.2f} dB); "
-                        "against the scene as it was: {:.2f} dB.",
-                        result.loss.db, views, result.model_db, result.loss.render_psnr_db),
+          : fmt::format(
+                "Compressed: coded with a loss of {:.3f} dB of PSNR against {} (from {:.2f} dB); "
+                "against the scene as it was: {:.2f} dB.",
+                result.loss.db, views, result.model_db, result.loss.render_psnr_db),
       // What is negative by chance, as of photographs it may be, is no loss.
-      fmt::format("Slim: positions on a grid of {} bits ({:.3f} dB of the loss), colours in "
+      fmt::format("Compressed: positions on a grid of {} bits ({:.3f} dB of the loss), colours in "
                   "steps of {:.1f}/255 in the mean; what no alpha shows is not kept.",
                   result.position_bits, std::max(result.geometry_loss.db, 0.0), result.color_step)};
   const auto texels = std::get<LatticeTexture>(result.kept.appearance).texel_count();
   if (result.lent_cameras > 0)
-    losses.push_back(
-        fmt::format("Slim: {} training cameras of {} stand for recorded ones: they say what of the "
-                    "scene shows.",
-                    result.lent_cameras, name_of(photographs)));
+    losses.push_back(fmt::format(
+        "Compressed: {} training cameras of {} stand for recorded ones: they say what of the "
+        "scene shows.",
+        result.lent_cameras, name_of(photographs)));
   else if (training_cameras > 0)
-    losses.push_back(
-        fmt::format("Slim: of {} training cameras of {} fewer than {} show any of the scene: none "
-                    "stands for a recorded one.",
-                    training_cameras, name_of(photographs), telling_cameras));
+    losses.push_back(fmt::format(
+        "Compressed: of {} training cameras of {} fewer than {} show any of the scene: none "
+        "stands for a recorded one.",
+        training_cameras, name_of(photographs), telling_cameras));
   if (result.unseen_texels > 0)
     losses.push_back(fmt::format(
-        "Slim: {} of {} texels are kept only roughly: {} recorded views show nothing of "
+        "Compressed: {} of {} texels are kept only roughly: {} recorded views show nothing of "
         "them. Seen from elsewhere, or from nearer, they are smoother than they were.",
         counted(result.unseen_texels), counted(texels), result.weighing_views));
   return losses;
@@ -138,16 +140,16 @@ std::vector<std::string> losses_of(const SlimResult& result, const DatasetArgume
 
 }  // namespace
 
-void add_slim_arguments(Command& command, SlimArguments& arguments) {
-  const Option slim =
-      command.add_flag("--compress,--slim", arguments.slim,
+void add_compressed_arguments(Command& command, CompressArguments& arguments) {
+  const Option compressed =
+      command.add_flag("--compress,--slim", arguments.compressed,
                        "write a compressed GLB, with loss: the smallest within --max-error");
   command
       .add_option("--max-error", arguments.max_error_db,
                   "with --compress: largest loss of PSNR against photographs in dB, 0.1 by default")
       .check(between(1e-4, 20.0))
       .value_name("DB")
-      .needs(slim);
+      .needs(compressed);
   const Option photographs =
       command
           .add_option(
@@ -157,27 +159,28 @@ void add_slim_arguments(Command& command, SlimArguments& arguments) {
               "training cameras determine the visible parts. Views larger than the photographs at "
               "--scale lose more than --max-error")
           .value_name("DATASET")
-          .needs(slim);
+          .needs(compressed);
   add_scale_option(command, arguments.photographs).needs(photographs);
   command
       .add_flag(
           "--keep-unseen", arguments.keep_unseen,
           "with --compress: keep faces that are invisible from 200 recorded cameras and from above "
           "and around")
-      .needs(slim);
+      .needs(compressed);
   command
       .add_flag("--keep-cameras", arguments.keep_cameras,
                 "with --compress: keep all recorded cameras; only the first by default")
-      .needs(slim);
+      .needs(compressed);
 }
 
-void check_slim(const SlimArguments& arguments, const fs::path& output) {
-  if (arguments.slim && extension_of(output) != ".glb" && !is_scene_page(output))
+void check_compressed(const CompressArguments& arguments, const fs::path& output) {
+  if (arguments.compressed && extension_of(output) != ".glb" && !is_scene_page(output))
     throw UsageError("--compress writes .glb and .html files, not " + output.string());
 }
 
-Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& glb) {
-  SlimRequest request{.max_loss_db = arguments.max_error_db, .keep_unseen = arguments.keep_unseen};
+Json convert_compressed(Scene scene, const CompressArguments& arguments, const fs::path& glb) {
+  CompressRequest request{.max_loss_db = arguments.max_error_db,
+                          .keep_unseen = arguments.keep_unseen};
   const bool with_photographs = !arguments.photographs.path.empty();
   const bool compressed_before = scene.info.compressed;
   std::vector<std::string> lost = doubts_about(scene, with_photographs);
@@ -189,11 +192,11 @@ Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& g
       request.training_cameras = training_cameras(arguments.photographs, lost);
   }
   const std::optional<std::uint64_t> published = published_bytes(scene, glb);
-  SlimResult result;
+  CompressResult result;
   {
     Progress progress("compressing");
     request.progress = [&](double fraction) { progress.update(fraction); };
-    result = slim(scene, request);
+    result = compress(scene, request);
   }
   for (std::string& sentence :
        losses_of(result, arguments.photographs, request.training_cameras.size()))
@@ -201,14 +204,16 @@ Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& g
   const auto all_faces = std::get<TriangleSoup>(scene.primitives).triangles.size();
   if (result.unseen > 0)
     lost.push_back(fmt::format(
-        "Slim: {} OF {} FACES ARE LEFT OUT: no pixel of {} views (recorded cameras, and from above "
+        "Compressed: {} OF {} FACES ARE LEFT OUT: no pixel of {} views (recorded cameras, and from "
+        "above "
         "and around) shows them. Seen from elsewhere, or from nearer, there may be holes.",
         counted(result.unseen), counted(all_faces), result.seeing_views));
   scene.primitives = std::move(result.kept);
   const std::size_t cameras = scene.cameras.size();
   if (!arguments.keep_cameras && cameras > 1) {
     scene.cameras.resize(1);
-    lost.push_back(fmt::format("Slim: of {} recorded cameras only the first is kept.", cameras));
+    lost.push_back(
+        fmt::format("Compressed: of {} recorded cameras only the first is kept.", cameras));
   }
   const Json remarks = remarks_json(scene.info.remarks);
   // The file stores the losses of reading and of compressing.
@@ -217,8 +222,8 @@ Json convert_slim(Scene scene, const SlimArguments& arguments, const fs::path& g
   scene.info.remarks.clear();
   scene.info.notes.insert(scene.info.notes.end(), lost.begin(), lost.end());
   // Of this file, not of the scene that it holds.
-  lost.push_back("Slim: only Tureen reads this file; it has no mesh for other glTF viewers.");
-  for (std::string& sentence : write_slim_glb(scene, result.soup, glb))
+  lost.push_back("Compressed: only Tureen reads this file; it has no mesh for other glTF viewers.");
+  for (std::string& sentence : write_compressed_glb(scene, result.soup, glb))
     lost.push_back(std::move(sentence));
 
   const std::uint64_t bytes = bytes_on_disk(glb);

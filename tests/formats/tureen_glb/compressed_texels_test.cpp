@@ -1,6 +1,6 @@
-// Texels of slim files: exact where they lose nothing, within their step where they do, and no
-// bytes do worse than an InputError.
-#include "formats/tureen_glb/slim_texels.hpp"
+// Texels of compressed files: exact where they lose nothing, within their step where they do, and
+// no bytes do worse than an InputError.
+#include "formats/tureen_glb/compressed_texels.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,15 +11,16 @@
 #include "tests/formats/truncation.hpp"
 
 namespace tureen {
-namespace slim_texels_test {
+namespace compressed_texels_test {
 
 using test::RandomScene;
 
 constexpr int channels = LatticeTexture::channels;
 constexpr int alpha = LatticeTexture::features;
 
-LatticeTexture decoded(const LatticeTexture& texture, const SlimTexelOptions& options) {
-  return decode_slim_texels(encode_slim_texels(texture, options), texture.patches.size(), "slim");
+LatticeTexture decoded(const LatticeTexture& texture, const CompressedTexelOptions& options) {
+  return decode_compressed_texels(encode_compressed_texels(texture, options),
+                                  texture.patches.size(), "compressed");
 }
 
 int byte_of(const LatticeTexture& texture, std::size_t face, std::uint32_t i, int c) {
@@ -61,9 +62,9 @@ LatticeTexture smooth(std::size_t faces, int level, std::mt19937& random) {
   return texture;
 }
 
-class SlimTexels : public ::testing::TestWithParam<int> {};
+class CompressedTexels : public ::testing::TestWithParam<int> {};
 
-TEST_P(SlimTexels, LoseNothingAtStepsOfOne) {
+TEST_P(CompressedTexels, LoseNothingAtStepsOfOne) {
   const unsigned seed = 31 + unsigned(GetParam());
   SCOPED_TRACE(::testing::Message() << "seed " << seed);
   RandomScene random(seed);
@@ -77,7 +78,7 @@ TEST_P(SlimTexels, LoseNothingAtStepsOfOne) {
                  });
 }
 
-TEST_P(SlimTexels, AreOffByHalfAStepAtMost) {
+TEST_P(CompressedTexels, AreOffByHalfAStepAtMost) {
   const unsigned seed = 41 + unsigned(GetParam());
   SCOPED_TRACE(::testing::Message() << "seed " << seed);
   RandomScene random(seed);
@@ -85,7 +86,7 @@ TEST_P(SlimTexels, AreOffByHalfAStepAtMost) {
       GetParam() > lattice::max_level ? std::nullopt : std::optional<int>(GetParam());
   const LatticeTexture texture =
       random.lattice_texture(level.value_or(0) > 5 ? 2 : 11, level, false);
-  SlimTexelOptions options{.feature_step = 12, .alpha_step = 40, .keep_hidden = true};
+  CompressedTexelOptions options{.feature_step = 12, .alpha_step = 40, .keep_hidden = true};
   // Each face has a coarseness of its own; those that share texels have the smallest of theirs.
   std::vector<int> step(texture.patches.size());
   for (std::size_t t = 0; t < texture.patches.size(); ++t)
@@ -95,7 +96,7 @@ TEST_P(SlimTexels, AreOffByHalfAStepAtMost) {
     for (std::size_t u = 0; u < texture.patches.size(); ++u)
       if (texture.patches[u].first_texel == texture.patches[t].first_texel)
         least = std::min<int>(least, options.coarseness[u]);
-    step[t] = 12 * slim_multipliers[std::size_t(least)] / 4;
+    step[t] = 12 * compress_multipliers[std::size_t(least)] / 4;
   }
   const LatticeTexture back = decoded(texture, options);
   for_each_value(texture, back, [&](std::size_t t, std::uint32_t i, int c, int before, int after) {
@@ -108,9 +109,10 @@ TEST_P(SlimTexels, AreOffByHalfAStepAtMost) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(LevelOrMixed, SlimTexels, ::testing::Range(0, lattice::max_level + 2));
+INSTANTIATE_TEST_SUITE_P(LevelOrMixed, CompressedTexels,
+                         ::testing::Range(0, lattice::max_level + 2));
 
-TEST(SlimTexelsOf, FloatsAreThoseOfTheirBytes) {
+TEST(CompressedTexelsOf, FloatsAreThoseOfTheirBytes) {
   RandomScene random(51);
   const LatticeTexture floats = random.lattice_texture(7, 2, true);
   const LatticeTexture back = decoded(floats, {.keep_hidden = true});
@@ -123,7 +125,7 @@ TEST(SlimTexelsOf, FloatsAreThoseOfTheirBytes) {
                     (c == alpha ? 1.01 : 0.51) / 255.0);
 }
 
-TEST(SlimTexelsOf, WhatNobodySeesIsNotKept) {
+TEST(CompressedTexelsOf, WhatNobodySeesIsNotKept) {
   const unsigned seed = 52;
   SCOPED_TRACE(::testing::Message() << "seed " << seed);
   RandomScene random(seed);
@@ -135,11 +137,11 @@ TEST(SlimTexelsOf, WhatNobodySeesIsNotKept) {
       std::uint8_t& a = texels[(t * 45 + i) * channels + alpha];
       a = std::uint8_t(t % 2 ? 128 + a / 2 : a / 2);
     }
-  const auto all = encode_slim_texels(texture, {.keep_hidden = true});
-  const auto seen = encode_slim_texels(texture, {});
+  const auto all = encode_compressed_texels(texture, {.keep_hidden = true});
+  const auto seen = encode_compressed_texels(texture, {});
   // Ten of forty faces have no features, and twenty no alpha worth the name.
   EXPECT_LT(double(seen.size()), 0.8 * double(all.size()));
-  const LatticeTexture back = decode_slim_texels(seen, 40, "slim");
+  const LatticeTexture back = decode_compressed_texels(seen, 40, "compressed");
   for_each_value(texture, back, [&](std::size_t t, std::uint32_t i, int c, int before, int after) {
     if (c == alpha) {
       ASSERT_EQ(before >= 128, after >= 128) << "face " << t << ", texel " << i;
@@ -150,21 +152,21 @@ TEST(SlimTexelsOf, WhatNobodySeesIsNotKept) {
   });
 }
 
-TEST(SlimTexelsOf, SmoothOrEqualFacesTakeLittle) {
+TEST(CompressedTexelsOf, SmoothOrEqualFacesTakeLittle) {
   const unsigned seed = 53;
   SCOPED_TRACE(::testing::Message() << "seed " << seed);
   std::mt19937 random(seed);
   LatticeTexture texture = smooth(300, 4, random);
-  const SlimTexelOptions options{.feature_step = 8, .alpha_step = 85};
-  const std::size_t own = encode_slim_texels(texture, options).size();
+  const CompressedTexelOptions options{.feature_step = 8, .alpha_step = 85};
+  const std::size_t own = encode_compressed_texels(texture, options).size();
   // Texels are 1224 bytes a face. Its corners alone, 21 random features of 4 bits after the step,
   // are 10.5; what lies between them is missed now and then, as corners are off by half a step.
   EXPECT_LT(own, 300u * 1224u / 30u);
   for (std::size_t t = 10; t < 300; ++t) texture.patches[t] = texture.patches[t % 10];
-  const auto shared = encode_slim_texels(texture, options);
+  const auto shared = encode_compressed_texels(texture, options);
   // Ten faces, and 290 names of one of them: less than a single face as it was.
   EXPECT_LT(shared.size(), 1224u);
-  const LatticeTexture back = decode_slim_texels(shared, 300, "slim");
+  const LatticeTexture back = decode_compressed_texels(shared, 300, "compressed");
   EXPECT_EQ(back.texel_count(), 10u * 153u);
   for (std::size_t t = 0; t < 300; ++t)
     EXPECT_EQ(back.patches[t].first_texel, back.patches[t % 10].first_texel);
@@ -191,16 +193,17 @@ LatticeTexture noisy(std::size_t faces, std::mt19937& random) {
   return texture;
 }
 
-TEST(SlimTexelsOf, WhatBitsArePricedSavesThemForTheLeastError) {
+TEST(CompressedTexelsOf, WhatBitsArePricedSavesThemForTheLeastError) {
   const unsigned seed = 56;
   SCOPED_TRACE(::testing::Message() << "seed " << seed);
   std::mt19937 random(seed);
   const LatticeTexture texture = noisy(200, random);
   const auto size_and_error = [&](std::uint8_t step, double price) {
-    const auto bytes =
-        encode_slim_texels(texture, {.feature_step = step, .alpha_step = 85, .bit_price = price});
+    const auto bytes = encode_compressed_texels(
+        texture, {.feature_step = step, .alpha_step = 85, .bit_price = price});
     double sum = 0;
-    for (const double error : errors_of(texture, decode_slim_texels(bytes, 200, "slim")))
+    for (const double error :
+         errors_of(texture, decode_compressed_texels(bytes, 200, "compressed")))
       sum += error;
     return std::pair(bytes.size(), sum / 200);
   };
@@ -213,19 +216,19 @@ TEST(SlimTexelsOf, WhatBitsArePricedSavesThemForTheLeastError) {
   EXPECT_LT(fine.second, coarse.second);
 }
 
-TEST(SlimTexelsOf, HeavyTexelsLoseLess) {
+TEST(CompressedTexelsOf, HeavyTexelsLoseLess) {
   const unsigned seed = 57;
   SCOPED_TRACE(::testing::Message() << "seed " << seed);
   std::mt19937 random(seed);
   const LatticeTexture texture = noisy(100, random);
-  SlimTexelOptions options{.feature_step = 4, .alpha_step = 85, .bit_price = 0.3};
-  const auto alike = encode_slim_texels(texture, options);
+  CompressedTexelOptions options{.feature_step = 4, .alpha_step = 85, .bit_price = 0.3};
+  const auto alike = encode_compressed_texels(texture, options);
   // Every other face hardly counts.
   for (std::size_t t = 0; t < 100; ++t)
     options.weights.insert(options.weights.end(), 45, t % 2 ? 1.0f : 0.01f);
-  const auto some = encode_slim_texels(texture, options);
+  const auto some = encode_compressed_texels(texture, options);
   EXPECT_LT(double(some.size()), 0.75 * double(alike.size()));
-  const auto errors = errors_of(texture, decode_slim_texels(some, 100, "slim"));
+  const auto errors = errors_of(texture, decode_compressed_texels(some, 100, "compressed"));
   double light = 0, heavy = 0;
   for (std::size_t t = 0; t < 100; ++t) (t % 2 ? heavy : light) += errors[t];
   EXPECT_GT(light, 2 * heavy);
@@ -236,25 +239,25 @@ TEST(SlimTexelsOf, HeavyTexelsLoseLess) {
   texels.insert(texels.end(), texels.begin(), texels.end());
   for (std::size_t t = 0; t < 100; ++t)
     twice.patches.push_back({texture.patches[t].first_texel + 4500, 3});
-  SlimTexelOptions mixed = options, heaviest = options;
+  CompressedTexelOptions mixed = options, heaviest = options;
   heaviest.weights.assign(9000, 1.0f);
   mixed.weights.clear();
   for (std::size_t i = 0; i < 9000; ++i) mixed.weights.push_back(i % 2 == i / 4500 ? 1.0f : 0.01f);
-  EXPECT_EQ(encode_slim_texels(twice, mixed), encode_slim_texels(twice, heaviest));
+  EXPECT_EQ(encode_compressed_texels(twice, mixed), encode_compressed_texels(twice, heaviest));
 }
 
-TEST(SlimTexelsOf, NothingIsAnEmptyTexture) {
+TEST(CompressedTexelsOf, NothingIsAnEmptyTexture) {
   LatticeTexture texture;
   texture.texels = std::vector<std::uint8_t>();
   EXPECT_EQ(decoded(texture, {}).texel_count(), 0u);
 }
 
-TEST(SlimTexelBytes, SurviveDamage) {
+TEST(CompressedTexelBytes, SurviveDamage) {
   RandomScene random(54);
   const LatticeTexture texture = random.lattice_texture(3, 1, false);
-  const auto bytes = encode_slim_texels(texture, {.feature_step = 16, .alpha_step = 85});
+  const auto bytes = encode_compressed_texels(texture, {.feature_step = 16, .alpha_step = 85});
   const auto read = [&](std::span<const std::byte> b) {
-    const LatticeTexture back = decode_slim_texels(b, 3, "slim");
+    const LatticeTexture back = decode_compressed_texels(b, 3, "compressed");
     ASSERT_EQ(back.patches.size(), 3u);
     for (const LatticePatch& patch : back.patches)
       ASSERT_LE(patch.first_texel + lattice::texel_count(int(patch.level)), back.texel_count());
@@ -267,11 +270,13 @@ TEST(SlimTexelBytes, SurviveDamage) {
   EXPECT_GT(damaged.read, 0u);
 }
 
-TEST(SlimTexelBytes, SurviveAnything) {
+TEST(CompressedTexelBytes, SurviveAnything) {
   const unsigned seed = 55;
   SCOPED_TRACE(::testing::Message() << "seed " << seed);
   std::mt19937 random(seed);
-  const auto read = [](std::span<const std::byte> b) { decode_slim_texels(b, 50, "slim"); };
+  const auto read = [](std::span<const std::byte> b) {
+    decode_compressed_texels(b, 50, "compressed");
+  };
   test::Survival survival;
   for (int run = 0; run < 100; ++run) {
     std::vector<std::byte> bytes(random() % 1000);
@@ -281,11 +286,11 @@ TEST(SlimTexelBytes, SurviveAnything) {
   EXPECT_GT(survival.refused, 0u);
 }
 
-TEST(SlimTexelBytes, FewCannotAskForMuch) {
+TEST(CompressedTexelBytes, FewCannotAskForMuch) {
   const std::vector<std::byte> bytes(300, std::byte{1});
-  EXPECT_THROW(decode_slim_texels(bytes, std::size_t(1) << 32, "slim"), InputError);
-  EXPECT_THROW(decode_slim_texels(bytes, 300 * 64 + 1, "slim"), InputError);
+  EXPECT_THROW(decode_compressed_texels(bytes, std::size_t(1) << 32, "compressed"), InputError);
+  EXPECT_THROW(decode_compressed_texels(bytes, 300 * 64 + 1, "compressed"), InputError);
 }
 
-}  // namespace slim_texels_test
+}  // namespace compressed_texels_test
 }  // namespace tureen

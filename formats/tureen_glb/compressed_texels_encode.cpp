@@ -4,15 +4,15 @@
 #include <unordered_map>
 
 #include "base/error.hpp"
-#include "formats/tureen_glb/slim_texels_header.hpp"
-#include "formats/tureen_glb/slim_walk.hpp"
+#include "formats/tureen_glb/compressed_texels_header.hpp"
+#include "formats/tureen_glb/compressed_walk.hpp"
 #include "image/quantise.hpp"
 
 namespace tureen {
 
 namespace {
 
-using namespace slim;
+using namespace compressed;
 
 /// The texture as patches with contents of their own, in the order of their first face, one patch
 /// for all faces that look the same.
@@ -22,7 +22,7 @@ struct Source {
   std::vector<float> weights;
 };
 
-Source source_of(const LatticeTexture& texture, const SlimTexelOptions& options) {
+Source source_of(const LatticeTexture& texture, const CompressedTexelOptions& options) {
   Source source;
   std::unordered_map<std::string, std::uint32_t> known;
   for (std::size_t t = 0; t < texture.patches.size(); ++t) {
@@ -55,7 +55,7 @@ Source source_of(const LatticeTexture& texture, const SlimTexelOptions& options)
         {std::uint32_t(source.faces.texels), std::uint8_t(patch.level), quality});
     source.faces.texels += count;
     if (source.faces.texels > 0xffffffffu)
-      throw UsageError("a slim file holds at most 2^32 texels");
+      throw UsageError("a compressed file holds at most 2^32 texels");
     source.texels.insert(source.texels.end(), found->first.begin(), found->first.end());
     for (std::uint32_t i = 0; i < count; ++i) source.weights.push_back(weight(i));
   }
@@ -106,7 +106,7 @@ constexpr double inherited = 3;
 /// What the encoder chooses, value by value.
 class Chooser {
  public:
-  Chooser(const Source& source, const SlimTexelOptions& options)
+  Chooser(const Source& source, const CompressedTexelOptions& options)
       : options_(options),
         shows_(what_shows(source)),
         values_(options.basis.values_of(source.texels)),
@@ -173,7 +173,7 @@ class Chooser {
     return steps;
   }
 
-  const SlimTexelOptions& options_;
+  const CompressedTexelOptions& options_;
   std::vector<Shows> shows_;
   std::vector<std::int16_t> values_;
   const std::vector<float>& weights_;
@@ -182,8 +182,8 @@ class Chooser {
 
 }  // namespace
 
-std::vector<std::byte> encode_slim_texels(const LatticeTexture& texture,
-                                          const SlimTexelOptions& options) {
+std::vector<std::byte> encode_compressed_texels(const LatticeTexture& texture,
+                                                const CompressedTexelOptions& options) {
   assert(options.feature_step > 0 && options.alpha_step > 0 && options.alpha_step <= 127);
   assert(options.weights.empty() || options.weights.size() == texture.texel_count());
   assert(options.bit_price >= 0);

@@ -7,7 +7,7 @@
 #include "tests/support/errors.hpp"
 
 namespace tureen {
-namespace convert_slim_program_test {
+namespace convert_compressed_program_test {
 
 namespace fs = std::filesystem;
 using test::ChildResult;
@@ -18,9 +18,9 @@ using testing::Not;
 
 const std::string example = TUREEN_SOURCE_DIR "/examples/soup.glb";
 
-using ConvertSlim = test::ProgramWithPhotographs;
+using ConvertCompress = test::ProgramWithPhotographs;
 
-TEST_F(ConvertSlim, IsSmallAndSaysWhatItLost) {
+TEST_F(ConvertCompress, IsSmallAndSaysWhatItLost) {
   Scene scene = read_scene(example);
   auto& soup = std::get<TriangleSoup>(scene.primitives);
   soup.triangles.resize(400);
@@ -30,55 +30,57 @@ TEST_F(ConvertSlim, IsSmallAndSaysWhatItLost) {
   ASSERT_THAT(tureen::write_scene(scene, folder / "part.glb"), IsEmpty());
 
   const ChildResult result =
-      run({"convert", "part.glb", "slim.glb", "--slim", "--max-error", "0.3", "--json"});
+      run({"convert", "part.glb", "compressed.glb", "--compress", "--max-error", "0.3", "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto json = nlohmann::json::parse(result.out);
   EXPECT_LE(json["loss_db"], 0.3);
   EXPECT_EQ(json["loss_is_measured"], false);
-  EXPECT_EQ(json["bytes_on_disk"], fs::file_size(folder / "slim.glb"));
-  // As measured for all of the example (docs/slim.md), less what JSON and network take of so few.
+  EXPECT_EQ(json["bytes_on_disk"], fs::file_size(folder / "compressed.glb"));
+  // As measured for all of the example (docs/compressed-files.md), less what JSON and network take
+  // of so few.
   EXPECT_GT(json["times_smaller"], 3);
-  EXPECT_FALSE(exists("slim.glb.export"));
+  EXPECT_FALSE(exists("compressed.glb.export"));
 
-  const Scene back = read_scene(folder / "slim.glb");
+  const Scene back = read_scene(folder / "compressed.glb");
   EXPECT_EQ(std::get<TriangleSoup>(back.primitives).triangles.size(), 400u);
   EXPECT_EQ(back.cameras.size(), 1u);
   // The losses are stored in the file, but for those of the file itself.
   ASSERT_THAT(back.info.notes, Not(IsEmpty()));
   EXPECT_THAT(json["lost"], testing::Contains(back.info.notes.back()));
-  EXPECT_THAT(run({"info", "slim.glb"}).err, HasSubstr(back.info.notes.back()));
+  EXPECT_THAT(run({"info", "compressed.glb"}).err, HasSubstr(back.info.notes.back()));
 
   // What makes the promise worth less.
   EXPECT_EQ(json["recorded_cameras"], 2);
   EXPECT_EQ(json["compressed_before"], false);
-  const ChildResult again =
-      run({"convert", "slim.glb", "SLIM.GLB", "--slim", "--max-error", "3", "--json"});
+  const ChildResult again = run(
+      {"convert", "compressed.glb", "COMPRESSED.GLB", "--compress", "--max-error", "3", "--json"});
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(nlohmann::json::parse(again.out)["compressed_before"], true);
   const ChildResult finer =
-      run({"convert", "part.glb", "fine.glb", "--slim", "--max-error", "0.0001"});
+      run({"convert", "part.glb", "fine.glb", "--compress", "--max-error", "0.0001"});
   EXPECT_EQ(finer.exit_code, 2);
   EXPECT_THAT(finer.err, Names("0.0001 dB"));
   EXPECT_FALSE(exists("fine.glb"));
 
-  const ChildResult ply = run({"convert", "part.glb", "slim.ply", "--slim"});
+  const ChildResult ply = run({"convert", "part.glb", "compressed.ply", "--compress"});
   EXPECT_EQ(ply.exit_code, 2);
-  EXPECT_THAT(ply.err, Names("--compress", ".glb", ".html", "slim.ply"));
+  EXPECT_THAT(ply.err, Names("--compress", ".glb", ".html", "compressed.ply"));
   EXPECT_EQ(run({"convert", "part.glb", "other.glb", "--max-error", "1"}).exit_code, 2);
 }
 
-// What slim files are to reach (docs/slim.md), here with nothing but the scene to judge by.
-TEST_F(ConvertSlim, MakesTheExampleFourTimesSmallerForATenthOfADecibel) {
-  const ChildResult result = run({"convert", example, "slim.glb", "--slim", "--json"});
+// What compressed files are to reach (docs/compressed-files.md), here with nothing but the scene to
+// judge by.
+TEST_F(ConvertCompress, MakesTheExampleFourTimesSmallerForATenthOfADecibel) {
+  const ChildResult result = run({"convert", example, "compressed.glb", "--compress", "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto json = nlohmann::json::parse(result.out);
   EXPECT_GE(json["times_smaller"], 4);
   EXPECT_LE(json["loss_db"], 0.1);
-  EXPECT_EQ(json["scene_bytes"], fs::file_size(folder / "slim.glb"));
+  EXPECT_EQ(json["scene_bytes"], fs::file_size(folder / "compressed.glb"));
 }
 
 // The search looks at nothing but how near images come to the photographs.
-TEST_F(ConvertSlim, PhotographsOfAnotherSceneAreRefused) {
+TEST_F(ConvertCompress, PhotographsOfAnotherSceneAreRefused) {
   Scene scene = read_scene(example);
   auto& soup = std::get<TriangleSoup>(scene.primitives);
   soup.triangles.resize(400);
@@ -93,17 +95,17 @@ TEST_F(ConvertSlim, PhotographsOfAnotherSceneAreRefused) {
   scene.info.background = glm::vec3(1) - background;
   soup.positions.assign(soup.positions.size(), glm::vec3(0));
   ASSERT_THAT(tureen::write_scene(scene, folder / "other.glb"), IsEmpty());
-  const auto slim = [&] {
-    return run({"convert", "part.glb", "slim.glb", "--slim", "--photographs", "data", "--max-error",
-                "20", "--force", "--json"});
+  const auto compressed = [&] {
+    return run({"convert", "part.glb", "compressed.glb", "--compress", "--photographs", "data",
+                "--max-error", "20", "--force", "--json"});
   };
   photograph("other.glb", 8);
-  const ChildResult refused = slim();
+  const ChildResult refused = compress();
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, Names("--photographs"));
-  EXPECT_FALSE(fs::exists(folder / "slim.glb"));
+  EXPECT_FALSE(fs::exists(folder / "compressed.glb"));
   const auto lost = [&] {
-    const ChildResult result = slim();
+    const ChildResult result = compress();
     EXPECT_EQ(result.exit_code, 0) << result.err;
     const auto json = nlohmann::json::parse(result.out);
     EXPECT_EQ(json["loss_is_measured"], true);
@@ -119,5 +121,5 @@ TEST_F(ConvertSlim, PhotographsOfAnotherSceneAreRefused) {
   EXPECT_THAT(said, HasSubstr("r_3.png"));
 }
 
-}  // namespace convert_slim_program_test
+}  // namespace convert_compressed_program_test
 }  // namespace tureen

@@ -1,12 +1,12 @@
 #include <cstring>
 
 #include "base/error.hpp"
-#include "formats/tureen_glb/slim_texels_header.hpp"
-#include "formats/tureen_glb/slim_walk.hpp"
+#include "formats/tureen_glb/compressed_texels_header.hpp"
+#include "formats/tureen_glb/compressed_walk.hpp"
 
 namespace tureen {
 
-namespace slim {
+namespace compressed {
 
 namespace {
 
@@ -38,13 +38,13 @@ const std::vector<Middle>& middles(int level) {
   return all[std::size_t(level)];
 }
 
-}  // namespace slim
+}  // namespace compressed
 
-LatticeTexture decode_slim_texels(std::span<const std::byte> bytes, std::size_t faces,
-                                  const std::string& file, MemoryBudget budget) {
-  using namespace slim;
+LatticeTexture decode_compressed_texels(std::span<const std::byte> bytes, std::size_t faces,
+                                        const std::string& file, MemoryBudget budget) {
+  using namespace compressed;
   const auto damaged = [&]() -> InputError {
-    return InputError({file, {}, {}}, "the slim texels are cut short or damaged");
+    return InputError({file, {}, {}}, "the compressed texels are cut short or damaged");
   };
   // Texels have 32-bit indices, too.
   const auto limit = std::min<std::uint64_t>(bytes.size() * max_per_byte, 0xffffffffu);
@@ -56,7 +56,7 @@ LatticeTexture decode_slim_texels(std::span<const std::byte> bytes, std::size_t 
   RangeDecoder coder(bytes.subspan(sizeof(header)));
   const auto take = [&](std::uint64_t count, std::size_t each) {
     if (!budget.take(count, each))
-      throw InputError({file, {}, {}}, budget.refusal("the slim texels"), max_memory_hint);
+      throw InputError({file, {}, {}}, budget.refusal("the compressed texels"), max_memory_hint);
   };
   take(1, sizeof(Models));
   const auto models = std::make_unique<Models>();

@@ -3,7 +3,7 @@
 // version 3).
 //
 // A network hides most changes of its features: some directions in feature space move the colour a
-// lot, others hardly. In slim_basis() a step along any axis moves the colour by the same mean
+// lot, others hardly. In compressed_basis() a step along any axis moves the colour by the same mean
 // amount, and the prediction residuals are uncorrelated. It is the Karhunen-Loeve transform of the
 // residuals in the metric of the colour.
 #pragma once
@@ -18,16 +18,16 @@
 
 namespace tureen {
 
-/// Basis values per step of slim_basis(). Predictions fall between steps.
-inline constexpr int slim_fraction = 16;
+/// Basis values per step of compressed_basis(). Predictions fall between steps.
+inline constexpr int compress_fraction = 16;
 
 /// feature = (sum over j of column j times value j) / 65536, rounded and clamped to a byte. Integer
 /// arithmetic makes decoding identical on every machine.
-struct SlimBasis {
+struct CompressedBasis {
   std::array<std::array<std::int32_t, LatticeTexture::features>, LatticeTexture::features> rows{};
 
   /// Values equal the features; lossless.
-  static SlimBasis identity();
+  static CompressedBasis identity();
 
   /// One feature as a byte.
   std::uint8_t feature(int f, std::span<const std::int16_t> values) const;
@@ -37,12 +37,12 @@ struct SlimBasis {
   std::vector<std::int16_t> values_of(std::span<const std::uint8_t> texels) const;
 };
 
-/// The basis in which slim_fraction values along any axis move the colour by `step` / 255 in the
-/// root mean square. `sensitivity` is the texture's mean_sensitivity(). Axes with less than a tenth
-/// of the first one's effect are treated as having a tenth. The network is not linear, so long
-/// steps along them would be visible. `weights`: weight of each texel (SlimTexelOptions);
-/// empty: equal weights.
-SlimBasis slim_basis(const LatticeTexture& texture, const FeatureMatrix& sensitivity, double step,
-                     std::span<const float> weights = {});
+/// The basis in which compress_fraction values along any axis move the colour by `step` / 255 in
+/// the root mean square. `sensitivity` is the texture's mean_sensitivity(). Axes with less than a
+/// tenth of the first one's effect are treated as having a tenth. The network is not linear, so
+/// long steps along them would be visible. `weights`: weight of each texel
+/// (CompressedTexelOptions); empty: equal weights.
+CompressedBasis compressed_basis(const LatticeTexture& texture, const FeatureMatrix& sensitivity,
+                                 double step, std::span<const float> weights = {});
 
 }  // namespace tureen
