@@ -68,7 +68,7 @@ std::vector<Camera> training_cameras(const DatasetArgument& dataset,
     say(fmt::format("the training photographs of {} cannot be read: {}", name_of(dataset),
                     error.what()));
     lost.push_back(fmt::format(
-        "Compressed: the training cameras of {} say nothing of what shows: not all can be read.",
+        "Compression: the training cameras of {} are not used, because not all can be read.",
         name_of(dataset)));
     return {};
   }
@@ -87,15 +87,15 @@ std::vector<std::string> doubts_about(const Scene& scene, bool with_photographs)
   std::vector<std::string> doubts;
   if (scene.info.compressed)
     doubts.push_back(
-        "Compressed: the scene was compressed already: what it lost then comes on top, and is not "
-        "counted.");
+        "Compression: the scene was already compressed. Its earlier loss adds to this one and is "
+        "not included.");
   if (!with_photographs && scene.cameras.size() < telling_cameras)
     doubts.push_back(fmt::format(
-        "Compressed: {} nobody knows where the scene is looked at from: the loss is estimated "
-        "from above and around. From within it may be much more; --photographs measures it.",
+        "Compression: {}, so the loss is estimated for views from above and around. For views from "
+        "within the scene it may be much larger. --photographs measures it.",
         scene.cameras.empty()
-            ? "without recorded cameras"
-            : "with only " + count_text(int(scene.cameras.size()), "recorded camera")));
+            ? "the scene has no recorded cameras"
+            : "the scene has only " + count_text(int(scene.cameras.size()), "recorded camera")));
   return doubts;
 }
 
@@ -106,35 +106,33 @@ std::vector<std::string> losses_of(const CompressResult& result, const DatasetAr
   const std::string views = measured_on(result, photographs);
   std::vector<std::string> losses{
       photographs.path.empty()
-          ? fmt::format(
-                "Compressed: coded with a loss of {:.3f} dB of PSNR or less, estimated for a scene "
-                "that comes within {:.0f} dB of its photographs; against the scene as it "
-                "was, in {}: {:.2f} dB.",
-                result.loss.db, result.model_db, views, result.loss.render_psnr_db)
-          : fmt::format(
-                "Compressed: coded with a loss of {:.3f} dB of PSNR against {} (from {:.2f} dB); "
-                "against the scene as it was: {:.2f} dB.",
-                result.loss.db, views, result.model_db, result.loss.render_psnr_db),
+          ? fmt::format("Compression: estimated loss of PSNR {:.3f} dB or less, for a scene with a "
+                        "PSNR of {:.0f} dB against its photographs. PSNR against the scene before "
+                        "compression, in {}: {:.2f} dB.",
+                        result.loss.db, result.model_db, views, result.loss.render_psnr_db)
+          : fmt::format("Compression: loss of PSNR {:.3f} dB, against {} (before: {:.2f} dB). PSNR "
+                        "against the scene before compression: {:.2f} dB.",
+                        result.loss.db, views, result.model_db, result.loss.render_psnr_db),
       // What is negative by chance, as of photographs it may be, is no loss.
-      fmt::format("Compressed: positions on a grid of {} bits ({:.3f} dB of the loss), colours in "
-                  "steps of {:.1f}/255 in the mean; what no alpha shows is not kept.",
+      fmt::format("Compression: positions have {} bits ({:.3f} dB of the loss), colours a mean "
+                  "step of {:.1f}/255. Colours of fully transparent texels are discarded.",
                   result.position_bits, std::max(result.geometry_loss.db, 0.0), result.color_step)};
   const auto texels = std::get<LatticeTexture>(result.kept.appearance).texel_count();
   if (result.lent_cameras > 0)
-    losses.push_back(fmt::format(
-        "Compressed: {} training cameras of {} stand for recorded ones: they say what of the "
-        "scene shows.",
-        result.lent_cameras, name_of(photographs)));
+    losses.push_back(
+        fmt::format("Compression: {} training cameras of {} replace recorded cameras in "
+                    "determining the visible parts.",
+                    result.lent_cameras, name_of(photographs)));
   else if (training_cameras > 0)
-    losses.push_back(fmt::format(
-        "Compressed: of {} training cameras of {} fewer than {} show any of the scene: none "
-        "stands for a recorded one.",
-        training_cameras, name_of(photographs), telling_cameras));
+    losses.push_back(
+        fmt::format("Compression: the {} training cameras of {} are not used, because fewer than "
+                    "{} of them show the scene.",
+                    training_cameras, name_of(photographs), telling_cameras));
   if (result.unseen_texels > 0)
-    losses.push_back(fmt::format(
-        "Compressed: {} of {} texels are kept only roughly: {} recorded views show nothing of "
-        "them. Seen from elsewhere, or from nearer, they are smoother than they were.",
-        counted(result.unseen_texels), counted(texels), result.weighing_views));
+    losses.push_back(
+        fmt::format("Compression: {} of {} texels are invisible in {} recorded views and are "
+                    "stored coarsely. They look smoother from other or nearer viewpoints.",
+                    counted(result.unseen_texels), counted(texels), result.weighing_views));
   return losses;
 }
 
@@ -204,16 +202,15 @@ Json convert_compressed(Scene scene, const CompressArguments& arguments, const f
   const auto all_faces = std::get<TriangleSoup>(scene.primitives).triangles.size();
   if (result.unseen > 0)
     lost.push_back(fmt::format(
-        "Compressed: {} OF {} FACES ARE LEFT OUT: no pixel of {} views (recorded cameras, and from "
-        "above "
-        "and around) shows them. Seen from elsewhere, or from nearer, there may be holes.",
+        "Compression: {} OF {} FACES ARE REMOVED, because they are invisible in {} views (recorded "
+        "cameras, and from above and around). Other or nearer viewpoints may show holes.",
         counted(result.unseen), counted(all_faces), result.seeing_views));
   scene.primitives = std::move(result.kept);
   const std::size_t cameras = scene.cameras.size();
   if (!arguments.keep_cameras && cameras > 1) {
     scene.cameras.resize(1);
     lost.push_back(
-        fmt::format("Compressed: of {} recorded cameras only the first is kept.", cameras));
+        fmt::format("Compression: only the first of {} recorded cameras is kept.", cameras));
   }
   const Json remarks = remarks_json(scene.info.remarks);
   // The file stores the losses of reading and of compressing.
@@ -222,7 +219,8 @@ Json convert_compressed(Scene scene, const CompressArguments& arguments, const f
   scene.info.remarks.clear();
   scene.info.notes.insert(scene.info.notes.end(), lost.begin(), lost.end());
   // Of this file, not of the scene that it holds.
-  lost.push_back("Compressed: only Tureen reads this file; it has no mesh for other glTF viewers.");
+  lost.push_back(
+      "Compression: only Tureen reads this file. It has no mesh for other glTF viewers.");
   for (std::string& sentence : write_compressed_glb(scene, result.soup, glb))
     lost.push_back(std::move(sentence));
 
