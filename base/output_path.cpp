@@ -32,9 +32,9 @@ bool may_write(const fs::path& path) {
 }  // namespace
 
 fs::path followed(const fs::path& path) {
-  constexpr int most_links = 40;  // as Linux follows in one path
+  constexpr int max_links = 40;  // as Linux follows in one path
   fs::path target = path;
-  for (int i = 0; i < most_links; ++i) {
+  for (int i = 0; i < max_links; ++i) {
     std::error_code none;
     const fs::path next = fs::read_symlink(target, none);
     if (none) break;

@@ -50,12 +50,12 @@ std::string did_you_mean(const std::string& word, std::span<const std::string> k
 
 std::string did_you_mean(const std::filesystem::path& path) {
   // A folder with more names than this is not searched: the message must not take seconds.
-  constexpr std::size_t most_names = 10000;
+  constexpr std::size_t max_names = 10000;
   std::vector<std::string> names;
   std::error_code error;
   for (std::filesystem::directory_iterator it(folder_of(path), error), end; !error && it != end;
        it.increment(error)) {
-    if (names.size() == most_names) break;
+    if (names.size() == max_names) break;
     names.push_back(it->path().filename().string());
   }
   std::sort(names.begin(), names.end());  // the order of a folder is any

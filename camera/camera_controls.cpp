@@ -25,7 +25,7 @@ constexpr double nearest_radii = 1e-5, farthest_radii = 1e4, farthest_target_rad
 constexpr double dolly_factor = 0.9, speed_factor = 1.2;
 
 // No device makes so many steps or pixels in an event; powers of more would overflow.
-constexpr double most_steps = 1000, most_pixels = 1e7;
+constexpr double max_steps = 1000, max_pixels = 1e7;
 
 // A difference of 1e-5 radians is a twentieth of a pixel at a focal length of 5,000: arrived.
 constexpr double arrived = 1e-5;
@@ -175,8 +175,8 @@ void CameraControls::wheel(double steps, glm::dvec2 pointer) {
 }
 
 ViewState CameraControls::turned(double dx, double dy, double radians_per_pixel) const {
-  dx = within(dx, most_pixels);
-  dy = within(dy, most_pixels);
+  dx = within(dx, max_pixels);
+  dy = within(dy, max_pixels);
   ViewState next = goal_;
   next.bearing.azimuth -= dx * radians_per_pixel;
   next.bearing.elevation = limited(next.bearing.elevation + dy * radians_per_pixel,
@@ -202,8 +202,8 @@ void CameraControls::pan(double dx, double dy) {
   const glm::dmat3 axes = rotation_of(goal_);
   const double a_pixel = goal_.distance / (goal_.lens.focal * viewport_.y);
   ViewState next = goal_;
-  next.target += a_pixel * (within(dy, most_pixels) * axes[1] -
-                            within(dx, most_pixels) / goal_.lens.aspect * axes[0]);
+  next.target += a_pixel * (within(dy, max_pixels) * axes[1] -
+                            within(dx, max_pixels) / goal_.lens.aspect * axes[0]);
   move_to(next);
 }
 
@@ -221,7 +221,7 @@ void CameraControls::dolly(double steps, glm::dvec2 pointer) {
 void CameraControls::dolly_about(double steps, const glm::dvec3& fixed_ray) {
   if (!is_delta(steps, 0)) return;
   ViewState next = goal_;
-  next.distance = limited(goal_.distance * std::pow(dolly_factor, within(steps, most_steps)),
+  next.distance = limited(goal_.distance * std::pow(dolly_factor, within(steps, max_steps)),
                           goal_.distance, nearest_radii * radius_, farthest_radii * radius_);
   place_eye(next, eye_of(goal_) + (goal_.distance - next.distance) * fixed_ray);
   move_to(next);
@@ -229,7 +229,7 @@ void CameraControls::dolly_about(double steps, const glm::dvec3& fixed_ray) {
 
 void CameraControls::scale_speed(double steps) {
   if (std::isfinite(steps))
-    speed_ = limited(speed_ * std::pow(speed_factor, within(steps, most_steps)), speed_,
+    speed_ = limited(speed_ * std::pow(speed_factor, within(steps, max_steps)), speed_,
                      nearest_radii * radius_, 1e3 * radius_);
 }
 

@@ -16,8 +16,8 @@ void add_case_options(Command& command, BenchCaseArguments& options) {
       .add_option(
           "--only", options.only,
           "cases to measure, separated by commas: tureen (the plan), tureen-fragment and "
-          "tureen-compute (the plan with --shading), generic (no specialisation), published (the "
-          "baseline), triangles and copy (the ceilings); ratios are relative to the first")
+          "tureen-compute (the plan with --shading), generic (no specialisation), baseline, "
+          "triangles and copy (the ceilings); ratios are relative to the first")
       .split_at_commas()
       .single_argument()
       .value_name("NAME,..");
@@ -32,7 +32,7 @@ void check(const BenchCaseArguments& options) {
     const std::string& name = options.only[i];
     if (std::find(all_names.begin(), all_names.end(), name) == all_names.end())
       throw UsageError(
-          "--only takes tureen, tureen-fragment, tureen-compute, generic, published, triangles and "
+          "--only takes tureen, tureen-fragment, tureen-compute, generic, baseline, triangles and "
           "copy, not '" +
               name + "'",
           did_you_mean(name, all_names));

@@ -33,8 +33,10 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
   add_context_option(command, options.backend);
   add_choice<PipelineKind>(
       command, "--pipeline", options.plan.pipeline,
-      {{"auto", PipelineKind::tureen}, {"published", PipelineKind::published}},
-      "pipeline: auto (default, Tureen's own) or published (the baseline, as in DiffSoup's viewer)")
+      {{"auto", PipelineKind::tureen},
+       {"baseline", PipelineKind::baseline},
+       {"published", PipelineKind::baseline}},
+      "pipeline: auto (default, Tureen's own) or baseline (as in DiffSoup's viewer)")
       .value_name("NAME");
   const Option no_specialise = command.add_flag(
       "--no-specialise", [&options] { options.plan.specialise = false; },
@@ -47,7 +49,7 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
               options.plan.specialisations =
                   options.plan.specialisations.without(specialisation_of(name));
           },
-          "do not apply these specialisations: names from docs/leaving-out.md, separated by "
+          "do not apply these specialisations: names from docs/specialisations.md, separated by "
           "commas, such as alpha-test,background")
       .value_name("NAMES")
       .split_at_commas()

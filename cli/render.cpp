@@ -49,12 +49,12 @@ struct Drawn {
   std::size_t device_bytes = 0;
 };
 
-/// Images, or a film.
+/// Images, or an animation.
 WrittenImages draw_views(const Drawer& drawer, const gl::Capabilities& device, const Views& views,
                          const std::string& output) {
   if (is_video_name(output))
     return draw_video(drawer, views.cameras, views.frames_per_second, output);
-  // Frames of a film follow each other: a sheet of hundreds shows nothing.
+  // Frames of an animation follow each other: a sheet of hundreds shows nothing.
   const Sheet sheet = views.frames_per_second > 0 ? Sheet::none : Sheet::of_several;
   return draw_images(drawer, device, views.cameras, {output, sheet});
 }
@@ -107,14 +107,15 @@ void check_output(const RenderOptions& options, const glm::vec4& background) {
     for (int i = 0; i < count; ++i)
       require_not_input(image_name(options.output, i, count), options.scene.path);
     const std::filesystem::path first = image_name(options.output, 0, count);
-    // How many views a file of cameras or a film has, and so how they are called, it tells later.
-    if (options.views.is_film() || !options.views.camera.empty())
+    // How many views a file of cameras or an animation has, and so how they are called, it tells
+    // later.
+    if (options.views.is_animation() || !options.views.camera.empty())
       require_writable_beside(first);
     else
       require_writable_file(first);
     return;
   }
-  if (!options.views.is_film())
+  if (!options.views.is_animation())
     throw UsageError("'" + options.output + "' is a video; videos need --path or --turntable");
   if (!options.background.empty() && background.a < 1)
     throw UsageError("videos do not support transparency",
@@ -206,7 +207,7 @@ Examples:
   tureen render soup.glb --size 40000x20000 -o poster.png larger than the device's limit, in tiles
   tureen render soup.glb --debug-view depth -o depth.png  or normals, texels, overdraw, ..
   tureen render soup.glb --frames 100 --json              milliseconds per frame
-  tureen render soup.glb --pipeline published --frames 100 --json
+  tureen render soup.glb --pipeline baseline  --frames 100 --json
                                                           against the baseline
 
 Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL context,

@@ -211,7 +211,7 @@ Json to_json(const TradeoffReport& report) {
             {"most_coverage_mismatch", report.limits.max_coverage_mismatch}}},
           {"drawing", panel_json(report, study.drawing, report.drawing_model)},
           {"antialiasing", panel_json(report, study.antialiasing, report.antialiasing_model)},
-          {"r0", study.published ? Json(*study.published) : Json(nullptr)},
+          {"r0", study.baseline ? Json(*study.baseline) : Json(nullptr)},
           {"subpixel_grid", to_json(study.grid, report.with_flip)},
           {"e_model", model_protocol_json(report)},
           {"choice", choice_json(report)},

@@ -94,7 +94,7 @@ Config config_of(const TrainOptions& options, Preset otherwise, const Checkpoint
 
 void check_images(const TrainOptions& options, const Dataset& dataset) {
   require_sides(options.dataset, dataset,
-                {.least = ssim_window, .most = trainer::kernels::most_image_side});
+                {.least = ssim_window, .most = trainer::kernels::max_image_side});
 }
 
 trainer::TrainingState first_state(const Dataset& dataset, const Config& config,

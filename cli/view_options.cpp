@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr double radians_per_degree = 0.017453292519943295;
 constexpr int max_orbit_views = 1000;
 constexpr double default_frames_per_second = 30;
-constexpr double most_frames = 100000;  // an hour of film; beyond it somebody mistook a unit
+constexpr double max_frames = 100000;  // an hour of animation; beyond it somebody mistook a unit
 
 /// "FILE:N" split where N is a number or "all"; the whole text is the file where one of that name
 /// exists, colon and all.
@@ -54,25 +54,25 @@ CameraFile cameras_in(const fs::path& file, const Scene& scene, const std::strin
   return {read_scene(file).cameras, {}};
 }
 
-/// The frames of a film. Throws UsageError where they are too many.
-Views film(CameraPathData data, const FrameRate& rate) {
+/// The frames of an animation. Throws UsageError where they are too many.
+Views animation(CameraPathData data, const FrameRate& rate) {
   const CameraPath path(std::move(data));
   const double count = frame_count(path, rate.frames_per_second);
-  if (count > most_frames)
+  if (count > max_frames)
     throw UsageError(
         fmt::format("{:.0f} seconds at {} frames a second are {:.0f} frames, more than "
                     "{:.0f}",
-                    path.duration(), rate.frames_per_second, count, most_frames));
+                    path.duration(), rate.frames_per_second, count, max_frames));
   return {frames(path, rate), {}, rate.frames_per_second};
 }
 
-Views film_along(const fs::path& file, FrameRate rate, const std::optional<ImageSize>& size) {
+Views animation_along(const fs::path& file, FrameRate rate, const std::optional<ImageSize>& size) {
   require_there(file);
   CameraPathData path = read_path(file);
   const Camera& first = path.keyframes.front().camera;
   rate.width = size ? size->width : first.width;
   rate.height = size ? size->height : first.height;
-  return film(std::move(path), rate);
+  return animation(std::move(path), rate);
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ Views recorded_views(const std::string& argument, const std::string& which_witho
 
 namespace {
 
-void add_film_options(Command& command, ViewOptions& options) {
+void add_animation_options(Command& command, ViewOptions& options) {
   Option path =
       command
           .add_option("--path", options.path,
@@ -122,7 +122,7 @@ void add_film_options(Command& command, ViewOptions& options) {
 
 void check(const ViewOptions& options) {
   if (!options.size.empty()) parse_any_size(options.size);
-  if (options.frames_per_second && !options.is_film())
+  if (options.frames_per_second && !options.is_animation())
     throw UsageError("--fps needs --path or --turntable");
 }
 
@@ -166,7 +166,7 @@ void add_view_options(Command& command, ViewOptions& options) {
       .check(between(1, max_orbit_views))
       .excludes(camera)
       .excludes(eye);
-  add_film_options(command, options);
+  add_animation_options(command, options);
 }
 
 Views resolve_views(const ViewOptions& options, const Scene& scene, const std::string& scene_path) {
@@ -175,12 +175,12 @@ Views resolve_views(const ViewOptions& options, const Scene& scene, const std::s
 
   FrameRate rate;
   rate.frames_per_second = options.frames_per_second.value_or(default_frames_per_second);
-  if (!options.path.empty()) return film_along(options.path, rate, size);
+  if (!options.path.empty()) return animation_along(options.path, rate, size);
 
   Views views;
   if (!options.camera.empty()) {
     views = recorded_views(options.camera, "0", scene, scene_path);
-  } else if (options.eye.empty() && options.orbit == 0 && !options.is_film() &&
+  } else if (options.eye.empty() && options.orbit == 0 && !options.is_animation() &&
              !options.fov_degrees && !scene.cameras.empty()) {
     views.cameras = {scene.cameras.front()};
   }
@@ -206,13 +206,13 @@ Views resolve_views(const ViewOptions& options, const Scene& scene, const std::s
     if (!(glm::length(eye - target) > 0)) throw UsageError("--eye and --target are the same point");
     views.cameras = {look_at(eye, target, subject.up, lens.fov_y, lens.width, lens.height)};
     if (options.turntable > 0)
-      return film(turntable({.first = views.cameras.front(),
-                             .distance = glm::length(eye - target),
-                             .up = subject.up,
-                             .seconds = options.turntable}),
-                  rate);
+      return animation(turntable({.first = views.cameras.front(),
+                                  .distance = glm::length(eye - target),
+                                  .up = subject.up,
+                                  .seconds = options.turntable}),
+                       rate);
   } else if (options.turntable > 0) {
-    return film(turntable(subject, {0.0, orbit_elevation}, lens, options.turntable), rate);
+    return animation(turntable(subject, {0.0, orbit_elevation}, lens, options.turntable), rate);
   } else if (options.orbit > 0) {
     views.cameras = orbit(subject, options.orbit, {0.0, orbit_elevation}, lens);
   } else {

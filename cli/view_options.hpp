@@ -22,7 +22,7 @@ struct ViewOptions {
   double turntable = 0;               // seconds of a turn
   std::optional<double> frames_per_second;
 
-  bool is_film() const { return !path.empty() || turntable > 0; }
+  bool is_animation() const { return !path.empty() || turntable > 0; }
 };
 
 /// --size, --camera, --eye, --target, --fov, --orbit, --path, --turntable and --fps, with their
@@ -32,7 +32,7 @@ void add_view_options(Command& command, ViewOptions& options);
 struct Views {
   std::vector<Camera> cameras;     // at least one
   std::vector<std::string> notes;  // on what a camera file lacked
-  double frames_per_second = 0;    // above 0: the cameras are the frames of a film
+  double frames_per_second = 0;    // above 0: the cameras are the frames of an animation
 };
 
 /// What can be wrong with them before anything is read. Throws UsageError.

@@ -23,7 +23,7 @@ class Forecaster {
 
   DeviceForecast run() {
     result_.bytes = slots() * 3 * sizeof(glm::vec3);
-    if (plan_.drops_faces_between_pixels) result_.bytes *= 2;  // CoveredFaces keeps them, too
+    if (plan_.drops_small_triangles) result_.bytes *= 2;  // CoveredFaces keeps them, too
     std::visit([this](const auto& appearance) { count(appearance); }, soup_.appearance);
     return std::move(result_);
   }

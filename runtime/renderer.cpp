@@ -71,7 +71,7 @@ Renderer::Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dv
   state_->max_side = capabilities.max_image_side;
   state_->api = capabilities.api;
   gl::use_plain_pixel_transfer();
-  state_->pipeline = resampled(make_published_pipeline(capabilities, limits, soup, state_->plan),
+  state_->pipeline = resampled(make_baseline_pipeline(capabilities, limits, soup, state_->plan),
                                state_->plan, capabilities);
 }
 

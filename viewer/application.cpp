@@ -28,7 +28,7 @@ const double gliding_seconds = CameraControls().smoothing();
 
 /// A new scale of the screen is worth new fonts, and panels that forget what was open; what
 /// rounding makes of a window that is being resized is not.
-constexpr double least_rescaling = 0.05;
+constexpr double min_rescaling = 0.05;
 
 /// How long the window sleeps when nothing happens: what it looks at by itself are files.
 constexpr double idle_seconds = 0.5;
@@ -154,13 +154,13 @@ std::vector<std::string> Application::errors() const {
 }
 
 bool Application::at_rest() const {
-  return worker_.idle() && writer_.idle() && !state_.film.plays && pending_.empty() &&
+  return worker_.idle() && writer_.idle() && !state_.animation.plays && pending_.empty() &&
          state_.requests.empty() && frames_wanted_ <= 0 && !state_.controls.moving();
 }
 
 double Application::wait_seconds() const {
   const bool busy = frames_wanted_ > 0 || state_.controls.moving() || navigation_.flying() ||
-                    state_.draw_continuously || state_.film.plays || !pending_.empty() ||
+                    state_.draw_continuously || state_.animation.plays || !pending_.empty() ||
                     !state_.requests.empty();
   return busy ? 0 : idle_seconds;
 }
@@ -211,12 +211,12 @@ void Application::frame() {
   if (state_.messages.fading()) frames_wanted_ = std::max(frames_wanted_, 1);
 
   if (const double scale = layout_scale(window_);
-      !gui_ || std::abs(scale / gui_scale_ - 1) > least_rescaling) {
+      !gui_ || std::abs(scale / gui_scale_ - 1) > min_rescaling) {
     gui_.reset();
     gui_ = std::make_unique<Gui>(window_, GuiOptions{.scale = scale, .machine_font = !replay_});
     gui_scale_ = scale;
   }
-  const bool moves = state_.controls.moving() || navigation_.flying() || state_.film.plays;
+  const bool moves = state_.controls.moving() || navigation_.flying() || state_.animation.plays;
   if (frames_wanted_ <= 0 && !moves && !state_.draw_continuously && state_.requests.empty()) return;
   --frames_wanted_;
 
@@ -267,13 +267,13 @@ void Application::move(double seconds) {
   if (state_.controls.moving() || navigation_.flying())
     frames_wanted_ = std::max(frames_wanted_, 1);
   state_.controls.advance(seconds, flight);
-  Film& film = state_.film;
-  if (navigation_.flying() || navigation_.dragging()) film.plays = false;
-  if (film.path.empty()) film.plays = film.scrubbed = false;
-  if (!film.plays && !film.scrubbed) return;
-  film.advance(seconds);
-  film.scrubbed = false;  // the panel says so again where it is
-  state_.controls.adopt(film.camera(state_.pixels));
+  Animation& animation = state_.animation;
+  if (navigation_.flying() || navigation_.dragging()) animation.plays = false;
+  if (animation.path.empty()) animation.plays = animation.scrubbed = false;
+  if (!animation.plays && !animation.scrubbed) return;
+  animation.advance(seconds);
+  animation.scrubbed = false;  // the panel says so again where it is
+  state_.controls.adopt(animation.camera(state_.pixels));
   state_.controls.arrive();
 }
 

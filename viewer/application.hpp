@@ -94,7 +94,7 @@ class Application {
   void carry_out(const MakeTurntable& request);
   void carry_out(const SavePath& request);
   void carry_out(const LoadPath& request);
-  void carry_out(const WriteFilm& request);
+  void carry_out(const WriteAnimation& request);
   void carry_out(const StopWriting& request);
   void carry_out(const Quit& request);
   void open_scene(const std::filesystem::path& path, bool keep_view);

@@ -1,4 +1,4 @@
-// Requests for images, films, camera paths and the command line, carried out.
+// Requests for images, animations, camera paths and the command line, carried out.
 #include <algorithm>
 #include <span>
 
@@ -53,16 +53,16 @@ void Application::carry_out(const TakeImage& request) {
         [job](const StageRequest& with) { write_image(job, with); });
 }
 
-void Application::carry_out(const WriteFilm&) {
-  if (!state_.stage || state_.film.path.empty()) return;
-  const Film& film = state_.film;
+void Application::carry_out(const WriteAnimation&) {
+  if (!state_.stage || state_.animation.path.empty()) return;
+  const Animation& animation = state_.animation;
   static constexpr const char* endings[] = {"-frames", ".mp4", ".webm"};
-  const FilmJob job{.scene = state_.stage->source(),
-                    .path = film.path,
-                    .rate = {film.frames_per_second, film.size.x, film.size.y},
-                    .output = image_path(endings[int(film.output)])};
+  const AnimationJob job{.scene = state_.stage->source(),
+                         .path = animation.path,
+                         .rate = {animation.frames_per_second, animation.size.x, animation.size.y},
+                         .output = image_path(endings[int(animation.output)])};
   write("writing " + short_name(job.output), job.output,
-        [job](const StageRequest& with) { write_film(job, with); });
+        [job](const StageRequest& with) { write_animation(job, with); });
 }
 
 void Application::write(const std::string& what, const fs::path& path,
@@ -91,43 +91,43 @@ void Application::carry_out(const StopWriting&) {
 
 void Application::carry_out(const AddKeyframe&) {
   if (!has_scene()) return;
-  Film& film = state_.film;
+  Animation& animation = state_.animation;
   // A second and a half between views until somebody says otherwise.
   constexpr double apart = 1.5;
-  const auto& keyframes = film.path.data().keyframes;
+  const auto& keyframes = animation.path.data().keyframes;
   const double at = keyframes.empty() ? 0 : keyframes.back().seconds + apart;
-  const bool loop = film.path.is_loop();
-  film.selected = int(film.path.add(state_.keyframe_of_now(at)));
-  if (loop) film.path.set_loop_seconds(film.path.data().loop_seconds + apart);
-  film.seconds = at - film.path.begin();
+  const bool loop = animation.path.is_loop();
+  animation.selected = int(animation.path.add(state_.keyframe_of_now(at)));
+  if (loop) animation.path.set_loop_seconds(animation.path.data().loop_seconds + apart);
+  animation.seconds = at - animation.path.begin();
 }
 
 void Application::carry_out(const ShowKeyframe& request) {
-  const auto& keyframes = state_.film.path.data().keyframes;
+  const auto& keyframes = state_.animation.path.data().keyframes;
   if (request.index < keyframes.size()) state_.controls.adopt(keyframes[request.index].camera);
 }
 
 void Application::carry_out(const MakeTurntable&) {
   if (!has_scene()) return;
-  state_.film.path =
+  state_.animation.path =
       CameraPath(turntable({.first = state_.controls.camera(state_.pixels.x, state_.pixels.y),
                             .distance = state_.controls.distance(),
                             .up = state_.controls.up(),
-                            .seconds = state_.film.turn_seconds}));
-  state_.film.seconds = 0;
-  state_.film.selected = -1;
+                            .seconds = state_.animation.turn_seconds}));
+  state_.animation.seconds = 0;
+  state_.animation.selected = -1;
 }
 
 void Application::carry_out(const SavePath& request) {
-  write_file(request.file, path_to_json(state_.film.path.data()));
+  write_file(request.file, path_to_json(state_.animation.path.data()));
   state_.messages.note("Saved " + request.file.string(), state_.now);
 }
 
 void Application::carry_out(const LoadPath& request) {
-  state_.film.path = CameraPath(read_path(request.file));
-  state_.film.seconds = 0;
-  state_.film.selected = -1;
-  state_.film.file = request.file.string();
+  state_.animation.path = CameraPath(read_path(request.file));
+  state_.animation.seconds = 0;
+  state_.animation.selected = -1;
+  state_.animation.file = request.file.string();
 }
 
 void Application::carry_out(const CopyCommand&) {

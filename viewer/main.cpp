@@ -47,8 +47,8 @@ void add_arguments(CLI::App& program, Arguments& arguments) {
       ->check(CLI::IsMember({"gl", "es"}));
   program
       .add_option("--pipeline", arguments.pipeline,
-                  "pipeline: auto (default, Tureen's own) or published (the baseline)")
-      ->check(CLI::IsMember({"auto", "published"}));
+                  "pipeline: auto (default, Tureen's own) or baseline (as in DiffSoup's viewer)")
+      ->check(CLI::IsMember({"auto", "baseline", "published"}));
   program.add_flag("--no-specialise", arguments.no_specialise,
                    "apply no specialisation: also draw and compute the parts that the scene does "
                    "not need");
@@ -89,7 +89,7 @@ int run(const Arguments& arguments) {
   options.window = parse_size(arguments.size);
   options.record = arguments.record;
   options.images = arguments.images;
-  if (arguments.pipeline == "published") options.drawing.plan.pipeline = PipelineKind::published;
+  if (arguments.pipeline != "auto") options.drawing.plan.pipeline = PipelineKind::baseline;
   options.drawing.plan.specialise = !arguments.no_specialise;
   if (!arguments.replay.empty()) options.replay = read_session(arguments.replay);
   // A session must not depend on what somebody did before.

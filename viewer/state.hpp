@@ -13,11 +13,11 @@
 #include "camera/camera_controls.hpp"
 #include "formats/dataset/dataset.hpp"
 #include "runtime/debug_views/debug_view_renderer.hpp"
+#include "viewer/animation.hpp"
 #include "viewer/comparison.hpp"
 #include "viewer/debug_view_choice.hpp"
 #include "viewer/files/file_list.hpp"
 #include "viewer/files/settings.hpp"
-#include "viewer/film.hpp"
 #include "viewer/frame_clock.hpp"
 #include "viewer/messages.hpp"
 #include "viewer/stage.hpp"
@@ -60,15 +60,15 @@ struct SavePath {
 struct LoadPath {
   std::filesystem::path file;
 };
-struct WriteFilm {};
-/// Of images and films.
+struct WriteAnimation {};
+/// Of images and animations.
 struct StopWriting {};
 struct Quit {};
 
 using Request =
     std::variant<OpenPath, OpenPhotographs, CloseDataset, ReloadScene, ChooseDrawing, ShowRecorded,
                  TakeImage, CopyCommand, ToggleFullscreen, AddKeyframe, ShowKeyframe, MakeTurntable,
-                 SavePath, LoadPath, WriteFilm, StopWriting, Quit>;
+                 SavePath, LoadPath, WriteAnimation, StopWriting, Quit>;
 
 /// The photographs at hand; those to train on first.
 struct Photographs {
@@ -95,7 +95,7 @@ struct State {
   CameraControls controls;
   int recorded = -1;  // the recorded camera that was last gone to
   Comparison comparison;
-  Film film;
+  Animation animation;
   Messages messages;
   ImageWish image;
   bool show_interface = true;
@@ -110,7 +110,7 @@ struct State {
 
   /// Those of the photographs, or else of the scene.
   std::vector<const Camera*> recorded_cameras() const;
-  /// The view as a keyframe of the film.
+  /// The view as a keyframe of the animation.
   CameraKeyframe keyframe_of_now(double seconds) const;
   /// The photograph whose camera the view is, unmoved.
   const Photograph* photograph() const;

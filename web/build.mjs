@@ -1,4 +1,4 @@
-// Builds everything that the browser room gives away, from TypeScript and an engine that Emscripten made:
+// Builds everything that the page gives away, from TypeScript and an engine that Emscripten made:
 //
 //   node build.mjs --engine DIR --out DIR
 //
@@ -18,7 +18,7 @@ import { brotliCompressSync, gzipSync } from 'node:zlib';
 import { build } from 'esbuild';
 
 /** Of engine and scripts together, compressed: a promise of the project. */
-const mostBytes = 400_000;
+const maxBytes = 400_000;
 /** Where `tureen convert` puts a scene; html_scene of the program looks for exactly this. */
 const emptyScene = '<script type="application/octet-stream;base64" id="scene" data-name=""></script>';
 /** The site's pages beside the examples: HTML, the script that it loads and its style. */
@@ -170,8 +170,8 @@ function weigh(site) {
     sizes.forEach((size, i) => { totals[i] += size; });
   }
   row('together', totals);
-  if (totals[2] > mostBytes)
-    fail(`Engine and scripts are ${totals[2]} bytes by brotli; the limit is ${mostBytes}.`);
+  if (totals[2] > maxBytes)
+    fail(`Engine and scripts are ${totals[2]} bytes by brotli; the limit is ${maxBytes}.`);
 }
 
 async function main() {

@@ -150,7 +150,7 @@ class HeaderReader {
   void check_sizes() {
     const bool ascii = header_.encoding == PlyHeader::Encoding::ascii;
     for (const PlyElement& element : header_.elements) {
-      const std::uint64_t least = element.count * element.least_bytes(ascii);
+      const std::uint64_t least = element.count * element.min_bytes(ascii);
       // The last value of a text needs no separator.
       const std::uint64_t left = input_.size() - header_.body + (ascii ? 1 : 0);
       if (least > left)
@@ -197,7 +197,7 @@ std::optional<std::size_t> PlyElement::find(std::string_view property) const {
   return {};
 }
 
-std::uint64_t PlyElement::least_bytes(bool ascii) const {
+std::uint64_t PlyElement::min_bytes(bool ascii) const {
   std::uint64_t bytes = 0;
   for (const PlyProperty& property : properties)
     bytes += ascii ? 2 : size_of(property.count_type.value_or(property.type));

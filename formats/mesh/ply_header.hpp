@@ -38,7 +38,7 @@ struct PlyElement {
   std::optional<std::size_t> find(std::string_view property) const;
   /// Smallest size of one row in the body, in bytes: lists are empty; in ascii each value needs one
   /// character and a separator.
-  std::uint64_t least_bytes(bool ascii) const;
+  std::uint64_t min_bytes(bool ascii) const;
 };
 
 struct PlyHeader {

@@ -1,5 +1,5 @@
 // The cases of `tureen bench`, each ready to draw: the plan, on request with either shading stage,
-// the same pipeline without specialisations, the published pipeline, and the device's ceilings.
+// the same pipeline without specialisations, the baseline, and the device's ceilings.
 #pragma once
 
 #include <memory>

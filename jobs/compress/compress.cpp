@@ -28,7 +28,7 @@ constexpr int fewest_bits = 10;
 constexpr double geometry_share = 0.08;
 /// 255ths of colour. Below the least the rounding to bytes is all that is left; beyond the largest
 /// no scene is worth looking at.
-constexpr double least_step = 0.5, largest_step = 64;
+constexpr double min_step = 0.5, largest_step = 64;
 /// Halves the ratio of the two to 1.04.
 constexpr int bisections = 7;
 /// Then the loss is not smooth any more: where each choice between steps depends on those before
@@ -124,7 +124,7 @@ class Search {
           fmt::format("a compressed file of this scene loses more than the {:g} dB that are "
                       "allowed: {:.4f} dB with "
                       "the finest steps",
-                      request_.max_loss_db, least_loss_));
+                      request_.max_loss_db, min_loss_));
     result.unseen = unseen_;
     result.seeing_views = seeing_views_;
     result.weighing_views = views_.size();
@@ -144,7 +144,7 @@ class Search {
           soup_, {.position_bits = result.position_bits,
                   .texels = importance.options(step, alpha_step, bits_have_a_price)});
       const CompressLoss loss = judge_.loss(decode_compressed(compressed, soup_));
-      least_loss_ = std::min(least_loss_, loss.db);
+      min_loss_ = std::min(min_loss_, loss.db);
       if (loss.db > request_.max_loss_db) return false;
       result.color_step = step;
       result.loss = loss;
@@ -152,8 +152,8 @@ class Search {
       return true;
     };
     // The least loss there is.
-    if (!fits(least_step, false)) return false;
-    double low = least_step, high = largest_step;
+    if (!fits(min_step, false)) return false;
+    double low = min_step, high = largest_step;
     for (int i = 0; i < bisections; ++i) {
       const double step = std::sqrt(low * high);
       (fits(step) ? low : high) = step;
@@ -206,7 +206,7 @@ class Search {
   std::vector<Camera> views_;
   TriangleSoup soup_;
   std::size_t unseen_ = 0, seeing_views_ = 0;
-  double least_loss_ = std::numeric_limits<double>::infinity();
+  double min_loss_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace

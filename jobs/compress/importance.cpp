@@ -21,7 +21,7 @@ constexpr double bit_price = 0.3;
 constexpr double follow = 0.2;
 /// How visible a texel counts at least, of the mean: recorded views do not show what others may.
 /// Three times as much costs 1.5 % more bytes (the fox).
-constexpr double least_shown = 0.01;
+constexpr double min_shown = 0.01;
 /// Where the sensitivity of faces is measured: with steps of about what is chosen in the end.
 constexpr double usual_step = 8;
 
@@ -90,7 +90,7 @@ CompressImportance::CompressImportance(const gl::Context& context, const Triangl
     for (std::uint32_t i = 0; i < lattice::texel_count(int(patch.level)); ++i) {
       const std::size_t texel = patch.first_texel + i;
       const double visible =
-          by_texel ? std::max(double(weights_[texel]) / texel_shown, least_shown) : 1;
+          by_texel ? std::max(double(weights_[texel]) / texel_shown, min_shown) : 1;
       // Faces that share texels: what the most sensitive one makes of them.
       weights[texel] = std::max(weights[texel], float(visible * sees));
     }

@@ -17,10 +17,10 @@ namespace {
 
 constexpr std::size_t judged_views = 24;
 constexpr std::size_t hemisphere_views = 64;
-constexpr int most_pixels = 800;  // a side
+constexpr int max_pixels = 800;  // a side
 
 Camera limited(const Camera& camera) {
-  const double scale = double(most_pixels) / std::max(camera.width, camera.height);
+  const double scale = double(max_pixels) / std::max(camera.width, camera.height);
   if (scale >= 1) return camera;
   return resized(camera, std::max(1, int(camera.width * scale)),
                  std::max(1, int(camera.height * scale)));
@@ -37,7 +37,7 @@ std::vector<Camera> compress_views(const Scene& scene, std::span<const Camera> r
   if (recorded.size() >= telling_cameras || some == count) return views;
   const std::vector<Camera> around =
       hemisphere(subject_of(scene), int(std::min(count - some, hemisphere_views)),
-                 {.width = most_pixels, .height = 600});
+                 {.width = max_pixels, .height = 600});
   views.insert(views.end(), around.begin(), around.end());
   return views;
 }

@@ -43,7 +43,7 @@ bool is_on_front(const Panel& panel, std::size_t outcome) {
 }
 
 const Outcome* generic_of(const Panel& panel, const Outcome& outcome) {
-  if (outcome.method == Method::published) return nullptr;
+  if (outcome.method == Method::baseline) return nullptr;
   for (const Outcome& other : panel.outcomes)
     if (other.method == Method::generic && other.configuration == outcome.configuration)
       return &other;

@@ -22,7 +22,7 @@ struct ExactError {
 
 /// The method of drawing: our plan, our plan without specialisations (--no-specialise), or the
 /// baseline.
-enum class Method { specialised, generic, published };
+enum class Method { specialised, generic, baseline };
 
 /// Names of the methods in output files, in the order of the enumeration.
 inline constexpr std::array<const char*, 3> method_names{"tureen", "tureen --no-specialise",
@@ -93,7 +93,7 @@ struct Study {
   Panel drawing;
   Panel antialiasing;
   /// Index of the baseline in the drawing panel (R0), if it can draw this soup.
-  std::optional<std::size_t> published;
+  std::optional<std::size_t> baseline;
   /// The error of the device's subpixel grid alone: the reference at the device's sample points
   /// against the exact one. It is independent of all settings.
   RenderError grid;

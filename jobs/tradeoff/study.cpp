@@ -41,7 +41,7 @@ void find_ranges(Panel& panel) {
   std::vector<Configuration> configurations;
   std::vector<Measured> measured;
   for (const Outcome& outcome : panel.outcomes) {
-    if (outcome.method == Method::generic || outcome.method == Method::published) continue;
+    if (outcome.method == Method::generic || outcome.method == Method::baseline) continue;
     configurations.push_back(outcome.configuration);
     measured.push_back(
         {outcome.ms.min_of_medians, is_judged(outcome) ? outcome.error.psnr_db : std::nan("")});
@@ -84,16 +84,16 @@ void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& 
   Measurer measurer(scene, options, references, panel);
   std::vector<Job> jobs = jobs_of(panel.settings, star.configurations, true);
   // The baseline comes right after the defaults, so that it shares their group.
-  Job published = job_of(panel.settings, star.configurations.front(), true);
-  published.outcome.name = "published pipeline";
-  published.outcome.method = Method::published;
-  published.plan = {.pipeline = PipelineKind::published};
-  jobs.insert(jobs.begin() + 1, std::move(published));
+  Job baseline = job_of(panel.settings, star.configurations.front(), true);
+  baseline.outcome.name = "baseline";
+  baseline.outcome.method = Method::baseline;
+  baseline.plan = {.pipeline = PipelineKind::baseline};
+  jobs.insert(jobs.begin() + 1, std::move(baseline));
   std::vector<Job> generic = jobs_of(panel.settings, star.configurations, false);
   std::move(generic.begin(), generic.end(), std::back_inserter(jobs));
   measurer.measure(std::move(jobs), StudyStage::settings);
   for (std::size_t i = 0; i < panel.outcomes.size(); ++i)
-    if (panel.outcomes[i].method == Method::published) study.published = i;
+    if (panel.outcomes[i].method == Method::baseline) study.baseline = i;
   finish(options, StudyStage::combined_settings, measurer, panel);
 }
 

@@ -72,8 +72,8 @@ Legend overdraw_legend() {
   Legend entries;
   for (int count = 1; count <= 128; count *= 2)
     entries.push_back({bytes(overdraw_color(count)), std::to_string(count)});
-  entries.push_back({bytes(overdraw_color(most_counted_fragments)),
-                     std::to_string(most_counted_fragments) + " or more"});
+  entries.push_back({bytes(overdraw_color(max_counted_fragments)),
+                     std::to_string(max_counted_fragments) + " or more"});
   return entries;
 }
 

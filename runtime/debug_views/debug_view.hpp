@@ -80,7 +80,7 @@ DepthScale depth_scale(const Bounds& bounds, glm::dvec3 eye);
 Bounds middle_bounds(const TriangleSoup& soup);
 
 /// Largest fragment count with its own colour.
-inline constexpr int most_counted_fragments = 255;
+inline constexpr int max_counted_fragments = 255;
 
 /// The colour of a fragment count: heat_ramp(log2(count) / 8). 0 is the background.
 glm::vec3 overdraw_color(int count);

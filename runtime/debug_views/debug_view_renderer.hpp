@@ -58,7 +58,7 @@ class DebugViewRenderer {
   std::vector<std::uint32_t> read_faces() const;
 
   /// The fragment count of each pixel of the last overdraw frame, row 0 on top, at most
-  /// most_counted_fragments; empty for other debug views.
+  /// max_counted_fragments; empty for other debug views.
   std::vector<std::uint8_t> read_fragment_counts() const;
 
   /// Copies the last frame to a framebuffer of the same size (0 is the window).

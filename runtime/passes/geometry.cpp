@@ -11,10 +11,10 @@ namespace tureen {
 Geometry::Geometry(const GeometrySource& source)
     : positions_(gl::Buffer::create()), device_bytes_(source.face_count * sizeof(FaceCorners)) {
   // GL counts vertices in 31 bits.
-  constexpr std::size_t most_faces = 0x7fffffff / 3;
-  if (source.face_count > most_faces)
+  constexpr std::size_t max_faces = 0x7fffffff / 3;
+  if (source.face_count > max_faces)
     throw DeviceLimitError(std::to_string(source.face_count) + " triangles are more than the " +
-                           std::to_string(most_faces) + " that OpenGL draws from one buffer");
+                           std::to_string(max_faces) + " that OpenGL draws from one buffer");
   glBindBuffer(GL_ARRAY_BUFFER, positions_.id());
   if (gl::is_refused([&] {
         glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(device_bytes_), nullptr,

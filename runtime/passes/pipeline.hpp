@@ -64,8 +64,8 @@ std::unique_ptr<Pipeline> make_tureen_pipeline(const gl::Capabilities& capabilit
                                                AppearanceSource appearance,
                                                const GeometrySource& geometry,
                                                const RenderPlan& plan);
-std::unique_ptr<Pipeline> make_published_pipeline(const gl::Capabilities& capabilities,
-                                                  const DeviceLimits& limits,
-                                                  const TriangleSoup& soup, const RenderPlan& plan);
+std::unique_ptr<Pipeline> make_baseline_pipeline(const gl::Capabilities& capabilities,
+                                                 const DeviceLimits& limits,
+                                                 const TriangleSoup& soup, const RenderPlan& plan);
 
 }  // namespace tureen

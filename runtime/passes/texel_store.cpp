@@ -16,12 +16,12 @@ TexelLayout TexelLayout::of(const DeviceLimits& limits) {
   return layout;
 }
 
-TexelLayout TexelLayout::fitted(std::uint64_t most_texels) const {
-  const std::uint64_t rows = (most_texels >> row_bits) + 1;
+TexelLayout TexelLayout::fitted(std::uint64_t max_texels) const {
+  const std::uint64_t rows = (max_texels >> row_bits) + 1;
   TexelLayout layout = *this;
   if (rows <= std::uint64_t(1) << layer_bits) return layout;
-  const auto most_layers = std::uint64_t(std::min(64, max_layers));
-  while (layout.layer_bits > 0 && (rows >> (layout.layer_bits - 1)) < most_layers)
+  const auto max_layers = std::uint64_t(std::min(64, max_layers));
+  while (layout.layer_bits > 0 && (rows >> (layout.layer_bits - 1)) < max_layers)
     --layout.layer_bits;
   return layout;
 }

@@ -24,10 +24,10 @@ struct TexelLayout {
   int max_layers = 256;
 
   static TexelLayout of(const DeviceLimits& limits);
-  /// The layout for stores of at most `most_texels` texels that exceed one layer; a single layer is
+  /// The layout for stores of at most `max_texels` texels that exceed one layer; a single layer is
   /// as high as its contents. Layers are low enough that there are 32 to 64 and the last one wastes
   /// at most 1/32.
-  TexelLayout fitted(std::uint64_t most_texels) const;
+  TexelLayout fitted(std::uint64_t max_texels) const;
   std::uint64_t texels_per_layer() const { return std::uint64_t(1) << (row_bits + layer_bits); }
   /// Largest number of texels in one store: shaders count them in 32 bits.
   std::uint64_t capacity() const {

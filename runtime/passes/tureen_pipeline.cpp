@@ -27,7 +27,7 @@ class TureenPipeline final : public Pipeline {
         device_(capabilities),
         appearance_(std::move(appearance)),
         geometry_(geometry) {
-    if (plan.drops_faces_between_pixels) {
+    if (plan.drops_small_triangles) {
       covered_.emplace(geometry);
       covered_vertices_ = gl::Buffer::create();
       glGetIntegerv(GL_SUBPIXEL_BITS, &subpixel_bits_);
@@ -212,11 +212,11 @@ class TureenPipeline final : public Pipeline {
   Geometry geometry_;
   gl::Program opaque_, cut_out_;
   FrontToBack order_;
-  std::optional<CoveredFaces> covered_;  // where faces between pixels are dropped
+  std::optional<CoveredFaces> covered_;  // where small triangles are dropped
   gl::Buffer covered_vertices_;
   std::vector<std::uint32_t> vertices_;  // of the last frame's
   int subpixel_bits_ = 0;
-  /// Looking for a face between pixels costs a part of what not drawing it saves: where most faces
+  /// Looking for a small triangle costs a part of what not drawing it saves: where most faces
   /// are seen, the next frames draw all of them, which is the same image.
   static constexpr double worthwhile = 0.7;
   static constexpr int rested_frames = 30;  // the search is then a thirtieth of what it was

@@ -15,8 +15,8 @@ enum class FaceAlpha : std::uint8_t {
 };
 
 /// One class a face, computed from the data. Interpolated alpha stays within the range of its
-/// inputs, so the smallest and the largest value decide exactly (docs/leaving-out.md, alpha-test
-/// and transparent-faces).
+/// inputs, so the smallest and the largest value decide exactly (docs/specialisations.md,
+/// alpha-test and transparent-faces).
 std::vector<FaceAlpha> classify_alpha(const TriangleSoup& soup);
 
 /// False for a face that no rasteriser draws: a corner is not finite, or the area is 0

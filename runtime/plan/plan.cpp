@@ -72,8 +72,8 @@ RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
   draft.plan.appearance = appearance_name(soup.appearance);
   draft.plan.soup_faces = soup.triangles.size();
   draft.plan.quality = preferences.quality;
-  if (preferences.pipeline == PipelineKind::published) {
-    plan_published(draft);
+  if (preferences.pipeline == PipelineKind::baseline) {
+    plan_baseline(draft);
     return std::move(draft.plan);
   }
   draft.plan.reversed_depth = limits.clip_control && preferences.reversed_depth;

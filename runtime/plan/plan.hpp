@@ -26,8 +26,8 @@ struct DeviceLimits {
 };
 
 enum class PipelineKind {
-  tureen,     // visibility pass, then shading of covered pixels; or forward
-  published,  // a reimplementation of the published DiffSoup viewer, the baseline
+  tureen,    // visibility pass, then shading of covered pixels; or forward
+  baseline,  // a reimplementation of the published DiffSoup viewer, the baseline
 };
 
 enum class ShadingSite {
@@ -57,7 +57,7 @@ struct PlanPreferences {
   ShadingStage shading_stage = ShadingStage::fragment;
   /// Largest size of alpha by cell, in bytes on the device. Above it alpha is stored by texel, with
   /// identical images but slower.
-  std::uint64_t most_alpha_cell_bytes = ~std::uint64_t(0);
+  std::uint64_t max_alpha_cell_bytes = ~std::uint64_t(0);
   Quality quality = {};
 };
 
@@ -89,7 +89,7 @@ struct RenderPlan {
   std::vector<Cluster> clusters;
 
   /// Small-triangle culling: each frame skips faces that cover no pixel centre (covered_faces.hpp).
-  bool drops_faces_between_pixels = false;
+  bool drops_small_triangles = false;
 
   bool flat_colors = false;  // one colour a face suffices, whatever the soup stores
   bool color_mlp = false;    // the network is evaluated

@@ -33,7 +33,7 @@ std::string effect_of(const AppliedSpecialisation& applied) {
       return counted("faces are transparent throughout and not drawn");
     case Specialisation::coincident_faces:
       return counted("faces lie behind an opaque one with the same corners and are not drawn");
-    case Specialisation::faces_between_pixels:
+    case Specialisation::small_triangles:
       return "faces that cover no pixel's centre are found in each frame and not drawn";
     case Specialisation::shading_pass:
       return "colours are written in the only pass, as they cost little";
@@ -63,8 +63,8 @@ std::string effect_of(const AppliedSpecialisation& applied) {
 }
 
 std::string describe_frame(const RenderPlan& plan) {
-  if (plan.pipeline == PipelineKind::published)
-    return "published pipeline: two RGBA8 feature targets, every fragment samples all eight "
+  if (plan.pipeline == PipelineKind::baseline)
+    return "baseline: two RGBA8 feature targets, every fragment samples all eight "
            "channels, faces in file order, the network on every pixel with its weights in uniforms";
   std::string sentence = "draws " + part_of(plan.faces.size(), plan.soup_faces) + "faces (" +
                          plan.appearance + "), near ones first in " +
@@ -91,7 +91,7 @@ std::vector<std::string> describe(const RenderPlan& plan) {
     add("draws " + describe(plan.quality) + " and enlarges the image bilinearly");
   if (plan.quality.supersampling > 1) add("draws " + describe(plan.quality));
   if (plan.ignores_specialisations)
-    add("--keep has no effect: the published pipeline has no specialisations");
+    add("--keep has no effect: the baseline has no specialisations");
   if (plan.undrawable_faces > 0)
     add(std::to_string(plan.undrawable_faces) +
         " faces without area or with corners that are not finite are not drawn");

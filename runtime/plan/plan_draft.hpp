@@ -40,6 +40,6 @@ void plan_appearance(PlanDraft& draft, const UvTextures& textures);
 void plan_network(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges& ranges);
 
 /// The complete plan of the baseline. Throws UsageError if it cannot draw this soup.
-void plan_published(PlanDraft& draft);
+void plan_baseline(PlanDraft& draft);
 
 }  // namespace tureen

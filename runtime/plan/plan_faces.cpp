@@ -48,12 +48,12 @@ void draw_coincident_faces_alike(const TriangleSoup& soup, std::span<const std::
 /// Fewer faces than this are drawn in a few milliseconds anyway.
 constexpr std::size_t min_culled_faces = 16384;
 
-void plan_faces_between_pixels(PlanDraft& draft, const DeviceLimits& limits) {
+void plan_small_triangles(PlanDraft& draft, const DeviceLimits& limits) {
   if (!limits.software || draft.plan.faces.size() < min_culled_faces ||
-      !draft.may(Specialisation::faces_between_pixels))
+      !draft.may(Specialisation::small_triangles))
     return;
-  draft.plan.drops_faces_between_pixels = true;
-  draft.apply({Specialisation::faces_between_pixels});
+  draft.plan.drops_small_triangles = true;
+  draft.apply({Specialisation::small_triangles});
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ void plan_faces(PlanDraft& draft, const DeviceLimits& limits) {
   const std::uint32_t size = cluster_size(plan.faces.size());
   append_clusters(soup, plan.faces, 0, opaque, size, plan.clusters);
   append_clusters(soup, plan.faces, opaque, all, size, plan.clusters);
-  plan_faces_between_pixels(draft, limits);
+  plan_small_triangles(draft, limits);
 }
 
 }  // namespace tureen

@@ -63,7 +63,7 @@ void choose_alpha_storage(PlanDraft& draft, const LatticeTexture& texture) {
         lattice::cell_count(plan.lattice.levels.empty() ? int(texture.patches[plan.faces[i]].level)
                                                         : int(plan.lattice.levels[i]));
   const std::uint64_t bytes = cells * std::uint64_t(texture.is_float() ? 16 : 4);
-  if (bytes <= draft.preferences.most_alpha_cell_bytes) return;
+  if (bytes <= draft.preferences.max_alpha_cell_bytes) return;
   plan.lattice.alpha_by_cell = false;
   plan.lattice.refused_alpha_cell_bytes = bytes;
 }

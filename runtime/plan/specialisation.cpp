@@ -12,7 +12,7 @@ constexpr SpecialisationName specialisations[] = {
      "no faces that are transparent throughout"},
     {Specialisation::coincident_faces, "coincident-faces",
      "no faces behind an opaque one with the same corners"},
-    {Specialisation::faces_between_pixels, "faces-between-pixels",
+    {Specialisation::small_triangles, "faces-between-pixels",
      "no faces that cover no pixel's centre"},
     {Specialisation::shading_pass, "shading-pass", "no shading pass for cheap colours"},
     {Specialisation::background, "background", "no shading of background pixels"},

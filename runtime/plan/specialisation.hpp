@@ -1,5 +1,5 @@
 // Specialisations: work that a plan skips because the scene does not need it. Each has a name and
-// can be disabled alone, to measure its gain or to locate a fault. docs/leaving-out.md has the
+// can be disabled alone, to measure its gain or to locate a fault. docs/specialisations.md has the
 // condition, the bound and the gain of each.
 #pragma once
 
@@ -12,21 +12,21 @@
 namespace tureen {
 
 enum class Specialisation : std::uint8_t {
-  alpha_test,            // no alpha test for fully opaque faces
-  transparent_faces,     // fully transparent faces are not drawn
-  coincident_faces,      // faces behind an opaque one with the same corners are not drawn
-  faces_between_pixels,  // each frame skips faces that cover no pixel centre
-  shading_pass,          // inexpensive colours are computed in the only pass
-  background,            // pixels without a face are not shaded
-  interpolation,         // three equal vertex colours become one colour a face
-  harmonics_bands,       // bands that change no colour are not evaluated
-  color_mlp,             // a network that is never blended in is not evaluated
-  view_direction,        // a network ignores a direction that changes no colour
-  weight_uniforms,       // weights are constants of the shader
-  dead_neurons,          // neurons that never fire, and weights of zero, are not computed
-  latent_features,       // features 4 and above that are constant or have no weight are not read
-  constant_lattices,     // lattices with one colour become one colour a face
-  affine_texels,         // affine faces keep only their corner texels
+  alpha_test,         // no alpha test for fully opaque faces
+  transparent_faces,  // fully transparent faces are not drawn
+  coincident_faces,   // faces behind an opaque one with the same corners are not drawn
+  small_triangles,    // each frame skips faces that cover no pixel centre
+  shading_pass,       // inexpensive colours are computed in the only pass
+  background,         // pixels without a face are not shaded
+  interpolation,      // three equal vertex colours become one colour a face
+  harmonics_bands,    // bands that change no colour are not evaluated
+  color_mlp,          // a network that is never blended in is not evaluated
+  view_direction,     // a network ignores a direction that changes no colour
+  weight_uniforms,    // weights are constants of the shader
+  dead_neurons,       // neurons that never fire, and weights of zero, are not computed
+  latent_features,    // features 4 and above that are constant or have no weight are not read
+  constant_lattices,  // lattices with one colour become one colour a face
+  affine_texels,      // affine faces keep only their corner texels
 };
 
 /// One specialisation, as a plan applied it.

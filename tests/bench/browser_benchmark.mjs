@@ -21,7 +21,7 @@ if (!out || scenes.length === 0) {
 }
 
 const size = quick ? '160x90' : '1280x720', rounds = quick ? 1 : 5, openings = quick ? 1 : 7;
-/** Of one page. The published pipeline takes half a second a frame on two cores. */
+/** Of one page. The baseline takes half a second a frame on two cores. */
 const patience = 20 * 60_000;
 /** A new window and its spare processes are half a second of work on two cores, and so is closing the one
  *  before: visits begin when the browser is at rest, as people's do. */
@@ -78,7 +78,7 @@ function siteWith() {
   return folder;
 }
 
-/** Frame times beside the published pipeline's: of the scene's own cameras where it has some. */
+/** Frame times beside the baseline's: of the scene's own cameras where it has some. */
 async function frames(browser, site, scene) {
   const ask = (set) => measured(browser, site, `${scene}&published=1&set=${set}:8&size=${size}&rounds=${rounds}`);
   try {

@@ -59,7 +59,7 @@ int run(int argc, char** argv) {
   PlainRenderer plain(soup);
   Renderer ours = with_plan({}), generic = with_plan({.specialise = false});
   Renderer with_small = with_plan(
-      {.specialisations = SpecialisationSet::all().without(Specialisation::faces_between_pixels)});
+      {.specialisations = SpecialisationSet::all().without(Specialisation::small_triangles)});
   const auto finish = [] { glFinish(); };
   const BenchmarkCase cases[] = {
       {"plain", [&](const Camera& camera) { plain.draw(camera); }, finish},

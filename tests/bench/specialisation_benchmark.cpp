@@ -94,7 +94,7 @@ TriangleSoup large_soup(Specialisation what, const Scene& cloud) {
     if (kind == Kind::lattice) std::get<LatticeTexture>(soup.appearance).mlp.reset();
   } else {
     // Some pixels large; those that are to lie between pixels a tenth of that, when they are split.
-    const double size = what == Specialisation::faces_between_pixels ? 0.005 : 0.02;
+    const double size = what == Specialisation::small_triangles ? 0.005 : 0.02;
     soup = random_soup(1, {.kind = kind, .faces = 200000, .size = size, .degree = 3});
   }
   give_trait(what, soup);

@@ -144,7 +144,7 @@ TEST_F(Bench, WhoTakesPartCanBeChosen) {
               ElementsAre("tureen", "generic", "published"));
   EXPECT_THAT(all(bench_json({"--no-specialise"})["configurations"], "name"),
               ElementsAre("generic"));
-  EXPECT_THAT(all(bench_json({"--pipeline", "published"})["configurations"], "name"),
+  EXPECT_THAT(all(bench_json({"--pipeline", "baseline"})["configurations"], "name"),
               ElementsAre("published"));
   const nlohmann::json ceilings = bench_json({"--only", "tureen", "--ceilings"});
   EXPECT_THAT(all(ceilings["configurations"], "name"), ElementsAre("tureen", "triangles", "copy"));
@@ -159,7 +159,7 @@ TEST_F(Bench, EitherShadingStageCanTakePart) {
   const nlohmann::json asked = bench_json({"--shading", "compute"})["configurations"];
   EXPECT_THAT(asked[0]["options"], ElementsAre("--shading", "compute"));
   EXPECT_THAT(asked[1]["options"], ElementsAre("--shading", "compute", "--no-specialise"));
-  EXPECT_THAT(asked[2]["options"], ElementsAre("--pipeline", "published"));
+  EXPECT_THAT(asked[2]["options"], ElementsAre("--pipeline", "baseline"));
 }
 
 TEST_F(Bench, ASceneThatThePublishedPipelineCannotDrawIsTimedWithoutIt) {

@@ -7,7 +7,7 @@
 
 namespace tureen::test {
 
-/// Of the scene lego: drawing has, in this order, defaults, published pipeline, lattice level 2,
+/// Of the scene lego: drawing has, in this order, defaults, baseline, lattice level 2,
 /// shaded once a fragment, generic defaults and baked colour; antialiasing defaults and half the
 /// resolution.
 inline nlohmann::json lego() {

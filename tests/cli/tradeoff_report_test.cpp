@@ -70,12 +70,12 @@ TradeoffReport report() {
   result.clock = "sundial";
   result.samples = "device";
   result.study.drawing = panel();
-  tradeoff::Outcome published = outcome({0, 0}, "published pipeline", 90, 55);
-  published.method = tradeoff::Method::published;
+  tradeoff::Outcome published = outcome({0, 0}, "baseline", 90, 55);
+  published.method = tradeoff::Method::baseline;
   result.study.drawing.outcomes.push_back(published);
   for (tradeoff::Outcome& each : result.study.drawing.outcomes)
     each.exact = tradeoff::ExactError{each.error.psnr_db - 10, 0.25};
-  result.study.published = 5;
+  result.study.baseline = 5;
   result.study.antialiasing = panel();
   result.study.antialiasing.skipped = {{"half the resolution", "this device has none"}};
   result.study.grid.view_psnr_db = {50};
@@ -125,7 +125,7 @@ TEST(TradeoffReport, WarnsOfOutcomesThatMeanLess) {
 
 TEST(TradeoffCandidates, AreWhatCanBeChosen) {
   TradeoffReport made = report();
-  made.study.drawing.outcomes[4].method = tradeoff::Method::published;
+  made.study.drawing.outcomes[4].method = tradeoff::Method::baseline;
   made.study.drawing.aa_spread = 0.01;
   const tradeoff::Candidates all = tradeoff::candidates(made.study.drawing);
   EXPECT_THAT(all.index, ElementsAre(0, 2, 3));

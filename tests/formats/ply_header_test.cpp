@@ -37,7 +37,7 @@ TEST(PlyHeader, ReadsElementsAndProperties) {
   EXPECT_EQ(vertex.name, "vertex");
   EXPECT_EQ(vertex.count, 2u);
   EXPECT_EQ(vertex.line, 6u);
-  EXPECT_EQ(vertex.least_bytes(false), 9u);
+  EXPECT_EQ(vertex.min_bytes(false), 9u);
   ASSERT_EQ(vertex.properties.size(), 2u);
   EXPECT_EQ(vertex.properties[0].type, PlyType::float64);
   EXPECT_FALSE(vertex.properties[0].count_type);

@@ -83,11 +83,11 @@ TEST(JpegTables, BehindAImageAreNoneOfIt) {
   for (const fuzz::Fixture& fixture : fuzz::fixtures()) {
     if (fixture.target != "image" || fixture.bytes.at(0) != std::byte(0xff)) continue;
     ++images;
-    // As of a telephone that appends a film.
-    std::vector<std::byte> with_film = fixture.bytes;
-    const auto film = bytes_of(table(257) + Bytes(100, 0x5a));
-    with_film.insert(with_film.end(), film.begin(), film.end());
-    EXPECT_EQ(decode_image(with_film, "film.jpg").pixels,
+    // As of a telephone that appends a video.
+    std::vector<std::byte> with_video = fixture.bytes;
+    const auto video = bytes_of(table(257) + Bytes(100, 0x5a));
+    with_video.insert(with_video.end(), video.begin(), video.end());
+    EXPECT_EQ(decode_image(with_video, "video.jpg").pixels,
               decode_image(fixture.bytes, "still.jpg").pixels)
         << fixture.name;
   }

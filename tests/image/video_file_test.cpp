@@ -93,24 +93,24 @@ class Video : public ::testing::Test {
 };
 
 TEST_F(Video, ShowsTheFramesThatWereWritten) {
-  for (const char* name : {"-a film: 1.mp4", "film.WebM"}) {
+  for (const char* name : {"-a video: 1.mp4", "video.WebM"}) {
     constexpr int width = 65, height = 47, count = 5;
     VideoFile video(folder / name, {width, height, 25});
     for (int i = 0; i < count; ++i) video.add(frame(width, height, i));
     EXPECT_FALSE(fs::exists(folder / name)) << "whole or not at all";
     video.commit();
-    const Decoded film = decode(folder / name);
-    const bool webm = std::string(name) == "film.WebM";
-    EXPECT_EQ(film.description,
+    const Decoded video = decode(folder / name);
+    const bool webm = std::string(name) == "video.WebM";
+    EXPECT_EQ(video.description,
               (webm ? "vp9" : "h264") + std::string(",66,48,yuv420p,bt709,25/1\n"));
-    ASSERT_EQ(film.rgb.size(), std::size_t(3) * 66 * 48 * count);
+    ASSERT_EQ(video.rgb.size(), std::size_t(3) * 66 * 48 * count);
     // Away from the edges, where colours are mixed: the middle of each quarter, each frame. 4 steps
     // of 8 bits: the range of 219 levels, the matrix and the coding each cost about one.
     for (int i = 0; i < count; ++i) {
       const Image8 expected = frame(width, height, i);
       for (const auto& [x, y] : {std::pair(12, 10), {50, 10}, {12, 36}, {50, 36}})
         for (int channel = 0; channel < 3; ++channel)
-          EXPECT_NEAR(film.rgb[std::size_t(3) * (std::size_t(i) * 66 * 48 + y * 66 + x) + channel],
+          EXPECT_NEAR(video.rgb[std::size_t(3) * (std::size_t(i) * 66 * 48 + y * 66 + x) + channel],
                       expected.at(x, y)[channel], 4)
               << name << " frame " << i;
     }
@@ -119,13 +119,13 @@ TEST_F(Video, ShowsTheFramesThatWereWritten) {
 }
 
 TEST_F(Video, ThatIsNotFinishedLeavesNothingAndKeepsTheOldOne) {
-  write_text(folder / "film.mp4", "old");
+  write_text(folder / "video.mp4", "old");
   {
-    VideoFile video(folder / "film.mp4", {64, 48, 30});
+    VideoFile video(folder / "video.mp4", {64, 48, 30});
     for (int i = 0; i < 3; ++i) video.add(frame(64, 48, i));
   }
   EXPECT_EQ(files_in(folder / ""), 1u);
-  std::ifstream stream(folder / "film.mp4");
+  std::ifstream stream(folder / "video.mp4");
   std::string text;
   stream >> text;
   EXPECT_EQ(text, "old");
@@ -138,16 +138,16 @@ TEST(VideoFile, TellsWhatFfmpegComplainsAbout) {
   const Path path((folder / "bin").string() + ":/usr/bin:/bin");
   const auto failure = [&] {
     return error_of<OutputError>([&] {
-      VideoFile video(folder / "film.mp4", {64, 48, 30});
+      VideoFile video(folder / "video.mp4", {64, 48, 30});
       // Some frames fit into the connection before it shows that nobody reads.
       for (int i = 0; i < 200; ++i) video.add(frame(64, 48, 1));
       video.commit();
     });
   };
-  EXPECT_THAT(failure(), ErrorAt("film.mp4", "ffmpeg", "Unknown encoder"));
+  EXPECT_THAT(failure(), ErrorAt("video.mp4", "ffmpeg", "Unknown encoder"));
   // One that dies on a signal, and says nothing.
   write_program(folder / "bin/ffmpeg", "kill -9 $$");
-  EXPECT_THAT(failure(), ErrorAt("film.mp4", "ffmpeg"));
+  EXPECT_THAT(failure(), ErrorAt("video.mp4", "ffmpeg"));
   EXPECT_EQ(files_in(folder / ""), 1u) << "only bin";
 }
 
@@ -156,7 +156,7 @@ TEST(VideoFile, IsRefusedWithAdviceWhereFfmpegIsMissing) {
   const Path path((folder / "").string());
   EXPECT_FALSE(have_ffmpeg());
   try {
-    VideoFile video(folder / "film.mp4", {64, 48, 30});
+    VideoFile video(folder / "video.mp4", {64, 48, 30});
     FAIL() << "nothing thrown";
   } catch (const UsageError& error) {
     EXPECT_EQ(error.reason(), ffmpeg_missing);
@@ -169,12 +169,12 @@ TEST(VideoFile, NamesAndFoldersAreLookedAtFirst) {
   EXPECT_TRUE(is_video_name("a.b/c.WEBM"));
   EXPECT_FALSE(is_video_name("frame_%04d.png"));
   EXPECT_FALSE(is_video_name("mp4"));
-  EXPECT_THROW(VideoFile("film.avi", {64, 48, 30}), UsageError);
+  EXPECT_THROW(VideoFile("video.avi", {64, 48, 30}), UsageError);
   const test::TemporaryFolder folder;
   fs::create_directories(folder / "bin");
   write_program(folder / "bin/ffmpeg", "cat");
   const Path path((folder / "bin").string() + ":/usr/bin:/bin");
-  EXPECT_THROW(VideoFile(folder / "none/film.mp4", {64, 48, 30}), OutputError);
+  EXPECT_THROW(VideoFile(folder / "none/video.mp4", {64, 48, 30}), OutputError);
 }
 
 }  // namespace video_file_test

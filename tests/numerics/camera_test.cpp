@@ -47,7 +47,7 @@ class Comparison {
                 .ours = found.coverage_mismatch + found.face_mismatch,
                 .tolerance = std::min(most_of(mean), mean + 1e-4 * pixels) / pixels});
     const ColorError colors = color_error(soup, glm::dvec3(0), camera, expected, drawn);
-    EXPECT_GE(colors.compared, AgreementLimits().least_compared)
+    EXPECT_GE(colors.compared, AgreementLimits().min_compared)
         << at << ": there is hardly anything";
     colors_.add({.at = at, .ours = colors.beyond, .tolerance = colors.allowed});
   }

@@ -45,7 +45,7 @@ constexpr int steps_per_octave = 4;  // of the gaps that are tried
 
 /// For each of the distances the least gap of those that are tried from which on no pixel shows the
 /// rear wall, whichever comes first.
-std::vector<double> least_gaps(bool reversed) {
+std::vector<double> min_gaps(bool reversed) {
   const std::vector<double> from = distances();
   std::vector<double> gaps(from.size());
   // From 4 units down to 2^-27, which no float tells from 0 beside 1.
@@ -93,7 +93,7 @@ double rounding_of_reversed(double distance, double near) {
 double unit_of_fixed(double distance, double near) { return distance * distance / near * epsilon; }
 
 TEST(Numerics, D1_TwoWallsAreToldApart) {
-  const std::vector<double> reversed = least_gaps(true), fixed = least_gaps(false);
+  const std::vector<double> reversed = min_gaps(true), fixed = min_gaps(false);
   Recorder recorder({.stressed = "two walls one behind the other within a scene of radius 104: "
                                  "reversed depth in floats",
                      .parameter = "distance / units",

@@ -25,7 +25,7 @@ float logit_of(double alpha) {
 
 /// Standard errors that a mean of hundreds of draws or more may be off: a normal deviate is further
 /// off once in 16,000 times. Seeds are fixed, so a test that passes once always does.
-constexpr double most_standard_errors = 4;
+constexpr double max_standard_errors = 4;
 
 struct Moments {
   double sum = 0, squares = 0;
@@ -68,7 +68,7 @@ TEST(Numerics, S1_TheScoreStaysBoundedForEveryOpacity) {
     // alpha. Next to 1, where one draw in 2^23 is lost, this bounds the mean and does not tell its
     // sign; next to 0 it does.
     EXPECT_NEAR(by_logit.mean(), truth,
-                most_standard_errors * by_logit.standard_error() + a * (0x1p-24 + 1.0 / draws))
+                max_standard_errors * by_logit.standard_error() + a * (0x1p-24 + 1.0 / draws))
         << alpha;
     // |score| <= 1, and so is the loss.
     recorder.add({.at = std::max(1 - alpha, 1e-9),  // the plot's axis has no 0
@@ -186,7 +186,7 @@ TEST(Numerics, S4_PixelsOfTheBackgroundTeachOpacity) {
     recorder.add({.at = alpha,
                   .naive = std::abs(naive.mean() - truth) / gradient.standard_error(),
                   .ours = std::abs(gradient.mean() - truth) / gradient.standard_error(),
-                  .tolerance = most_standard_errors});
+                  .tolerance = max_standard_errors});
   }
 }
 
@@ -229,7 +229,7 @@ TEST(Numerics, S5_LossAndScoreShareTheirDraw) {
     recorder.add({.at = alpha,
                   .naive = std::abs(other.mean() - truth) / other.standard_error(),
                   .ours = std::abs(same.mean() - truth) / same.standard_error(),
-                  .tolerance = most_standard_errors});
+                  .tolerance = max_standard_errors});
   }
 }
 

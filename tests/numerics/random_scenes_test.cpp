@@ -109,7 +109,7 @@ class Comparison {
       for (int c = 0; c < 4; ++c) ASSERT_TRUE(std::isfinite(pixel[c])) << seed;
     const AgreementLimits limits;
     const Agreement found = agreement(expected, drawn);
-    ASSERT_GE(found.compared, limits.least_compared) << seed << ": there is hardly anything";
+    ASSERT_GE(found.compared, limits.min_compared) << seed << ": there is hardly anything";
     // The catalogue's 1e-4, four pixels here. Roundings of a corner, vertex_rounding of
     // 240 pixels, may move an edge across 3e-4 of the pixels at edges, which are up to a
     // quarter of the image: three. A needle's are an edge on both sides, and some alphas and
@@ -123,7 +123,7 @@ class Comparison {
     // That of 55 dB, for the reason that AgreementLimits has.
     colors_.add({.at = double(seed),
                  .ours = std::pow(10.0, -found.psnr / 20),
-                 .tolerance = std::pow(10.0, -limits.least_psnr / 20)});
+                 .tolerance = std::pow(10.0, -limits.min_psnr / 20)});
     const ColorError colors = color_error(scene.soup, scene.origin, scene.camera, expected, drawn);
     pixels_.add({.at = double(seed), .ours = colors.beyond, .tolerance = colors.allowed});
   }

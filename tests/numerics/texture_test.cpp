@@ -197,7 +197,7 @@ TEST(Numerics, T4_ThePrecisionOfTheColourChain) {
                          "features fetched once",
                      .parameter = "gain of the network's weights",
                      .unit = "root mean square of a channel",
-                     .naive = "the published pipeline: bytes by truncation, features in 8 bits",
+                     .naive = "the baseline: bytes by truncation, features in 8 bits",
                      .naive_fails_from = 1});
   Random random(4);
   const Camera camera = random_camera(random, 320, 240);
@@ -212,7 +212,7 @@ TEST(Numerics, T4_ThePrecisionOfTheColourChain) {
     const OracleImage expected = snapped_oracle(soup, glm::dvec3(0), camera);
     const Drawn ours = draw(shared_context(), soup, glm::dvec3(0), camera);
     Drawn published =
-        draw(shared_context(), soup, glm::dvec3(0), camera, {.pipeline = PipelineKind::published});
+        draw(shared_context(), soup, glm::dvec3(0), camera, {.pipeline = PipelineKind::baseline});
     published.faces = ours.faces;
     const auto error = [&](const Drawn& drawn) {
       return std::pow(10.0, -agreement(expected, drawn).psnr / 20);

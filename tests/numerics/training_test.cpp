@@ -133,7 +133,7 @@ Run run(const MakeBackend& make, std::span<const TrainingView> views, const Conf
 /// Of both backends, what says least for them.
 struct Outcome {
   double bad = 0;
-  std::uint64_t least_quarantined = ~std::uint64_t(0), most_quarantined = 0;
+  std::uint64_t min_quarantined = ~std::uint64_t(0), max_quarantined = 0;
   std::uint32_t network_steps = ~std::uint32_t(0);
   bool network_moved = true;
   /// How much smaller the loss is in the end than that of a run at rates of zero, which is not
@@ -154,8 +154,8 @@ Outcome train(const std::vector<TrainingView>& views, const Config& config,
     EXPECT_EQ(learning.end.step, config.steps);
     EXPECT_GT(learning.end.model.faces(), 0u);
     outcome.bad += learning.bad;
-    outcome.least_quarantined = std::min(outcome.least_quarantined, learning.end.non_finite);
-    outcome.most_quarantined = std::max(outcome.most_quarantined, learning.end.non_finite);
+    outcome.min_quarantined = std::min(outcome.min_quarantined, learning.end.non_finite);
+    outcome.max_quarantined = std::max(outcome.max_quarantined, learning.end.non_finite);
     outcome.network_steps = std::min(outcome.network_steps, learning.end.moments.mlp_steps);
     outcome.network_moved = outcome.network_moved && learning.end.model.mlp != begin.model.mlp;
     outcome.gain = std::min(outcome.gain, loss_at_rest / learning.end_loss);
@@ -166,7 +166,7 @@ Outcome train(const std::vector<TrainingView>& views, const Config& config,
 /// What nothing is wrong with beside its difficulty: no number is put aside, and faces and network
 /// learn.
 void expect_learning(const Outcome& outcome, double at) {
-  EXPECT_EQ(outcome.most_quarantined, 0u) << at;
+  EXPECT_EQ(outcome.max_quarantined, 0u) << at;
   EXPECT_EQ(outcome.network_steps, std::uint32_t(steps)) << at;
   EXPECT_TRUE(outcome.network_moved) << at;
   EXPECT_GT(outcome.gain, 1) << at;
@@ -230,13 +230,13 @@ TEST(Numerics, R1_ExplodingGradientsAreLeftOut) {
     if (gain == 1) expect_learning(outcome, gain);
     // The network is stepped, by far more than the weights of its last layer are long.
     if (gain == 1e5) {
-      EXPECT_EQ(outcome.most_quarantined, 0u);
+      EXPECT_EQ(outcome.max_quarantined, 0u);
       EXPECT_EQ(outcome.network_steps, std::uint32_t(steps));
     }
     if (gain >= 1e12) {
       // The network and nothing else, in every step; the faces learn without it.
-      EXPECT_EQ(outcome.least_quarantined, std::uint64_t(steps)) << gain;
-      EXPECT_EQ(outcome.most_quarantined, std::uint64_t(steps)) << gain;
+      EXPECT_EQ(outcome.min_quarantined, std::uint64_t(steps)) << gain;
+      EXPECT_EQ(outcome.max_quarantined, std::uint64_t(steps)) << gain;
       EXPECT_EQ(outcome.network_steps, 0u) << gain;
       EXPECT_GT(outcome.gain, 1) << gain;
     }
@@ -311,8 +311,8 @@ TEST(Numerics, R3_WhatIsNoNumberAtTheStartIsReplaced) {
     }
     const Outcome outcome = train(views, config, state);
     // Once each, and no more in the run.
-    EXPECT_EQ(double(outcome.least_quarantined), at_start);
-    EXPECT_EQ(double(outcome.most_quarantined), at_start);
+    EXPECT_EQ(double(outcome.min_quarantined), at_start);
+    EXPECT_EQ(double(outcome.max_quarantined), at_start);
     EXPECT_EQ(outcome.network_steps, std::uint32_t(steps));
     EXPECT_GT(outcome.gain, 1);
     recorder.add({.at = double(count), .naive = naive, .ours = outcome.bad, .tolerance = 0});

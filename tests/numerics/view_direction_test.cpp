@@ -72,7 +72,7 @@ std::vector<glm::vec4> of_shader(const char* function, const Camera& camera,
 /// How far floats may turn a direction of direction_to_eye(), in radians: each step's rounding is
 /// relative to what it rounds, coordinate by coordinate. For the cameras of V1 below the 5e-7 that
 /// the literature's form from the camera's axes is good for.
-double most_angle(const Camera& camera, const glm::dvec2& window) {
+double max_angle(const Camera& camera, const glm::dvec2& window) {
   const glm::dmat3 axes = camera.world_from_view_rotation();
   const glm::dvec3 column = axes[0] / camera.fx, row = axes[1] / camera.fy,
                    corner = -axes[2] - camera.cx * column - (camera.height - camera.cy) * row,
@@ -99,7 +99,7 @@ DirectionErrors direction_errors(const Camera& camera, double near, double far) 
     const glm::dvec3 truth = rays.to_eye(int(windows[i].x), camera.height - 1 - int(windows[i].y));
     errors.ours = worse(errors.ours, angle(results[i], truth));
     errors.naive = worse(errors.naive, angle(unprojected(camera, near, far, windows[i]), truth));
-    errors.tolerance = std::max(errors.tolerance, most_angle(camera, glm::vec2(windows[i])));
+    errors.tolerance = std::max(errors.tolerance, max_angle(camera, glm::vec2(windows[i])));
   }
   return errors;
 }

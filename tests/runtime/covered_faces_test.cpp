@@ -174,10 +174,9 @@ TEST_P(CoveredFacesImage, StaysTheSameToTheBit) {
       corner = first + 20.0f * (corner - first);
     }
   const SpecialisationSet all = SpecialisationSet::all();
-  Renderer without(
-      context, soup, glm::dvec3(0),
-      {.plan = {.specialisations = all.without(Specialisation::faces_between_pixels)}});
-  ASSERT_FALSE(without.plan().drops_faces_between_pixels);
+  Renderer without(context, soup, glm::dvec3(0),
+                   {.plan = {.specialisations = all.without(Specialisation::small_triangles)}});
+  ASSERT_FALSE(without.plan().drops_small_triangles);
   int showing = 0;
   for (int i = 0; i < 4; ++i) {
     Camera camera = random_camera(random, 200 + 37 * i, 150);
@@ -187,7 +186,7 @@ TEST_P(CoveredFacesImage, StaysTheSameToTheBit) {
     }
     // Anew for each view: a frame that shows most faces lets the search rest in those after it.
     Renderer with(context, soup, glm::dvec3(0), {.plan = {.specialisations = all}});
-    ASSERT_TRUE(with.plan().drops_faces_between_pixels);
+    ASSERT_TRUE(with.plan().drops_small_triangles);
     with.draw(camera);
     without.draw(camera);
     const Image8 a = with.read_color(), b = without.read_color();
@@ -216,10 +215,10 @@ TEST(CoveredFaces, AreFoundAmongThePixelsThatAreDrawn) {
     Renderer with(context, soup, glm::dvec3(0),
                   {.plan = {.specialisations = all, .quality = quality}});
     Renderer without(context, soup, glm::dvec3(0),
-                     {.plan = {.specialisations = all.without(Specialisation::faces_between_pixels),
+                     {.plan = {.specialisations = all.without(Specialisation::small_triangles),
                                .quality = quality}});
-    ASSERT_TRUE(with.plan().drops_faces_between_pixels);
-    ASSERT_FALSE(without.plan().drops_faces_between_pixels);
+    ASSERT_TRUE(with.plan().drops_small_triangles);
+    ASSERT_FALSE(without.plan().drops_small_triangles);
     const Camera camera = random_camera(random, 211, 150);
     with.draw(camera);
     without.draw(camera);

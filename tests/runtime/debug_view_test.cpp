@@ -181,7 +181,7 @@ using Expected = std::function<std::optional<glm::dvec3>(int column, int row, co
 /// are off by more are counted: a value that float cannot tell from a threshold or from the border
 /// of a cell falls to the other side.
 void expect_shown(const Scenery& scenery, const DebugViewRenderer& debug_renderer,
-                  const Expected& expected, double steps, double most_off = 0.002) {
+                  const Expected& expected, double steps, double max_off = 0.002) {
   const Image8 image = debug_renderer.read_color();
   const std::vector<std::uint32_t> faces = debug_renderer.read_faces();
   const auto hits = all_hits(scenery);
@@ -203,7 +203,7 @@ void expect_shown(const Scenery& scenery, const DebugViewRenderer& debug_rendere
         }
     }
   EXPECT_GT(compared, 1000u) << "seed " << scenery.seed;
-  EXPECT_LE(double(off), most_off * double(compared))
+  EXPECT_LE(double(off), max_off * double(compared))
       << "seed " << scenery.seed << ", of " << compared;
 }
 
@@ -409,7 +409,7 @@ TEST_P(DebugViews, MoreFragmentsThanCanBeCountedAreTheMost) {
   shown.show(DebugView::overdraw);
   shown.draw(look_at({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 0.8, 16, 16));
   for (const std::uint8_t count : shown.read_fragment_counts())
-    ASSERT_EQ(int(count), most_counted_fragments);
+    ASSERT_EQ(int(count), max_counted_fragments);
 }
 
 TEST_P(DebugViews, WireframesOutlineWholeTriangles) {

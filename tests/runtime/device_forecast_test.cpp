@@ -64,7 +64,7 @@ TEST(DeviceForecast, IsRightWhereFacesBetweenPixelsAreFound) {
   const gl::Context context = gl::Context::create(test::osmesa);
   const TriangleSoup soup = test::random_soup(3, {.faces = 40000});
   const Renderer renderer(context, soup, glm::dvec3(0));
-  ASSERT_TRUE(renderer.plan().drops_faces_between_pixels);
+  ASSERT_TRUE(renderer.plan().drops_small_triangles);
   const std::uint64_t forecast = device_forecast(soup, renderer.plan()).bytes;
   // One store of 16 bytes a texel is padded by less than a row: 32,160 of 65,536 bytes are taken.
   EXPECT_GE(renderer.device_bytes(), forecast);

@@ -187,7 +187,7 @@ TEST(Plan, WithoutSpecialisationNothingIsLeftOut) {
 
 TEST(Plan, KeepingChangesNothingForThePublishedPipeline) {
   const TriangleSoup soup = random_soup(1, {.kind = Kind::lattice_mlp, .level = 2});
-  PlanPreferences published{.pipeline = PipelineKind::published};
+  PlanPreferences published{.pipeline = PipelineKind::baseline};
   EXPECT_FALSE(make_plan(soup, DeviceLimits{}, published).ignores_specialisations);
   published.specialisations = SpecialisationSet::all().without(Specialisation::alpha_test);
   EXPECT_TRUE(make_plan(soup, DeviceLimits{}, published).ignores_specialisations);
@@ -196,7 +196,7 @@ TEST(Plan, KeepingChangesNothingForThePublishedPipeline) {
 TEST(Plan, ThePublishedPipelineRefusesWhatItCannotDraw) {
   const TriangleSoup soup = random_soup(1, {.kind = Kind::face_colors});
   EXPECT_THAT(error_of<UsageError>(
-                  [&] { make_plan(soup, DeviceLimits{}, {.pipeline = PipelineKind::published}); }),
+                  [&] { make_plan(soup, DeviceLimits{}, {.pipeline = PipelineKind::baseline}); }),
               ErrorAt("", appearance_name(soup.appearance)));
 }
 
@@ -230,7 +230,7 @@ struct KindAndSeed {
 
 class SpecialisedKinds : public testing::TestWithParam<KindAndSeed> {};
 
-// docs/leaving-out.md: what the plan calls exact leaves every pixel as it is. Compiling the
+// docs/specialisations.md: what the plan calls exact leaves every pixel as it is. Compiling the
 // network's weights in sums the same terms in another order: that may round one channel in 100,000
 // otherwise.
 TEST_P(SpecialisedKinds, DrawsWhatTheGenericPlanDraws) {

@@ -22,7 +22,7 @@ TEST(QualityPlan, IsWhatWasAskedFor) {
 TEST(QualityPlan, IsThePublishedPipelinesToo) {
   const TriangleSoup one_level = random_soup(21, {.kind = Kind::lattice_mlp, .level = 1});
   PlanPreferences plan = with({.supersampling = 2});
-  plan.pipeline = PipelineKind::published;
+  plan.pipeline = PipelineKind::baseline;
   EXPECT_EQ(make_plan(one_level, {}, plan).quality, plan.quality);
 }
 

@@ -38,14 +38,14 @@ struct RealSoup {
   const char* name;
   /// The plant fills 7 % of its image; the one part of the drums that is there, 11,026 triangles
   /// scattered over the whole, 1.6 to 2.2 %, which still is 11,000 pixels.
-  double least_compared;
+  double min_compared;
 };
 void PrintTo(const RealSoup& soup, std::ostream* out) { *out << soup.name; }
 
 class RealData : public testing::TestWithParam<RealSoup> {};
 
 TEST_P(RealData, AgreesWithTheOracle) {
-  const auto [name, least_compared] = GetParam();
+  const auto [name, min_compared] = GetParam();
   if (!std::filesystem::exists(data(name))) GTEST_SKIP() << "no ../shared/data";
   const Scene scene = read_scene(data(name));
   const auto& soup = std::get<TriangleSoup>(scene.primitives);
@@ -54,11 +54,10 @@ TEST_P(RealData, AgreesWithTheOracle) {
     const OracleImage oracle = test::snapped_oracle(soup, scene.origin, camera);
     Drawn drawn = draw(scene, camera, {.site = ShadingSite::deferred});
     const std::string which = "view " + std::to_string(view++);
-    test::expect_agreement(oracle, drawn, which, {.least_compared = least_compared});
+    test::expect_agreement(oracle, drawn, which, {.min_compared = min_compared});
     // The plan that a user gets may shade forward; it covers the same pixels.
     drawn.color = draw(scene, camera, {}).color;
-    test::expect_agreement(oracle, drawn, which + " as planned",
-                           {.least_compared = least_compared});
+    test::expect_agreement(oracle, drawn, which + " as planned", {.min_compared = min_compared});
   }
 }
 

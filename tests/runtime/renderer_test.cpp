@@ -169,7 +169,7 @@ TEST(Renderer, DrawsTheSameAfterItLeftTheContext) {
   const std::vector<PlanPreferences> plans = {{},
                                               {.site = ShadingSite::forward},
                                               {.quality = {.supersampling = 2}},
-                                              {.pipeline = PipelineKind::published}};
+                                              {.pipeline = PipelineKind::baseline}};
   for (const PlanPreferences& plan : plans) {
     const TriangleSoup soup = random_soup(11, {.kind = Kind::lattice_mlp, .level = 2});
     Random random(11);
@@ -238,7 +238,7 @@ TEST(Renderer, AlphaByTheTexelIsAlphaByTheCell) {
           77, {.kind = Kind::lattice_mlp, .faces = 300, .level = level, .float_texels = floats});
       const gl::Context context = gl::Context::create(osmesa);
       RenderOptions lean;
-      lean.plan.most_alpha_cell_bytes = 1000;
+      lean.plan.max_alpha_cell_bytes = 1000;
       Renderer by_cell(context, soup, {}), by_texel(context, soup, {}, lean);
       EXPECT_TRUE(by_cell.plan().lattice.alpha_by_cell);
       ASSERT_FALSE(by_texel.plan().lattice.alpha_by_cell);
@@ -261,7 +261,7 @@ TEST(Renderer, TellsWhatItsTargetsTake) {
       {{.site = ShadingSite::deferred}, 4 + 4 + 8},
       {{.site = ShadingSite::deferred, .quality = {.supersampling = 3}}, 9 * 16 + 4},
       {{.site = ShadingSite::deferred, .quality = {.resolution_scale = 0.5}}, 4 + 4},
-      {{.pipeline = PipelineKind::published}, 4 + 3 * 4},
+      {{.pipeline = PipelineKind::baseline}, 4 + 3 * 4},
   };
   for (const auto& [plan, each] : bytes_a_pixel) {
     SCOPED_TRACE(each);

@@ -48,7 +48,7 @@ struct Variant {
 const Variant variants[] = {
     {"deferred", {.site = ShadingSite::deferred}},
     {"forward", {.site = ShadingSite::forward}},
-    {"published", {.pipeline = PipelineKind::published}},
+    {"published", {.pipeline = PipelineKind::baseline}},
 };
 
 class Resampling : public testing::TestWithParam<NamedContext> {

@@ -133,7 +133,7 @@ TEST(CutoutCloud, ReadFromADiffSoupExportAgreesWithTheOracle) {
     test::expect_agreement(test::snapped_oracle(soup_of(read), read.origin, read.cameras[view]),
                            drawn, "view " + std::to_string(view),
                            // As for the variant in gl_oracle_test.cpp.
-                           {.most_face_mismatch = 3e-5});
+                           {.max_face_mismatch = 3e-5});
   }
   expect_the_same_pixels(scene, read);
 }

@@ -1,5 +1,5 @@
 // Each thing that a plan leaves out, alone: a soup that has its trait loses nothing, one that lacks
-// it keeps it. docs/leaving-out.md names these tests as its proofs.
+// it keeps it. docs/specialisations.md names these tests as its proofs.
 #include "runtime/plan/specialisation.hpp"
 
 #include <gtest/gtest.h>

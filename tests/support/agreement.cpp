@@ -111,9 +111,9 @@ void expect_agreement(const OracleImage& oracle, const Drawn& drawn, const std::
   std::string key = what;
   std::replace(key.begin(), key.end(), ' ', '_');  // it becomes an attribute's name in XML
   testing::Test::RecordProperty(key, numbers.str());
-  if (found.coverage_mismatch <= limits.most_coverage_mismatch &&
-      found.face_mismatch <= limits.most_face_mismatch && found.psnr >= limits.least_psnr &&
-      found.compared >= limits.least_compared)
+  if (found.coverage_mismatch <= limits.max_coverage_mismatch &&
+      found.face_mismatch <= limits.max_face_mismatch && found.psnr >= limits.min_psnr &&
+      found.compared >= limits.min_compared)
     return;
   ADD_FAILURE() << what << ": " << numbers.str() << "; see " << folder;
   if (oracle.face.size() != drawn.faces.size()) return;

@@ -47,14 +47,14 @@ Agreement agreement(const OracleImage& oracle, const Drawn& drawn);
 struct AgreementLimits {
   /// Vertices that rounding in float sends to another 1/256 of a pixel, and alphas and depths that
   /// float cannot tell from the threshold or from each other: docs/numerics.md, H10.
-  double most_coverage_mismatch = 1e-4;
-  double most_face_mismatch = 1e-4;
+  double max_coverage_mismatch = 1e-4;
+  double max_face_mismatch = 1e-4;
   /// Rounding to 8 bits leaves 58.9 dB where errors are spread evenly over half a step to either
   /// side, and 54.2 where all of them are half a step. Of a few flat colours some may be close to
   /// that, all of them by chance never: 55 are nine tenths of half a step in every pixel.
-  double least_psnr = 55.0;
+  double min_psnr = 55.0;
   /// Of the image where both name the same face: below it there is hardly anything to compare.
-  double least_compared = 0.05;
+  double min_compared = 0.05;
 };
 
 /// Fails unless they agree within the limits. Records what it measured as a property of the test.

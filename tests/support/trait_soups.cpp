@@ -83,7 +83,7 @@ std::uint8_t face_value(std::size_t face, int channel) {
 Kind kind_of_trait(Specialisation what) {
   switch (what) {
     case Specialisation::coincident_faces:
-    case Specialisation::faces_between_pixels:
+    case Specialisation::small_triangles:
       return Kind::face_colors;
     case Specialisation::shading_pass:
     case Specialisation::interpolation:
@@ -116,7 +116,7 @@ void give_trait(Specialisation what, TriangleSoup& soup) {
       }
       return;
     }
-    case Specialisation::faces_between_pixels:
+    case Specialisation::small_triangles:
       for (int i = 0; i < 2 || soup.triangles.size() < 65536; ++i) split_faces(soup);
       return;
     case Specialisation::interpolation: {

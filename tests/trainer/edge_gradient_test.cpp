@@ -176,7 +176,7 @@ const Corners tilted = {glm::dvec3(-1.1, -0.9, -2.0), glm::dvec3(1.2, -0.6, -2.6
 // derivative at most, over these tests, all motions and 8 seeds of the grids. The budget is 3.7
 // times that.
 constexpr int phases = 300;
-constexpr double most_error = 1e-3;
+constexpr double max_error = 1e-3;
 
 // The gathered gradient against the derivative of a loss by each motion.
 void expect_derivatives(const Corners& gathered, const Corners& corners,
@@ -184,8 +184,7 @@ void expect_derivatives(const Corners& gathered, const Corners& corners,
   for (const Motion& motion : motions()) {
     const Corners velocity = motion.velocity(corners);
     const double expected = derivative(corners, velocity, loss);
-    EXPECT_NEAR(along(gathered, velocity), expected, most_error * std::abs(expected))
-        << motion.name;
+    EXPECT_NEAR(along(gathered, velocity), expected, max_error * std::abs(expected)) << motion.name;
   }
 }
 

@@ -211,7 +211,7 @@ TEST(Schedule, RemovesFacesThatTooFewImagesShow) {
   config.triangles = 50;
   config.resample_every = 1;
   for (const auto& [least, removed] : {std::pair(1, 0u), {2, 12u}, {3, 12u}}) {
-    config.least_views = least;
+    config.min_views = least;
     EXPECT_EQ(removed_of(config, 12), removed) << least;
     EXPECT_EQ(removed_of(config, 12, 19), 0u);  // too few images to ask for two
   }

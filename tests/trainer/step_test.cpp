@@ -215,11 +215,11 @@ TEST(CpuStep, ItsGradientIsThatOfTheLoss) {
           << "logit " << i;
     }
     EXPECT_GT(touched, 30);
-    const double most_mlp = largest(after.moments.mlp_first);
+    const double max_mlp = largest(after.moments.mlp_first);
     for (std::size_t i = 0; i < mlp_parameters; i += 11) {
       const double expected = difference(mlp[i]);
       EXPECT_NEAR(double(after.moments.mlp_first[i]), expected,
-                  1e-3 * (std::abs(expected) + 0.01 * most_mlp))
+                  1e-3 * (std::abs(expected) + 0.01 * max_mlp))
           << "parameter " << i;
     }
   }

@@ -83,7 +83,7 @@ TEST_F(LostDevice, IsToldAlsoWhereNothingCanBeKept) {
 
 /// The longest side of a target that the device has memory for: enough for 400 x 300 with four
 /// samples a pixel and for 600 x 450 with one, not with four.
-constexpr int most_pixels_a_side = 900;
+constexpr int max_pixels_a_side = 900;
 
 PFNGLCHECKFRAMEBUFFERSTATUSPROC own_status = nullptr;  // the driver's
 
@@ -96,8 +96,8 @@ GLenum GLAD_API_PTR refuse_large_targets(GLenum target) {
   glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &width);
   glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_HEIGHT, &height);
   glBindTexture(GL_TEXTURE_2D, GLuint(bound));
-  return std::max(width, height) > most_pixels_a_side ? GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT
-                                                      : own_status(target);
+  return std::max(width, height) > max_pixels_a_side ? GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT
+                                                     : own_status(target);
 }
 
 class SmallDevice : public testing::Test {

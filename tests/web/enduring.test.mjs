@@ -85,12 +85,12 @@ test('fifty scenes one after the other leave nothing behind', () => visit('', as
 }));
 
 /** Makes a device that has no memory for larger texel stores than this: runs in the page before its scripts. */
-function shortOfMemory(mostBytes) {
+function shortOfMemory(maxBytes) {
   const gl = WebGL2RenderingContext.prototype, { texImage3D, getError } = gl;
   let missing = false;
   gl.texImage3D = function (...given) {
     const [, , , width, height, depth] = given;
-    if (4 * width * height * depth > mostBytes) missing = true;
+    if (4 * width * height * depth > maxBytes) missing = true;
     else texImage3D.apply(this, given);
   };
   gl.getError = function () {

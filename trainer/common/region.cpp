@@ -16,7 +16,7 @@ namespace {
 
 /// The smallest mean of sin^2 of the angles between axes and their mean for which they meet: 3
 /// degrees. Below, the errors of the poses decide how far away they do.
-constexpr double least_spread = 3e-3;
+constexpr double min_spread = 3e-3;
 
 /// Distances below this part of the eyes' coordinates are the roundings of poses written in floats.
 constexpr double rounding = 1e-6;
@@ -45,7 +45,7 @@ std::optional<glm::dvec3> nearest_to_axes(const std::vector<Photograph>& views) 
   for (int column = 0; column < 3; ++column) squares += glm::dot(inverse[column], inverse[column]);
   // The norm of the inverse is one over the smallest eigenvalue, within a factor of sqrt(3). NaN
   // and infinity (a singular matrix) fail the comparison.
-  if (!(std::sqrt(squares) < 1 / least_spread)) return std::nullopt;
+  if (!(std::sqrt(squares) < 1 / min_spread)) return std::nullopt;
   return inverse * right;
 }
 

@@ -23,7 +23,7 @@ using Magic = std::array<char, 8>;
 constexpr Magic magic{'T', 'U', 'R', 'E', 'E', 'N', 'T', 'R'};
 
 /// As large as the images of our own files may be.
-constexpr std::int32_t most_side = 65'536;
+constexpr std::int32_t max_side = 65'536;
 
 std::uint32_t checksum(std::uint32_t sum, std::span<const std::byte> bytes) {
   if (bytes.empty()) return sum;  // no address means the sum's beginning to zlib
@@ -168,7 +168,7 @@ std::optional<std::string> defect(const Checkpoint& checkpoint) {
   const TrainingState& state = checkpoint.state;
   std::uint64_t pixels = 0;
   for (const ViewFingerprint& view : checkpoint.views) {
-    if (view.width < 1 || view.width > most_side || view.height < 1 || view.height > most_side)
+    if (view.width < 1 || view.width > max_side || view.height < 1 || view.height > max_side)
       return fmt::format("a view of {} x {} pixels", view.width, view.height);
     pixels += std::uint64_t(view.width) * std::uint64_t(view.height);
   }

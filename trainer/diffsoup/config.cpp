@@ -14,7 +14,7 @@ Config preset(Preset kind) {
     // Nothing contradicts what hangs before one camera alone, and it spoils the views beside it.
     config.near = 0.8f;
     config.clear_near = true;
-    config.least_views = 3;
+    config.min_views = 3;
     // Nothing was behind the photographs: what no triangle covers is an error, not a white wall.
     for (float& channel : config.background) channel = 0.0f;
   } else {
@@ -49,7 +49,7 @@ Config published(Preset kind) {
     config.split_beyond_budget = true;
     config.near = 0.01f;
     config.clear_near = false;
-    config.least_views = 1;
+    config.min_views = 1;
     config.around_points = 0.0f;
   }
   return config;

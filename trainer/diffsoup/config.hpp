@@ -98,7 +98,7 @@ struct Config {
   bool split_beyond_budget = false;
   /// Published: 1. Faces that fewer training images show are removed; no more are asked for than
   /// one and a twentieth of all.
-  int least_views = 1;
+  int min_views = 1;
 
   // --- The image
   float near = 0.01f;

@@ -174,7 +174,7 @@ const ConfigField fields[] = {
      {},
      "Projected edges are split beyond the number of triangles, which the next pruning restores"},
     {"least_views",
-     &Config::least_views,
+     &Config::min_views,
      steps,
      {},
      "Triangles that fewer training images show are removed at each resampling; limited to one and "

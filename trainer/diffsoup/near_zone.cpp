@@ -19,7 +19,7 @@ class NearPyramid {
       : pixels_(camera, origin), near_(near) {}
 
   bool meets(const glm::vec3* corners) const {
-    std::array<glm::dvec3, most_corners> polygon, clipped;
+    std::array<glm::dvec3, max_corners> polygon, clipped;
     std::size_t count = 3;
     for (std::size_t i = 0; i < 3; ++i) polygon[i] = pixels_(corners[i]);
     for (int plane = 0; plane < planes; ++plane) {
@@ -43,7 +43,7 @@ class NearPyramid {
   /// A convex polygon gains one corner at a plane. Rounding bends one that is as small as its
   /// error, at the very eye say: every second corner may be outside, which gives half as many
   /// again, from three 4, 6, 9, 13 and 19.
-  static constexpr std::size_t most_corners = 19;
+  static constexpr std::size_t max_corners = 19;
 
   /// Not negative on the inner side. The first plane leaves most triangles out.
   double distance(int plane, glm::dvec3 point) const {

@@ -16,7 +16,7 @@ namespace {
 
 /// No cut is nearer to a corner, as a fraction of its edge: each makes progress, also in floats, so
 /// that no extreme perspective spends the budget on one edge.
-constexpr double least_cut = 0x1p-10;
+constexpr double min_cut = 0x1p-10;
 
 struct Candidate {
   double priority;  // a length, or an error
@@ -107,7 +107,7 @@ class ViewProjection {
     // Halved in the image: (1 - s) W_from = s W_to.
     const double s = from.z / (from.z + to.z);
     return Visible{glm::length(glm::dvec2(to) / to.z - glm::dvec2(from) / from.z),
-                   std::clamp(low + s * (high - low), least_cut, 1 - least_cut)};
+                   std::clamp(low + s * (high - low), min_cut, 1 - min_cut)};
   }
 
  private:

@@ -19,13 +19,13 @@ namespace {
 constexpr std::uint64_t epoch_stream = std::uint64_t(1) << 32;
 constexpr std::uint64_t split_stream = std::uint64_t(2) << 32;
 
-/// Config::least_views rises by one for so many training images at most.
+/// Config::min_views rises by one for so many training images at most.
 constexpr std::size_t images_a_view = 20;
 
 /// Splits beyond the budget end at so many times the budget. A view has room for about 25 edges of
 /// a fifth of its height side by side, so twenty views come nowhere near it: this bounds memory
 /// where a threshold is tiny.
-constexpr std::size_t most_beyond = 8;
+constexpr std::size_t max_beyond = 8;
 
 std::vector<std::uint32_t> shuffled(std::size_t count, Random random) {
   std::vector<std::uint32_t> order(count);
@@ -209,7 +209,7 @@ void Trainer::resample() {
 std::vector<std::uint64_t> Trainer::evident_pixels(const Model& model,
                                                    std::span<const Camera> cameras) {
   // Of few images one alone may be all that shows a place.
-  const int least = std::min(config_.least_views, 1 + int(cameras.size() / images_a_view));
+  const int least = std::min(config_.min_views, 1 + int(cameras.size() / images_a_view));
   std::vector<std::uint64_t> pixels;
   if (least > 1) {
     pixels.resize(model.faces());
@@ -237,7 +237,7 @@ std::vector<std::uint64_t> Trainer::evident_pixels(const Model& model,
 std::vector<Split> Trainer::choose_splits(const TrainingState& state,
                                           std::span<const Camera> cameras) {
   const std::size_t triangles = std::size_t(config_.triangles);
-  const std::size_t budget = config_.split_beyond_budget ? most_beyond * triangles : triangles;
+  const std::size_t budget = config_.split_beyond_budget ? max_beyond * triangles : triangles;
   if (state.model.faces() == 0) return {};
   std::vector<Split> splits;
   if (config_.preset == Preset::scene) {

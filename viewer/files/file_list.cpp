@@ -30,7 +30,7 @@ FileList list_files(const fs::path& folder) {
     std::error_code ignored;
     const bool is_folder = entry->is_directory(ignored);
     if (!is_folder && !has_scene_name(entry->path())) continue;
-    if (list.entries.size() == most_entries) {
+    if (list.entries.size() == max_entries) {
       list.cut = true;
       break;
     }

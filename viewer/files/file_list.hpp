@@ -21,7 +21,7 @@ struct FileList {
 };
 
 /// A folder with more is cut off.
-inline constexpr std::size_t most_entries = 2000;
+inline constexpr std::size_t max_entries = 2000;
 
 /// Folders, and files that have a scene's or a dataset's name. What cannot be listed says so.
 FileList list_files(const std::filesystem::path& folder);

@@ -9,7 +9,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A folder of more files is watched by the first so many of them: looking must stay cheap.
-constexpr int most_files = 256;
+constexpr int max_files = 256;
 
 /// The mixing step of splitmix64: every bit of the sum moves every bit of the print.
 std::uint64_t mixed(std::uint64_t x) {
@@ -40,7 +40,7 @@ std::uint64_t FileWatch::fingerprint() const {
   for (fs::directory_iterator entry(path_, failed), end; !failed && entry != end;
        entry.increment(failed)) {
     if (entry->is_regular_file(failed)) sum += print_of(entry->path());
-    if (++count == most_files) break;
+    if (++count == max_files) break;
   }
   return sum;
 }

@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 constexpr std::array button_names = {"left", "right", "middle"};
 
 /// Windows of up to this many points a side; events are of it.
-constexpr int most_points = 16384;
+constexpr int max_points = 16384;
 
 std::array<double, 2> pair_of(const JsonView& view) {
   if (view.size() != 2) view.fail("expected two numbers");
@@ -27,7 +27,7 @@ std::array<double, 2> pair_of(const JsonView& view) {
 
 glm::ivec2 size_of(const JsonView& view) {
   if (view.size() != 2) view.fail("expected a width and a height");
-  const glm::ivec2 size(view.at(0).natural(most_points), view.at(1).natural(most_points));
+  const glm::ivec2 size(view.at(0).natural(max_points), view.at(1).natural(max_points));
   if (size.x < 1 || size.y < 1) view.fail("a window has at least a point a side");
   return size;
 }

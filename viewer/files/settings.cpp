@@ -36,7 +36,7 @@ void take(const Json& object, const char* key, T& value, const std::string& file
 }
 
 /// A window that can be seen and that every screen can hold.
-constexpr glm::vec2 least_window{320, 240}, most_window{16384, 16384};
+constexpr glm::vec2 min_window{320, 240}, max_window{16384, 16384};
 
 }  // namespace
 
@@ -68,7 +68,7 @@ Settings read_settings(const fs::path& file) {
   if (const auto window = json.find("window"); window != json.end()) {
     // Clamped as they are: no int holds every number.
     const std::vector<float> sides = json_floats(*window, 2, name, "window");
-    settings.window = glm::clamp(glm::vec2(sides[0], sides[1]), least_window, most_window);
+    settings.window = glm::clamp(glm::vec2(sides[0], sides[1]), min_window, max_window);
   }
   take(json, "vsync", settings.vsync, name);
   take(json, "smooth_motion", settings.smooth_motion, name);

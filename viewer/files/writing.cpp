@@ -22,7 +22,7 @@ namespace {
 constexpr double preparing_share = 0.05;
 
 /// An hour at 240 frames a second is less: more is a slip in a number.
-constexpr int most_frames = 1000000;
+constexpr int max_frames = 1000000;
 
 /// Writes what `draw` hands to its sink.
 void write_rows(const ImageJob& job, const std::function<void(const BandSink&)>& draw) {
@@ -34,10 +34,11 @@ void write_rows(const ImageJob& job, const std::function<void(const BandSink&)>&
 }
 
 /// Draws every frame in turn and hands it on.
-void draw_frames(const FilmJob& job, const StageRequest& request,
+void draw_frames(const AnimationJob& job, const StageRequest& request,
                  const std::function<void(const Image8&, std::size_t)>& take) {
-  if (frame_count(job.path, job.rate.frames_per_second) > most_frames)
-    throw UsageError("the film would have more than " + std::to_string(most_frames) + " frames");
+  if (frame_count(job.path, job.rate.frames_per_second) > max_frames)
+    throw UsageError("the animation would have more than " + std::to_string(max_frames) +
+                     " frames");
   Renderer renderer = prepare_renderer(job.scene, request);
   const std::vector<Camera> cameras = frames(job.path, job.rate);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -77,7 +78,7 @@ void write_image(const ImageJob& job, const StageRequest& request) {
   write_rows(job, [&](const BandSink& sink) { draw_in_bands(job.camera, tiles, sink); });
 }
 
-void write_film(const FilmJob& job, const StageRequest& request) {
+void write_animation(const AnimationJob& job, const StageRequest& request) {
   if (is_video_name(job.output)) {
     VideoFile video(job.output, {job.rate.width, job.rate.height, job.rate.frames_per_second});
     draw_frames(job, request, [&](const Image8& frame, std::size_t) { video.add(frame); });

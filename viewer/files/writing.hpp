@@ -1,5 +1,5 @@
-// Images and films for keeps, drawn by a renderer of their own in the background: the window goes
-// on, whatever their size.
+// Images and animations for keeps, drawn by a renderer of their own in the background: the window
+// goes on, whatever their size.
 #pragma once
 
 #include <filesystem>
@@ -23,7 +23,7 @@ struct ImageJob {
 /// StageRequest::progress throws; then nothing is written.
 void write_image(const ImageJob& job, const StageRequest& request);
 
-struct FilmJob {
+struct AnimationJob {
   StageSource scene;
   CameraPath path;
   FrameRate rate;
@@ -32,6 +32,6 @@ struct FilmJob {
 };
 
 /// Likewise; frames that were written before an end by force stay, of a video nothing.
-void write_film(const FilmJob& job, const StageRequest& request);
+void write_animation(const AnimationJob& job, const StageRequest& request);
 
 }  // namespace tureen::viewer

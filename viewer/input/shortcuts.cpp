@@ -85,9 +85,9 @@ const std::array table = {
              [](State& s) { s.ask(AddKeyframe{}); }},
     Shortcut{Key::space, false, images, "play the camera path, or stop it",
              [](State& s) {
-               if (s.film.path.empty())
+               if (s.animation.path.empty())
                  s.messages.note("There is no camera path yet: K adds the view to one", s.now);
-               s.film.toggle();
+               s.animation.toggle();
              }},
     Shortcut{Key::s, true, images, "save the image",
              [](State& s) { s.ask(TakeImage{s.image.window_size ? glm::ivec2(0) : s.image.size,

@@ -61,13 +61,13 @@ void drawing_panel(State& state) {
   Stage& stage = *state.stage;
   DrawingChoice choice = state.wanted;
   bool changed = sampling(choice, *stage.scene);
-  bool published = choice.plan.pipeline == PipelineKind::published;
-  if (ImGui::Checkbox("the published pipeline", &published)) {
-    choice.plan.pipeline = published ? PipelineKind::published : PipelineKind::tureen;
+  bool baseline = choice.plan.pipeline == PipelineKind::baseline;
+  if (ImGui::Checkbox("the baseline", &baseline)) {
+    choice.plan.pipeline = baseline ? PipelineKind::baseline : PipelineKind::tureen;
     changed = true;
   }
   tip("A likeness of the viewer that was published with DiffSoup: the baseline");
-  if (!published) {
+  if (!baseline) {
     changed |= ImGui::Checkbox("specialise for the scene", &choice.plan.specialise);
     if (choice.plan.specialise) {
       ImGui::Indent();

@@ -1,4 +1,4 @@
-// Camera paths: keyframes, playing, turntables, files, films.
+// Camera paths: keyframes, playing, turntables, files, animations.
 // clang-format off: the second header wants the first
 #include <imgui/imgui.h>
 #include <imgui/imgui_stdlib.h>
@@ -19,48 +19,48 @@ namespace {
 /// A path of hours is a mistake.
 constexpr double longest = 3600;
 
-void play_row(Film& film) {
-  const double duration = film.path.duration();
-  if (ImGui::Button(film.plays ? "Pause" : "Play")) film.toggle();
+void play_row(Animation& animation) {
+  const double duration = animation.path.duration();
+  if (ImGui::Button(animation.plays ? "Pause" : "Play")) animation.toggle();
   tip("Space");
   ImGui::SameLine();
-  auto seconds = static_cast<float>(film.seconds);
+  auto seconds = static_cast<float>(animation.seconds);
   ImGui::SetNextItemWidth(-ImGui::GetFontSize());
   if (ImGui::SliderFloat("##seconds", &seconds, 0, static_cast<float>(duration), "%.2f s",
                          ImGuiSliderFlags_AlwaysClamp))
-    film.seconds = seconds;
-  film.scrubbed = ImGui::IsItemActive();
+    animation.seconds = seconds;
+  animation.scrubbed = ImGui::IsItemActive();
 }
 
-void loop_row(Film& film) {
-  bool loop = film.path.is_loop();
+void loop_row(Animation& animation) {
+  bool loop = animation.path.is_loop();
   if (ImGui::Checkbox("loop", &loop))
-    film.path.set_loop_seconds(loop ? film.path.duration() + 1 : 0);
+    animation.path.set_loop_seconds(loop ? animation.path.duration() + 1 : 0);
   if (!loop) return;
   ImGui::SameLine();
-  auto seconds = static_cast<float>(film.path.data().loop_seconds);
+  auto seconds = static_cast<float>(animation.path.data().loop_seconds);
   ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
   if (ImGui::DragFloat("seconds around", &seconds, 0.05f, 0.1f, float(longest), "%.2f",
                        ImGuiSliderFlags_AlwaysClamp))
-    film.path.set_loop_seconds(seconds);
+    animation.path.set_loop_seconds(seconds);
 }
 
 void keyframe_row(State& state, std::size_t index) {
-  Film& film = state.film;
-  const CameraKeyframe& keyframe = film.path.data().keyframes[index];
+  Animation& animation = state.animation;
+  const CameraKeyframe& keyframe = animation.path.data().keyframes[index];
   ImGui::PushID(static_cast<int>(index));
-  if (ImGui::Selectable(fmt::format("{}", index + 1).c_str(), film.selected == int(index), 0,
+  if (ImGui::Selectable(fmt::format("{}", index + 1).c_str(), animation.selected == int(index), 0,
                         {2 * ImGui::GetFontSize(), 0})) {
-    film.selected = int(index);
-    film.plays = false;
-    film.seconds = keyframe.seconds - film.path.begin();
+    animation.selected = int(index);
+    animation.plays = false;
+    animation.seconds = keyframe.seconds - animation.path.begin();
     state.ask(ShowKeyframe{index});
   }
   ImGui::SameLine();
   auto seconds = static_cast<float>(keyframe.seconds);
   ImGui::SetNextItemWidth(5 * ImGui::GetFontSize());
   // Between its neighbours: past them the row would become another's.
-  const auto& all = film.path.data().keyframes;
+  const auto& all = animation.path.data().keyframes;
   const double earliest = index > 0 ? all[index - 1].seconds : 0;
   const double latest = index + 1 < all.size() ? all[index + 1].seconds : longest;
   std::optional<double> moved_to;
@@ -73,32 +73,34 @@ void keyframe_row(State& state, std::size_t index) {
   ImGui::SameLine();
   const bool removed = ImGui::SmallButton("remove");
   ImGui::PopID();
-  if (moved_to) film.path.move(index, *moved_to);
-  if (replaced) film.path.replace(index, state.keyframe_of_now(keyframe.seconds));
+  if (moved_to) animation.path.move(index, *moved_to);
+  if (replaced) animation.path.replace(index, state.keyframe_of_now(keyframe.seconds));
   if (!removed) return;
-  film.path.remove(index);
-  film.selected = -1;
-  film.seconds = std::min(film.seconds, film.path.duration());
+  animation.path.remove(index);
+  animation.selected = -1;
+  animation.seconds = std::min(animation.seconds, animation.path.duration());
 }
 
 void file_row(State& state) {
-  Film& film = state.film;
+  Animation& animation = state.animation;
   ImGui::SetNextItemWidth(12 * ImGui::GetFontSize());
-  ImGui::InputTextWithHint("##file", "path.json", &film.file);
+  ImGui::InputTextWithHint("##file", "path.json", &animation.file);
   ImGui::SameLine();
   {
-    const Disabled disabled(film.path.empty());
-    if (ImGui::Button("Save")) state.ask(SavePath{film.file.empty() ? "path.json" : film.file});
+    const Disabled disabled(animation.path.empty());
+    if (ImGui::Button("Save"))
+      state.ask(SavePath{animation.file.empty() ? "path.json" : animation.file});
   }
   ImGui::SameLine();
-  if (ImGui::Button("Load")) state.ask(LoadPath{film.file.empty() ? "path.json" : film.file});
+  if (ImGui::Button("Load"))
+    state.ask(LoadPath{animation.file.empty() ? "path.json" : animation.file});
   tip("Every tool that takes cameras takes this file: tureen render SCENE --path path.json");
 }
 
-void film_rows(State& state) {
-  Film& film = state.film;
+void animation_rows(State& state) {
+  Animation& animation = state.animation;
   static const bool videos = have_ffmpeg();
-  int output = static_cast<int>(film.output);
+  int output = static_cast<int>(animation.output);
   ImGui::RadioButton("PNG frames", &output, 0);
   {
     const Disabled disabled(!videos);
@@ -108,16 +110,16 @@ void film_rows(State& state) {
     ImGui::RadioButton("webm", &output, 2);
   }
   if (!videos) aside(ffmpeg_missing);
-  film.output = static_cast<Film::Output>(output);
+  animation.output = static_cast<Animation::Output>(output);
   ImGui::SetNextItemWidth(9 * ImGui::GetFontSize());
-  ImGui::InputInt2("pixels", &film.size.x);
-  film.size = glm::clamp(film.size, 1, 8192);
+  ImGui::InputInt2("pixels", &animation.size.x);
+  animation.size = glm::clamp(animation.size, 1, 8192);
   ImGui::SameLine();
-  auto rate = static_cast<float>(film.frames_per_second);
+  auto rate = static_cast<float>(animation.frames_per_second);
   ImGui::SetNextItemWidth(4 * ImGui::GetFontSize());
   if (ImGui::DragFloat("a second", &rate, 0.1f, 1, 240, "%.0f", ImGuiSliderFlags_AlwaysClamp))
-    film.frames_per_second = rate;
-  if (ImGui::Button("Write the film")) state.ask(WriteFilm{});
+    animation.frames_per_second = rate;
+  if (ImGui::Button("Write the animation")) state.ask(WriteAnimation{});
   if (state.writing) {
     ImGui::SameLine();
     if (ImGui::Button("Stop")) state.ask(StopWriting{});
@@ -127,26 +129,26 @@ void film_rows(State& state) {
 }  // namespace
 
 void path_panel(State& state) {
-  Film& film = state.film;
+  Animation& animation = state.animation;
   if (ImGui::Button("Add this view")) state.ask(AddKeyframe{});
   tip("K");
   ImGui::SameLine();
   if (ImGui::Button("Turntable")) state.ask(MakeTurntable{});
   tip("Once around the target from here, in so many seconds; replaces the path");
   ImGui::SameLine();
-  auto seconds = static_cast<float>(film.turn_seconds);
+  auto seconds = static_cast<float>(animation.turn_seconds);
   ImGui::SetNextItemWidth(5 * ImGui::GetFontSize());
   if (ImGui::DragFloat("s##turn", &seconds, 0.05f, 0.5f, 600, "%.1f", ImGuiSliderFlags_AlwaysClamp))
-    film.turn_seconds = seconds;
-  if (film.path.empty()) {
+    animation.turn_seconds = seconds;
+  if (animation.path.empty()) {
     aside("Views in a row become a smooth path: look from somewhere, add, go on.");
   } else {
-    play_row(film);
-    loop_row(film);
-    for (std::size_t i = 0; i < film.path.data().keyframes.size(); ++i) keyframe_row(state, i);
+    play_row(animation);
+    loop_row(animation);
+    for (std::size_t i = 0; i < animation.path.data().keyframes.size(); ++i) keyframe_row(state, i);
   }
   file_row(state);
-  if (!film.path.empty()) film_rows(state);
+  if (!animation.path.empty()) animation_rows(state);
 }
 
 }  // namespace tureen::viewer

@@ -175,7 +175,7 @@ export class BenchEngine {
     }
   }
 
-  /** The same scene drawn by the published pipeline. Rejects with ViewerError where that cannot. */
+  /** The same scene drawn by the baseline. Rejects with ViewerError where that cannot. */
   async addPublished(scene: number, { files, name }: Files): Promise<Pipeline> {
     return readWith<Pipeline>(this.engine, 'bench_add_published', await openFiles(files, name), { scene });
   }
@@ -186,9 +186,9 @@ export class BenchEngine {
   }
 
   /** Frames without a pause but the page's breaths. Rejects with ViewerError and the signal's reason. */
-  async run(entrants: readonly BenchCase[], how: { readonly rounds: number; readonly leastSampleMs: number },
+  async run(entrants: readonly BenchCase[], how: { readonly rounds: number; readonly minSampleMs: number },
             signal: AbortSignal, tell: (fraction: number) => void): Promise<RunResult> {
-    this.engine.call('bench_run', { entrants, rounds: how.rounds, least_sample_ms: how.leastSampleMs });
+    this.engine.call('bench_run', { entrants, rounds: how.rounds, least_sample_ms: how.minSampleMs });
     for (let done = false; !done;) {
       await nextFrame();
       signal.throwIfAborted();

@@ -2,7 +2,7 @@
 // reads, and a table for spreadsheets.
 
 import { clockSentence } from './clock.js';
-import { leastSampleMs, type Measurement, type MeasuredScene } from './measure.js';
+import { minSampleMs, type Measurement, type MeasuredScene } from './measure.js';
 import type { Device, FrameTimes, Specialisation } from './bench_engine.js';
 
 /** From the build: build.mjs. */
@@ -66,7 +66,7 @@ export function benchFile(device: Device, scenes: readonly MeasuredScene[]): Ben
       software: device.limits.software, cores: navigator.hardwareConcurrency ?? 0, pixel_ratio: devicePixelRatio,
       screen_width: screen.width, screen_height: screen.height,
     },
-    protocol: { clock: clockSentence(leastSampleMs()) },
+    protocol: { clock: clockSentence(minSampleMs()) },
     scenes: scenes.map(sceneInFile),
   };
 }

@@ -20,6 +20,6 @@ export function clockStepMs(): number {
 /** "0.1 ms": without the digits that come of subtracting. */
 const stepText = () => `${Number(clockStepMs().toPrecision(2))} ms`;
 
-export const clockSentence = (leastSampleMs: number) =>
+export const clockSentence = (minSampleMs: number) =>
   `the browser's performance.now(), which steps by ${stepText()} here; a sample lasts at least ` +
-  `${Number(leastSampleMs.toPrecision(2))} ms, from an idle device until one pixel of the last frame was read back`;
+  `${Number(minSampleMs.toPrecision(2))} ms, from an idle device until one pixel of the last frame was read back`;

@@ -41,7 +41,7 @@ const loadingShare = 0.1;
 
 /** A sample that the clock can tell from the next to one in a hundred, and no shorter than `tureen
  *  bench` has it. */
-export const leastSampleMs = () => Math.max(5, 100 * clockStepMs());
+export const minSampleMs = () => Math.max(5, 100 * clockStepMs());
 
 /** Cells of `count` images in one of this size, row by row from the top; what does not divide is left. */
 export function gridCells(count: number, size: Size): Cell[] {
@@ -93,7 +93,7 @@ export class Measuring {
     if (request.published) {
       const { configuration, failure } = await this.published(sources[0]!, tell);
       if (configuration) configurations.push(configuration);
-      else notes.push(`The baseline (published) is missing: ${failure}`);
+      else notes.push(`The baseline is missing: ${failure}`);
     }
     const measurements: Measurement[] = [];
     for (const [index, size] of request.sizes.entries())
@@ -137,7 +137,7 @@ export class Measuring {
 
   /** The baseline for this scene, or the reason why it cannot be drawn. */
   private async published(source: SceneSource, tell: Tell): Promise<{ configuration?: Configuration; failure?: string }> {
-    tell(`${nameOf(source)}: preparing the published pipeline`, loadingShare);
+    tell(`${nameOf(source)}: preparing the baseline`, loadingShare);
     try {
       const files = await this.files(source, tell);
       return { configuration: { name: 'published', ...await this.bench.addPublished(0, files) } };
@@ -175,7 +175,7 @@ export class Measuring {
       ? { name, grid: cells.map(({ scene }) => scene) }
       : { name, scene: 0, published: name === 'published' });
     const what = `${added.length > 1 ? `${added.length} scenes` : added[0]!.description.name}, ${sizeText(size)}`;
-    const result = await bench.run(entrants, { rounds: request.rounds, leastSampleMs: leastSampleMs() }, this.signal,
+    const result = await bench.run(entrants, { rounds: request.rounds, minSampleMs: minSampleMs() }, this.signal,
                                    (fraction) => tell(`${what}: ${fraction > 0 ? 'measuring' : 'warming up'}`, fraction));
     bench.show(cells, size, 0);
     return { ...size, cameraSet: setName(request.cameras), result };

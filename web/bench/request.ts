@@ -35,7 +35,7 @@ export interface BenchRequest {
   readonly sizes: readonly Size[];
   /** How often the cameras are gone through. */
   readonly rounds: number;
-  /** Whether the published pipeline takes turns with ours; never on a grid. */
+  /** Whether the baseline takes turns with ours; never on a grid. */
   readonly published: boolean;
 }
 

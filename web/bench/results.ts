@@ -4,18 +4,18 @@ import { block, fillSentences, make } from '../page/dom.js';
 import { bytesText, millisecondsText } from '../page/numbers.js';
 import type { CaseResult } from './bench_engine.js';
 import { clockSentence } from './clock.js';
-import { leastSampleMs, type Measurement, type MeasuredScene } from './measure.js';
+import { minSampleMs, type Measurement, type MeasuredScene } from './measure.js';
 import { sizeText } from './request.js';
 
 const percentText = (part: number) => `${(100 * part).toFixed(1)} %`;
 
 /** Of fewer no spread of rounds is known, as jobs/timing/frame_statistics.hpp has it. */
-const leastRounds = 3;
+const minRounds = 3;
 
 /** Of the smallest medians of a round, as `tureen bench` has its ratios: null where the difference is none that
  *  the spreads leave, and not a number where too few rounds tell. */
 function ratio(timed: CaseResult, first: CaseResult, { result }: Measurement): number | null {
-  if (first.frame_ms.length < leastRounds) return NaN;
+  if (first.frame_ms.length < minRounds) return NaN;
   const a = timed.statistics.min_of_medians, b = first.statistics.min_of_medians;
   const spread = Math.max(result.aa_spread, timed.statistics.spread, first.statistics.spread);
   return a !== b && Math.abs(a - b) >= 2 * spread * Math.min(a, b) ? a / b : null;
@@ -72,14 +72,14 @@ const memoryColumns = [
   ['reading', 'from the file’s bytes to the soup'], ['planning', 'what the device gets'], ['handing over', 'to the device'],
 ] as const;
 
-/** "6.42 ms a frame at 1280 × 720, 3.1 times as fast as the published pipeline." */
+/** "6.42 ms a frame at 1280 × 720, 3.1 times as fast as the baseline." */
 function summary(scene: MeasuredScene): HTMLElement[] {
   return scene.measurements.map((measurement) => {
     const [first, ...others] = measurement.result.entrants;
     const published = others.find(({ name }) => name === 'published');
     const to = published && ratio(published, first!, measurement);
-    const compared = !published || Number.isNaN(to) ? '' : to === null ? ', as fast as the published pipeline' :
-      `, ${to!.toFixed(to! < 10 ? 1 : 0)} times as fast as the published pipeline`;
+    const compared = !published || Number.isNaN(to) ? '' : to === null ? ', as fast as the baseline' :
+      `, ${to!.toFixed(to! < 10 ? 1 : 0)} times as fast as the baseline`;
     return make('p', {}, `${scene.name}: `, make('strong', {}, `${millisecondsText(first!.statistics.median)} a frame`),
                 ` at ${sizeText(measurement)}${compared}.`);
   });
@@ -97,6 +97,6 @@ export function showResults(scenes: readonly MeasuredScene[]): void {
   const notes = scenes.flatMap(({ name, notes }) => notes.map((note) => (several ? `${name}: ${note}` : note)));
   fillSentences(block('notes'), notes);
   block('notes-part').hidden = notes.length === 0;
-  block('clock').textContent = `Times are read from ${clockSentence(leastSampleMs())}.`;
+  block('clock').textContent = `Times are read from ${clockSentence(minSampleMs())}.`;
   block('results').hidden = false;
 }

@@ -90,12 +90,12 @@ Json add_scene(const Json& arguments) {
   return result;
 }
 
-/// {"scene", "folder", "paths"}: the same scene drawn by the published pipeline.
+/// {"scene", "folder", "paths"}: the same scene drawn by the baseline.
 Json add_published(const Json& arguments) {
   BenchScene& to = scene_at(arguments.at("scene"));
   Scene scene = read_scene(scene_path(arguments));
   RenderOptions options{.background = glm::vec4(scene.info.background, 1.0f)};
-  options.plan.pipeline = PipelineKind::published;
+  options.plan.pipeline = PipelineKind::baseline;
   options.plan.quality = scene.quality;
   const TriangleSoup& soup = opaque_soup(scene);
   const double start = milliseconds();
@@ -170,7 +170,7 @@ BenchCase bench_case_of(const Json& benchmark_case) {
   }
   BenchScene& scene = scene_at(benchmark_case.at("scene"));
   const bool published = benchmark_case.at("published").get<bool>();
-  if (published && !scene.published) throw UsageError("the published pipeline was not added");
+  if (published && !scene.published) throw UsageError("the baseline was not added");
   result.renderers.push_back(published ? &*scene.published : &scene.tureen);
   result.scenes.push_back(&scene);
   return result;

@@ -18,7 +18,7 @@ namespace {
 
 /// A page shares its device's memory with all others: from here on half the memory counts more than
 /// an alpha test that takes a third less time (docs/decisions/alpha-cells.md).
-constexpr std::uint64_t most_alpha_cell_bytes = 16 << 20;
+constexpr std::uint64_t max_alpha_cell_bytes = 16 << 20;
 
 struct Loader {
   std::optional<Scene> scene;
@@ -109,7 +109,7 @@ Json prepare(const Json& arguments) {
     loader().reduced =
         edited(loader().soup(), {.lattice_level = level->get<int>()}, report_progress);
   RenderOptions options;
-  options.plan.most_alpha_cell_bytes = most_alpha_cell_bytes;
+  options.plan.max_alpha_cell_bytes = max_alpha_cell_bytes;
   options.plan.quality = scene.quality;
   loader().prepared = prepare_soup(loader().reduced ? *loader().reduced : loader().soup(),
                                    scene.origin, limits_of(arguments.at("limits")), options);

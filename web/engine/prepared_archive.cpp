@@ -11,7 +11,7 @@ namespace {
 template <class Archive, class Plan>
 void archive_plan(Archive& archive, Plan& plan) {
   archive(plan.pipeline, plan.site, plan.reversed_depth, plan.faces, plan.opaque_count,
-          plan.clusters, plan.drops_faces_between_pixels, plan.flat_colors, plan.color_mlp,
+          plan.clusters, plan.drops_small_triangles, plan.flat_colors, plan.color_mlp,
           plan.mlp_weights, plan.view_direction, plan.latent_features,
           plan.depth_rejects_background, plan.harmonics_degree, plan.feature_ranges,
           plan.lattice.uniform_level, plan.lattice.levels, plan.lattice.alpha_by_cell,

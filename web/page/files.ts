@@ -4,10 +4,10 @@
 import { ViewerError, type SceneFile, type SceneSource } from '../viewer/types.js';
 
 /** More than any scene has; a home folder that was dropped by mistake has more. */
-const mostFiles = 10_000;
+const maxFiles = 10_000;
 
 function tooMany(): ViewerError {
-  const most = mostFiles.toLocaleString('en');
+  const most = maxFiles.toLocaleString('en');
   return new ViewerError(`There are more than ${most} files; drop the scene's own folder.`, 'input');
 }
 
@@ -20,7 +20,7 @@ function sourceOf(files: readonly SceneFile[], folder: string | null): SceneSour
 
 /** Of <input type=file>, with or without webkitdirectory. */
 export function sourceOfPicked(list: FileList): SceneSource {
-  if (list.length > mostFiles) throw tooMany();
+  if (list.length > maxFiles) throw tooMany();
   const first = list[0]?.webkitRelativePath ?? '';
   const folder = first.includes('/') ? first.slice(0, first.indexOf('/')) : null;
   const path = (file: File) => folder === null ? file.name : file.webkitRelativePath.slice(folder.length + 1);
@@ -43,7 +43,7 @@ async function entriesOf(folder: FileSystemDirectoryEntry): Promise<FileSystemEn
 
 async function collect(folder: FileSystemDirectoryEntry, path: string, files: SceneFile[]): Promise<void> {
   for (const entry of await entriesOf(folder)) {
-    if (files.length >= mostFiles) throw tooMany();
+    if (files.length >= maxFiles) throw tooMany();
     const inner = path + entry.name;
     if (entry.isDirectory) await collect(entry as FileSystemDirectoryEntry, `${inner}/`, files);
     else files.push({ path: inner, data: await fileOf(entry as FileSystemFileEntry) });

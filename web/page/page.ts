@@ -1,5 +1,5 @@
 // The page as a site serves it: engine, worker and gallery lie beside it.
 
-import { openRoom } from './room.js';
+import { openViewerPage } from './room.js';
 
-void openRoom();
+void openViewerPage();

@@ -3,7 +3,7 @@
 
 import type { Assets } from '../viewer/assets.js';
 import type { SceneSource } from '../viewer/types.js';
-import { openRoom } from './room.js';
+import { openViewerPage } from './room.js';
 
 /** Four characters are three bytes; a piece is small enough for atob and a multiple of four. */
 const piece = 1 << 20;
@@ -43,4 +43,4 @@ function sceneOf(): SceneSource | null {
   return bytes && { name, files: [{ path: name, data: new Blob([bytes]) }] };
 }
 
-void openRoom({ assets: partsOf(), scene: sceneOf() });
+void openViewerPage({ assets: partsOf(), scene: sceneOf() });

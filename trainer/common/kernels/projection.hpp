@@ -16,11 +16,11 @@
 namespace tureen::trainer::kernels {
 
 /// Images are at most so wide and high: a ProjectedFace keeps its rectangle in 16 bits.
-inline constexpr int most_image_side = 32767;
+inline constexpr int max_image_side = 32767;
 
 /// A pinhole camera relative to the model's origin.
 struct View {
-  int width, height;  // at most most_image_side
+  int width, height;  // at most max_image_side
   double fx, fy, cx, cy;
   double eye[3];
   double right[3], down[3], forward[3];  // unit axes of the image in world coordinates

@@ -120,7 +120,7 @@ void CpuBackend::upload(const TrainingState& state) {
 }
 
 void CpuBackend::prepare(BatchImage& image, const Camera& camera) const {
-  assert(std::max(camera.width, camera.height) <= kernels::most_image_side);
+  assert(std::max(camera.width, camera.height) <= kernels::max_image_side);
   image.view = view_of(camera, state_.model.origin, config_.near, config_.far);
   image.tiles_x = (camera.width + tile_side - 1) / tile_side;
   image.tiles_y = (camera.height + tile_side - 1) / tile_side;

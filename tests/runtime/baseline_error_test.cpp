@@ -1,4 +1,4 @@
-// The clouds that speed is measured on: what our plan gains in time over the published pipeline is
+// The clouds that speed is measured on: what our plan gains in time over the baseline is
 // not paid for in error.
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 namespace tureen {
 namespace published_error_test {
 
-class PublishedError : public testing::TestWithParam<test::CloudCoverage> {};
+class BaselineError : public testing::TestWithParam<test::CloudCoverage> {};
 
-TEST_P(PublishedError, IsNoSmallerThanOurs) {
+TEST_P(BaselineError, IsNoSmallerThanOurs) {
   const Scene scene = test::cutout_cloud({.coverage = GetParam()});
   const auto& soup = std::get<TriangleSoup>(scene.primitives);
   gl::Context context = gl::Context::create({});
@@ -26,7 +26,7 @@ TEST_P(PublishedError, IsNoSmallerThanOurs) {
       return mean_squared_error(exact, to_float(drawn.color)) / 4;
     };
     ours += error_of(PipelineKind::tureen);
-    published += error_of(PipelineKind::published);
+    published += error_of(PipelineKind::baseline);
   }
   RecordProperty("ours_db", std::to_string(psnr_from_mse(ours)));
   RecordProperty("published_db", std::to_string(psnr_from_mse(published)));
@@ -35,7 +35,7 @@ TEST_P(PublishedError, IsNoSmallerThanOurs) {
   EXPECT_GT(psnr_from_mse(published), 40);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cloud, PublishedError,
+INSTANTIATE_TEST_SUITE_P(Cloud, BaselineError,
                          testing::Values(test::CloudCoverage::forty_percent,
                                          test::CloudCoverage::all),
                          [](const auto& cloud) {

@@ -22,10 +22,10 @@ namespace {
 
 constexpr int lut_width = 4096;
 
-class PublishedPipeline final : public Pipeline {
+class BaselinePipeline final : public Pipeline {
  public:
-  PublishedPipeline(const gl::Capabilities& capabilities, const DeviceLimits& limits,
-                    const TriangleSoup& soup, const RenderPlan& plan)
+  BaselinePipeline(const gl::Capabilities& capabilities, const DeviceLimits& limits,
+                   const TriangleSoup& soup, const RenderPlan& plan)
       : face_count_(plan.faces.size()), geometry_(prepare_geometry(soup, plan.faces)) {
     const auto& texture = std::get<LatticeTexture>(soup.appearance);
     upload_lookup_textures(texture, plan, limits);
@@ -33,14 +33,14 @@ class PublishedPipeline final : public Pipeline {
     const std::string level = std::to_string(plan.lattice.uniform_level);
     geometry_program_ =
         gl::Program(assemble({.file = "geometry.vert"}, capabilities.api),
-                    assemble({.file = "published_geometry.frag",
+                    assemble({.file = "baseline_geometry.frag",
                               .constants = {{"LATTICE_LEVEL", level}, {"ALPHA_THRESHOLD", "0.5"}},
                               .generated = {}},
                              capabilities.api));
-    ShaderSource shading{.file = "published_shading_with_network",
+    ShaderSource shading{.file = "baseline_shading_with_network",
                          .constants = {{"HARMONICS_DEGREE", "2"}},
-                         .generated = {{"published_shading_with_network",
-                                        "#include \"published_shading.frag\"\n" + network_.text}}};
+                         .generated = {{"baseline_shading_with_network",
+                                        "#include \"baseline_shading.frag\"\n" + network_.text}}};
     shading_program_ = gl::Program(assemble({.file = "full_screen.vert"}, capabilities.api),
                                    assemble(shading, capabilities.api));
     gl::check("PublishedPipeline");
@@ -63,7 +63,7 @@ class PublishedPipeline final : public Pipeline {
     const glm::dmat4 projection = clip_from_view(frame.camera, frame.range.near, frame.range.far);
     draw_features(frame, projection, background);
     draw_shading(frame, projection, background);
-    gl::check("published draw");
+    gl::check("baseline draw");
   }
 
   GLuint color_framebuffer() const override { return color_framebuffer_.id(); }
@@ -137,13 +137,12 @@ class PublishedPipeline final : public Pipeline {
     const std::uint32_t per_face = lattice::texel_count(plan.lattice.uniform_level);
     const std::size_t texels = plan.faces.size() * per_face;
     if (lut_width > limits.max_texture_size)
-      throw DeviceLimitError("the published pipeline wants lookup textures " +
-                             std::to_string(lut_width) + " wide; this device has " +
-                             std::to_string(limits.max_texture_size));
+      throw DeviceLimitError("the baseline wants lookup textures " + std::to_string(lut_width) +
+                             " wide; this device has " + std::to_string(limits.max_texture_size));
     const std::size_t rows = std::max<std::size_t>((texels + lut_width - 1) / lut_width, 1);
     if (rows > std::size_t(limits.max_texture_size))
       throw DeviceLimitError(
-          "the published pipeline wants a lookup texture of " + std::to_string(rows) +
+          "the baseline wants a lookup texture of " + std::to_string(rows) +
           " rows; this device has " + std::to_string(limits.max_texture_size) + ", enough for " +
           std::to_string(std::size_t(limits.max_texture_size) * lut_width / per_face) +
           " triangles at this level");
@@ -191,11 +190,10 @@ class PublishedPipeline final : public Pipeline {
 
 }  // namespace
 
-std::unique_ptr<Pipeline> make_published_pipeline(const gl::Capabilities& capabilities,
-                                                  const DeviceLimits& limits,
-                                                  const TriangleSoup& soup,
-                                                  const RenderPlan& plan) {
-  return std::make_unique<PublishedPipeline>(capabilities, limits, soup, plan);
+std::unique_ptr<Pipeline> make_baseline_pipeline(const gl::Capabilities& capabilities,
+                                                 const DeviceLimits& limits,
+                                                 const TriangleSoup& soup, const RenderPlan& plan) {
+  return std::make_unique<BaselinePipeline>(capabilities, limits, soup, plan);
 }
 
 }  // namespace tureen

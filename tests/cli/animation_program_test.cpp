@@ -1,4 +1,4 @@
-// Films from outside: frames along a path or around the scene, as images and as videos.
+// Animations from outside: frames along a path or around the scene, as images and as videos.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "tests/support/errors.hpp"
 
 namespace tureen {
-namespace film_program_test {
+namespace animation_program_test {
 
 using test::Names;
 namespace fs = std::filesystem;
@@ -21,7 +21,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::UnorderedElementsAre;
 
-class Film : public test::Program {
+class Animation : public test::Program {
  protected:
   /// Three keyframes about the scene's middle in two seconds.
   void write_path(double loop_seconds = 0) const {
@@ -43,7 +43,7 @@ class Film : public test::Program {
   }
 };
 
-TEST_F(Film, FramesAlongAPathPassTheViewsOfItsKeyframes) {
+TEST_F(Animation, FramesAlongAPathPassTheViewsOfItsKeyframes) {
   write_scene();
   write_path();
   const ChildResult result =
@@ -64,7 +64,7 @@ TEST_F(Film, FramesAlongAPathPassTheViewsOfItsKeyframes) {
   EXPECT_FALSE(same_image("frame_0001.png", "frame_0002.png"));
 }
 
-TEST_F(Film, ALoopDoesNotShowItsFirstFrameTwice) {
+TEST_F(Animation, ALoopDoesNotShowItsFirstFrameTwice) {
   write_scene();
   write_path(3);
   const ChildResult result = run({"render", "scene.off", "--path", "path.json", "--fps", "4",
@@ -77,7 +77,7 @@ TEST_F(Film, ALoopDoesNotShowItsFirstFrameTwice) {
   EXPECT_FALSE(same_image("f_00.png", "f_11.png"));
 }
 
-TEST_F(Film, ATurntableTurnsOnce) {
+TEST_F(Animation, ATurntableTurnsOnce) {
   write_scene();
   ASSERT_EQ(run({"render", "scene.off", "--turntable", "2", "--fps", "2", "--size", "40x30", "--up",
                  "0,0,1", "-o", "turn_%d.png"})
@@ -98,7 +98,7 @@ TEST_F(Film, ATurntableTurnsOnce) {
   EXPECT_FALSE(same_image("eye_2.png", "still.png"));
 }
 
-TEST_F(Film, AVideoIsWrittenWhole) {
+TEST_F(Animation, AVideoIsWrittenWhole) {
   if (!have_ffmpeg()) GTEST_SKIP() << ffmpeg_missing;
   write_scene();
   for (const char* name : {"turn.mp4", "turn.webm"}) {
@@ -112,7 +112,7 @@ TEST_F(Film, AVideoIsWrittenWhole) {
   EXPECT_THAT(names(), UnorderedElementsAre("scene.off", "turn.mp4", "turn.webm"));
 }
 
-TEST_F(Film, CtrlCLeavesNoHalfVideo) {
+TEST_F(Animation, CtrlCLeavesNoHalfVideo) {
   if (!have_ffmpeg()) GTEST_SKIP() << ffmpeg_missing;
   write_scene();
   test::Child child(
@@ -130,7 +130,7 @@ TEST_F(Film, CtrlCLeavesNoHalfVideo) {
   EXPECT_THAT(names(), Not(testing::Contains(HasSubstr("turn.mp4"))));
 }
 
-TEST_F(Film, WhatMakesNoSenseIsSaidBeforeAnythingIsRead) {
+TEST_F(Animation, WhatMakesNoSenseIsSaidBeforeAnythingIsRead) {
   const auto expect = [&](std::vector<std::string> arguments, const auto&... values) {
     arguments.insert(arguments.begin(), {"render", "none.off"});
     const ChildResult result = run(arguments);
@@ -146,7 +146,7 @@ TEST_F(Film, WhatMakesNoSenseIsSaidBeforeAnythingIsRead) {
   expect({"--turntable", "3", "-o", "f.avi"}, "f.avi");
 }
 
-TEST_F(Film, WithoutFfmpegThereIsAdvice) {
+TEST_F(Animation, WithoutFfmpegThereIsAdvice) {
   const std::string path = std::getenv("PATH");
   setenv("PATH", folder.c_str(), 1);
   const ChildResult result = run({"render", "none.off", "--turntable", "3", "-o", "f.mp4"});
@@ -155,7 +155,7 @@ TEST_F(Film, WithoutFfmpegThereIsAdvice) {
   EXPECT_THAT(result.err, Names("ffmpeg"));
 }
 
-TEST_F(Film, ABadPathIsRefusedWithItsPlace) {
+TEST_F(Animation, ABadPathIsRefusedWithItsPlace) {
   write_scene();
   const Camera camera = look_at({0, -5, 1}, {0, 0, 0}, {0, 0, 1}, 0.7, 40, 30);
   write("cameras.json", cameras_to_json({&camera, 1}));
@@ -171,5 +171,5 @@ TEST_F(Film, ABadPathIsRefusedWithItsPlace) {
   EXPECT_THAT(endless.err, Names(100000, 3000000));
 }
 
-}  // namespace film_program_test
+}  // namespace animation_program_test
 }  // namespace tureen

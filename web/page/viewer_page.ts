@@ -24,7 +24,7 @@ import { ViewsSection } from './sections/views.js';
 import { Shortcuts } from './shortcuts.js';
 import { Start } from './start.js';
 
-export interface RoomOptions {
+export interface ViewerPageOptions {
   /** Beside the script where they are not given. */
   readonly assets?: Assets;
   /** A scene that is part of the page. */
@@ -81,7 +81,7 @@ function tellOfContext(viewer: Viewer, messages: Messages): void {
 }
 
 /** Everything around the image but opening. */
-function furnish(viewer: Viewer, messages: Messages, loading: Loading, openings: Openings, bar: AddressBar,
+function addControls(viewer: Viewer, messages: Messages, loading: Loading, openings: Openings, bar: AddressBar,
                  start: Start): void {
   const tell = (sentence: string) => messages.notice(sentence);
   const failed = (what: unknown) => messages.thrown(what);
@@ -150,7 +150,7 @@ function followAddress(viewer: Viewer, openings: Openings, bar: AddressBar, star
   });
 }
 
-export async function openRoom(options: RoomOptions = {}): Promise<void> {
+export async function openViewerPage(options: ViewerPageOptions = {}): Promise<void> {
   const embedded = new URLSearchParams(location.search).has('embed');
   document.documentElement.classList.toggle('embed', embedded);
   block('not-started').remove();
@@ -186,7 +186,7 @@ export async function openRoom(options: RoomOptions = {}): Promise<void> {
     answerEmbedder(viewer, loading);
   } else {
     start.attachDrop();
-    furnish(viewer, messages, loading, openings, bar, start);
+    addControls(viewer, messages, loading, openings, bar, start);
     followAddress(viewer, openings, bar, start);
     block('actions').inert = false;
   }

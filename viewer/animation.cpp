@@ -1,15 +1,15 @@
-#include "viewer/film.hpp"
+#include "viewer/animation.hpp"
 
 #include <cmath>
 
 namespace tureen::viewer {
 
-void Film::toggle() {
+void Animation::toggle() {
   plays = !plays && !path.empty();
   if (plays && !path.is_loop() && seconds >= path.duration()) seconds = 0;
 }
 
-void Film::advance(double by) {
+void Animation::advance(double by) {
   if (!plays || path.empty()) return;
   seconds += by;
   const double duration = path.duration();
@@ -21,7 +21,7 @@ void Film::advance(double by) {
   }
 }
 
-Camera Film::camera(glm::ivec2 pixels) const {
+Camera Animation::camera(glm::ivec2 pixels) const {
   return path.at(path.begin() + seconds, pixels.x, pixels.y);
 }
 

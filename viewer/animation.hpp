@@ -8,7 +8,7 @@
 
 namespace tureen::viewer {
 
-struct Film {
+struct Animation {
   CameraPath path;
   bool plays = false;
   bool scrubbed = false;  // the slider is held: the image follows
