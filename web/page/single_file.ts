@@ -3,7 +3,7 @@
 
 import type { Assets } from '../viewer/assets.js';
 import type { SceneSource } from '../viewer/types.js';
-import { openViewerPage } from './room.js';
+import { openViewerPage } from './viewer_page.js';
 
 /** Four characters are three bytes; a piece is small enough for atob and a multiple of four. */
 const piece = 1 << 20;
