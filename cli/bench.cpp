@@ -89,7 +89,8 @@ BenchResult run(const BenchOptions& options) {
   const BenchClock clock = clock_for(result.device, options.processor_time);
   result.protocol.clock = clock.text;
   result.protocol.processor_time = options.processor_time;
-  const BenchCases cases = make_cases({.plan = preferences_for(scene, options.cases.drawing),
+  const BenchCases cases = make_cases({.pipeline = options.cases.drawing.pipeline,
+                                       .plan = preferences_for(scene, options.cases.drawing),
                                        .only = options.cases.only,
                                        .ceilings = options.cases.ceilings},
                                       context, scene);

@@ -32,7 +32,7 @@ void add_context_option(Command& command, gl::Backend& backend) {
 void add_drawing_options(Command& command, DrawingOptions& options) {
   add_context_option(command, options.backend);
   add_choice<PipelineKind>(
-      command, "--pipeline", options.plan.pipeline,
+      command, "--pipeline", options.pipeline,
       {{"auto", PipelineKind::tureen},
        {"baseline", PipelineKind::baseline},
        {"published", PipelineKind::baseline}},

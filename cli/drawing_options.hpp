@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "cli/arguments.hpp"
+#include "jobs/baseline/baseline.hpp"
 #include "runtime/gl/context.hpp"
 #include "runtime/plan/plan.hpp"
 #include "scene/scene.hpp"
@@ -12,6 +13,7 @@ namespace tureen::cli {
 
 struct DrawingOptions {
   gl::Backend backend = gl::Backend::automatic;
+  PipelineKind pipeline = PipelineKind::tureen;
   PlanPreferences plan = {};
   std::optional<int> supersampling = {};  // without either, the scene's own quality
   std::optional<double> resolution_scale = {};

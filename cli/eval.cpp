@@ -91,6 +91,7 @@ ExitCode evaluate_scene(EvalOptions options) {
   Scene scene = read(options.scene);
   const TriangleSoup& soup = opaque_soup(scene);
   if (options.background.empty()) evaluation.background = scene.info.background;
+  evaluation.pipeline = options.drawing.pipeline;
   evaluation.plan = preferences_for(scene, options.drawing);
   evaluation.backend = options.drawing.backend;
   Dataset dataset = read(options.dataset, options.split);

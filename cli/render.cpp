@@ -62,7 +62,8 @@ WrittenImages draw_views(const Drawer& drawer, const gl::Capabilities& device, c
 Drawn draw_colors(const gl::Context& context, const Scene& scene, const TriangleSoup& soup,
                   const RenderOptions& options, glm::vec4 background, const Views& views) {
   const gl::Capabilities& device = context.capabilities();
-  Renderer renderer(context, soup, scene.origin,
+  Renderer renderer =
+      make_renderer(context, soup, scene.origin, options.drawing.pipeline,
                     {.plan = preferences_for(scene, options.drawing), .background = background});
   const Drawer drawer = drawer_of(renderer, device);
   // What --frames refuses is said before hours of drawing.

@@ -22,12 +22,12 @@ set(arrows
   "jobs/baseline: base image scene runtime runtime/gl runtime/plan runtime/passes"
   "jobs/timing: base image scene runtime runtime/gl"
   "jobs/visibility: base image scene oracle runtime runtime/gl"
-  "jobs/bench: base image scene runtime runtime/gl runtime/plan runtime/passes jobs/timing"
-  "jobs/eval: base image scene runtime runtime/gl runtime/plan"
-  "jobs/tradeoff: base image scene oracle runtime runtime/gl runtime/plan jobs/eval jobs/timing jobs/visibility"
+  "jobs/bench: base image scene runtime runtime/gl runtime/plan runtime/passes jobs/baseline jobs/timing"
+  "jobs/eval: base image scene runtime runtime/gl runtime/plan jobs/baseline"
+  "jobs/tradeoff: base image scene oracle runtime runtime/gl runtime/plan jobs/baseline jobs/eval jobs/timing jobs/visibility"
   "jobs/compress: base image scene camera formats runtime runtime/gl jobs/visibility"
-  "viewer: base image scene camera formats runtime runtime/gl runtime/plan runtime/passes runtime/debug_views jobs/timing"
-  "web: base image scene camera formats runtime runtime/gl runtime/plan runtime/debug_views jobs/timing")
+  "viewer: base image scene camera formats runtime runtime/gl runtime/plan runtime/passes runtime/debug_views jobs/baseline jobs/timing"
+  "web: base image scene camera formats runtime runtime/gl runtime/plan runtime/debug_views jobs/baseline jobs/timing")
 
 set(modules "")
 foreach(line IN LISTS arrows)

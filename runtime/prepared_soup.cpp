@@ -1,6 +1,5 @@
 #include "runtime/prepared_soup.hpp"
 
-#include <cassert>
 #include <utility>
 
 #include "runtime/render_options.hpp"
@@ -9,7 +8,6 @@ namespace tureen {
 
 PreparedSoup prepare_soup(const TriangleSoup& soup, glm::dvec3 origin, const DeviceLimits& limits,
                           RenderPlan plan) {
-  assert(plan.pipeline == PipelineKind::tureen);
   PreparedSoup prepared;
   prepared.plan = std::move(plan);
   prepared.bounds = bounds(soup);

@@ -24,8 +24,8 @@ struct PreparedSoup {
 };
 
 /// Plans for the device's limits, or for options.limits. The sources read the soup, which must not
-/// move until they have been used. The soup must have no defect(); the pipeline must be ours.
-/// Throws UsageError and DeviceLimitError as Renderer does.
+/// move until they have been used. The soup must have no defect(). Throws UsageError and
+/// DeviceLimitError as Renderer does.
 PreparedSoup prepare_soup(const TriangleSoup& soup, glm::dvec3 origin, const DeviceLimits& device,
                           const RenderOptions& options);
 /// The same with a plan from make_plan for this soup and these limits.

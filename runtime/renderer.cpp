@@ -14,15 +14,24 @@
 namespace tureen {
 
 struct Renderer::State {
+  State(const gl::Context& context, RenderPlan planned, const Bounds& soup_bounds,
+        glm::dvec3 soup_origin, const RenderOptions& options)
+      : plan(std::move(planned)),
+        bounds(soup_bounds),
+        origin(soup_origin),
+        background(options.background),
+        max_side(context.capabilities().max_image_side),
+        api(context.capabilities().api) {}
+
   RenderPlan plan;  // pipeline refers to it
   Bounds bounds;
   glm::dvec3 origin;
   glm::vec4 background;
   std::unique_ptr<Pipeline> pipeline;
-  int max_side = 0;
+  int max_side;
   int width = 0, height = 0;
   FrameCamera last_frame;
-  gl::Api api = gl::Api::desktop;
+  gl::Api api;
   std::optional<DepthProbe> probe;
 };
 
@@ -57,37 +66,25 @@ Renderer::Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dv
 
 Renderer::Renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
                    RenderPlan plan, const RenderOptions& options) {
-  const gl::Capabilities& capabilities = context.capabilities();
-  const DeviceLimits limits = options.limits.value_or(device_limits(capabilities));
-  if (plan.pipeline == PipelineKind::tureen) {
-    *this = Renderer(context, prepare_soup(soup, origin, limits, std::move(plan)), options);
-    return;
-  }
-  state_ = std::make_unique<State>();
-  state_->plan = std::move(plan);
-  state_->bounds = bounds(soup);
-  state_->origin = origin;
-  state_->background = options.background;
-  state_->max_side = capabilities.max_image_side;
-  state_->api = capabilities.api;
-  gl::use_plain_pixel_transfer();
-  state_->pipeline = resampled(make_baseline_pipeline(capabilities, limits, soup, state_->plan),
-                               state_->plan, capabilities);
+  const DeviceLimits limits = options.limits.value_or(device_limits(context.capabilities()));
+  *this = Renderer(context, prepare_soup(soup, origin, limits, std::move(plan)), options);
 }
 
 Renderer::Renderer(const gl::Context& context, PreparedSoup prepared, const RenderOptions& options)
-    : state_(std::make_unique<State>()) {
+    : state_(std::make_unique<State>(context, std::move(prepared.plan), prepared.bounds,
+                                     prepared.origin, options)) {
   const gl::Capabilities& capabilities = context.capabilities();
-  state_->plan = std::move(prepared.plan);
-  state_->bounds = prepared.bounds;
-  state_->origin = prepared.origin;
-  state_->background = options.background;
-  state_->max_side = capabilities.max_image_side;
-  state_->api = capabilities.api;
   gl::use_plain_pixel_transfer();
   state_->pipeline = resampled(make_tureen_pipeline(capabilities, std::move(prepared.appearance),
                                                     prepared.geometry, state_->plan),
                                state_->plan, capabilities);
+}
+
+Renderer::Renderer(const gl::Context& context, std::unique_ptr<Pipeline> pipeline, RenderPlan plan,
+                   const Bounds& bounds, glm::dvec3 origin, const RenderOptions& options)
+    : state_(std::make_unique<State>(context, std::move(plan), bounds, origin, options)) {
+  gl::use_plain_pixel_transfer();
+  state_->pipeline = resampled(std::move(pipeline), state_->plan, context.capabilities());
 }
 
 Renderer::~Renderer() = default;

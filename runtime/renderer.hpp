@@ -48,6 +48,12 @@ class Renderer {
   /// identical. Only the background of the options is used. Throws DeviceLimitError if the device
   /// refuses the memory.
   Renderer(const gl::Context& context, PreparedSoup prepared, const RenderOptions& options = {});
+  /// Draws with a pipeline from outside runtime/, which holds the soup on the device and must not
+  /// refer to the plan. The plan has the quality, which is applied here, and the description.
+  /// `bounds` are those of the soup, relative to `origin`. Only the background of the options is
+  /// used.
+  Renderer(const gl::Context& context, std::unique_ptr<Pipeline> pipeline, RenderPlan plan,
+           const Bounds& bounds, glm::dvec3 origin, const RenderOptions& options = {});
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
@@ -80,7 +86,7 @@ class Renderer {
   std::vector<std::uint32_t> read_faces() const;
 
   /// The visible point, in world coordinates, at a place of the last image, in pixels from the top
-  /// left corner. Returns nullopt for the background, and for the baseline, whose depth cannot be
+  /// left corner. Returns nullopt for the background, and for a pipeline whose depth cannot be
   /// read. Its precision is that of the depth buffer. Waits for the device.
   std::optional<glm::dvec3> point_at(glm::dvec2 place);
 

@@ -89,7 +89,7 @@ int run(const Arguments& arguments) {
   options.window = parse_size(arguments.size);
   options.record = arguments.record;
   options.images = arguments.images;
-  if (arguments.pipeline != "auto") options.drawing.plan.pipeline = PipelineKind::baseline;
+  if (arguments.pipeline != "auto") options.drawing.pipeline = PipelineKind::baseline;
   options.drawing.plan.specialise = !arguments.no_specialise;
   if (!arguments.replay.empty()) options.replay = read_session(arguments.replay);
   // A session must not depend on what somebody did before.

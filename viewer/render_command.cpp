@@ -17,7 +17,7 @@ namespace {
 std::string list_of(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 
 void add_choice(std::string& command, const DrawingChoice& choice, const Scene& scene) {
-  if (choice.plan.pipeline == PipelineKind::baseline) command += " --pipeline baseline";
+  if (choice.pipeline == PipelineKind::baseline) command += " --pipeline baseline";
   if (!choice.plan.specialise) command += " --no-specialise";
   std::string kept;
   for (const SpecialisationName& entry : specialisation_names())

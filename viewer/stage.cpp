@@ -38,8 +38,8 @@ RenderOptions render_options(const DrawingChoice& choice, const Scene& scene) {
 
 Renderer prepare_renderer(const StageSource& source, const StageRequest& request) {
   const Scene& scene = *source.scene;
-  return Renderer(request.context, source.soup(), scene.origin,
-                  render_options(request.choice, scene));
+  return make_renderer(request.context, source.soup(), scene.origin, request.choice.pipeline,
+                       render_options(request.choice, scene));
 }
 
 std::unique_ptr<Stage> read_stage(const std::filesystem::path& path, const StageRequest& request) {

@@ -9,14 +9,17 @@
 
 #include "camera/navigation.hpp"
 #include "camera/up_axis.hpp"
+#include "jobs/baseline/baseline.hpp"
 #include "runtime/renderer.hpp"
 #include "scene/scene.hpp"
 #include "viewer/files/file_watch.hpp"
 
 namespace tureen::viewer {
 
-/// A person's choice of how to draw: the specialisations that a plan may apply, and the quality.
+/// A person's choice of how to draw: the pipeline, the specialisations that a plan may apply, and
+/// the quality.
 struct DrawingChoice {
+  PipelineKind pipeline = PipelineKind::tureen;
   PlanPreferences plan = {};
   std::optional<Quality> quality = {};  // the scene's own unless it is chosen
 };

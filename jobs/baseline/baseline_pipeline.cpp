@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 
 #include "base/error.hpp"
+#include "jobs/baseline/baseline.hpp"
 #include "runtime/gl/state.hpp"
 #include "runtime/passes/geometry.hpp"
 #include "runtime/passes/pipeline.hpp"
@@ -43,7 +44,7 @@ class BaselinePipeline final : public Pipeline {
                                         "#include \"baseline_shading.frag\"\n" + network_.text}}};
     shading_program_ = gl::Program(assemble({.file = "full_screen.vert"}, capabilities.api),
                                    assemble(shading, capabilities.api));
-    gl::check("PublishedPipeline");
+    gl::check("BaselinePipeline");
   }
 
   void resize(int width, int height) override {
@@ -190,10 +191,20 @@ class BaselinePipeline final : public Pipeline {
 
 }  // namespace
 
-std::unique_ptr<Pipeline> make_baseline_pipeline(const gl::Capabilities& capabilities,
-                                                 const DeviceLimits& limits,
-                                                 const TriangleSoup& soup, const RenderPlan& plan) {
-  return std::make_unique<BaselinePipeline>(capabilities, limits, soup, plan);
+Renderer make_baseline_renderer(const gl::Context& context, const TriangleSoup& soup,
+                                glm::dvec3 origin, RenderPlan plan, const RenderOptions& options) {
+  const gl::Capabilities& capabilities = context.capabilities();
+  const DeviceLimits limits = options.limits.value_or(device_limits(capabilities));
+  gl::use_plain_pixel_transfer();
+  auto pipeline = std::make_unique<BaselinePipeline>(capabilities, limits, soup, plan);
+  return Renderer(context, std::move(pipeline), std::move(plan), bounds(soup), origin, options);
+}
+
+Renderer make_renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
+                       PipelineKind kind, const RenderOptions& options) {
+  if (kind == PipelineKind::tureen) return Renderer(context, soup, origin, options);
+  return make_baseline_renderer(context, soup, origin, make_baseline_plan(soup, options.plan),
+                                options);
 }
 
 }  // namespace tureen

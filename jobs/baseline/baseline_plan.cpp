@@ -1,29 +1,50 @@
-// The plan of the baseline, which has no specialisations.
+// The plan of the baseline, and its English.
 #include "base/error.hpp"
+#include "jobs/baseline/baseline.hpp"
 #include "runtime/plan/face_alpha.hpp"
-#include "runtime/plan/plan_draft.hpp"
+#include "runtime/plan/plan_description.hpp"
 
 namespace tureen {
 
-void plan_baseline(PlanDraft& draft) {
-  const TriangleSoup& soup = draft.soup;
-  RenderPlan& plan = draft.plan;
+namespace {
+
+std::vector<std::string> description_of(const PlanPreferences& preferences) {
+  std::vector<std::string> sentences{
+      "baseline: two RGBA8 feature targets, every fragment samples all eight channels, faces in "
+      "file order, the network on every pixel with its weights in uniforms"};
+  for (std::string& sentence : describe_sampling(preferences.quality))
+    sentences.push_back(std::move(sentence));
+  if (preferences.specialisations != SpecialisationSet::all())
+    sentences.emplace_back("--keep has no effect: the baseline has no specialisations");
+  return sentences;
+}
+
+}  // namespace
+
+RenderPlan make_baseline_plan(const TriangleSoup& soup, const PlanPreferences& preferences) {
+  if (const auto reason = defect(preferences.quality)) throw UsageError(*reason);
   const auto* texture = std::get_if<LatticeTexture>(&soup.appearance);
   if (!texture || !texture->mlp)
     throw UsageError(std::string("the baseline draws lattice textures with a color MLP; "
                                  "this soup has ") +
                      appearance_name(soup.appearance));
-  if (draft.preferences.shading_stage == ShadingStage::compute)
+  if (preferences.shading_stage == ShadingStage::compute)
     throw UsageError("the baseline shades in the fragment stage, never as compute");
   const std::uint32_t level = texture->patches.empty() ? 0 : texture->patches.front().level;
   for (const LatticePatch& patch : texture->patches)
     if (patch.level != level)
       throw UsageError("the baseline knows one lattice level for all faces");
+  RenderPlan plan;
   for (std::uint32_t t = 0; t < soup.triangles.size(); ++t)
     if (drawable(soup, t)) plan.faces.push_back(t);
   plan.color_mlp = true;
   plan.lattice.uniform_level = int(level);
-  plan.ignores_specialisations = draft.preferences.specialisations != SpecialisationSet::all();
+  plan.quality = preferences.quality;
+  plan.appearance = appearance_name(soup.appearance);
+  plan.soup_faces = soup.triangles.size();
+  plan.specialise = preferences.specialise;
+  plan.description = description_of(preferences);
+  return plan;
 }
 
 }  // namespace tureen

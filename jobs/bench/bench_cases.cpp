@@ -35,17 +35,21 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 class RendererCase final : public BenchCase {
  public:
   RendererCase(const std::string& name, const gl::Context& context, const Scene& scene,
-               const PlanPreferences& preferences)
+               PipelineKind pipeline, const PlanPreferences& preferences)
       : context_(context) {
     configuration.name = name;
     const auto& soup = std::get<TriangleSoup>(scene.primitives);
+    const bool is_baseline = pipeline == PipelineKind::baseline;
     auto start = std::chrono::steady_clock::now();
-    RenderPlan plan = make_plan(soup, device_limits(context.capabilities()), preferences);
+    RenderPlan plan = is_baseline
+                          ? make_baseline_plan(soup, preferences)
+                          : make_plan(soup, device_limits(context.capabilities()), preferences);
     configuration.plan_ms = milliseconds_since(start);
     start = std::chrono::steady_clock::now();
+    const RenderOptions options{.background = glm::vec4(scene.info.background, 1.0f)};
     renderer_ = std::make_unique<Renderer>(
-        context, soup, scene.origin, std::move(plan),
-        RenderOptions{.plan = preferences, .background = glm::vec4(scene.info.background, 1.0f)});
+        is_baseline ? make_baseline_renderer(context, soup, scene.origin, std::move(plan), options)
+                    : Renderer(context, soup, scene.origin, std::move(plan), options));
     renderer_->finish();
     configuration.upload_ms = milliseconds_since(start);
     configuration.plan = describe(renderer_->plan());
@@ -93,7 +97,7 @@ std::vector<std::string> names_of(const BenchCaseOptions& options) {
   std::replace(names.begin(), names.end(), std::string("baseline"), std::string(baseline));
   const PlanPreferences& plan = options.plan;
   if (names.empty()) {
-    if (plan.pipeline == PipelineKind::baseline)
+    if (options.pipeline == PipelineKind::baseline)
       names = {baseline};
     else if (!plan.specialise)
       names = {generic};
@@ -108,17 +112,16 @@ std::vector<std::string> names_of(const BenchCaseOptions& options) {
 
 /// The options of `tureen render` that draw the same, and the preferences that they stand for.
 struct Setting {
+  PipelineKind pipeline = PipelineKind::tureen;
   PlanPreferences plan;
   std::vector<std::string> options;
 };
 
 Setting setting_of(const std::string& name, PlanPreferences plan) {
   if (name == baseline) {
-    plan.pipeline = PipelineKind::baseline;
     plan.shading_stage = ShadingStage::fragment;  // it has no other
-    return {plan, {"--pipeline", "baseline"}};
+    return {PipelineKind::baseline, plan, {"--pipeline", "baseline"}};
   }
-  plan.pipeline = PipelineKind::tureen;
   if (name == in_fragments) plan.shading_stage = ShadingStage::fragment;
   if (name == as_compute) plan.shading_stage = ShadingStage::compute;
   std::vector<std::string> options;
@@ -133,21 +136,22 @@ Setting setting_of(const std::string& name, PlanPreferences plan) {
   plan.specialise = name != generic;
   if (!plan.specialise) {
     options.emplace_back("--no-specialise");
-    return {plan, options};
+    return {PipelineKind::tureen, plan, options};
   }
   std::string kept;
   for (const SpecialisationName& known : specialisation_names())
     if (!plan.specialisations.has(known.what))
       kept += (kept.empty() ? "" : ",") + std::string(known.name);
   if (!kept.empty()) options.insert(options.end(), {"--keep", kept});
-  return {plan, options};
+  return {PipelineKind::tureen, plan, options};
 }
 
 std::unique_ptr<BenchCase> make_case(const std::string& name, const BenchCaseOptions& options,
                                      const gl::Context& context, const Scene& scene) {
   if (name == copy) return std::make_unique<CopyCase>(context);
   const Setting setting = setting_of(name, options.plan);
-  auto bench_case = std::make_unique<RendererCase>(name, context, scene, setting.plan);
+  auto bench_case =
+      std::make_unique<RendererCase>(name, context, scene, setting.pipeline, setting.plan);
   bench_case->configuration.options = setting.options;
   return bench_case;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "jobs/baseline/baseline.hpp"
 #include "jobs/bench/bench_result.hpp"
 #include "jobs/timing/benchmark.hpp"
 #include "jobs/timing/pass_times.hpp"
@@ -16,6 +17,7 @@
 namespace tureen {
 
 struct BenchCaseOptions {
+  PipelineKind pipeline = PipelineKind::tureen;
   PlanPreferences plan = {};      // with the scene's quality, or another
   std::vector<std::string> only;  // names; empty: the usual ones
   bool ceilings = false;

@@ -40,7 +40,8 @@ Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
                     std::span<const Photograph> photographs, const EvaluationOptions& options) {
   assert(!photographs.empty());
   const gl::Context context = gl::Context::create({.backend = options.backend});
-  Renderer renderer(context, soup, origin,
+  Renderer renderer =
+      make_renderer(context, soup, origin, options.pipeline,
                     {.plan = options.plan, .background = {options.background, 1.0f}});
   Evaluation result;
   result.context = context.description();

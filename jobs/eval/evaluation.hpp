@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "image/metrics.hpp"
+#include "jobs/baseline/baseline.hpp"
 #include "runtime/gl/context.hpp"
 #include "runtime/plan/plan.hpp"
 #include "scene/photographs.hpp"
@@ -23,6 +24,7 @@ namespace tureen {
 
 struct EvaluationOptions {
   gl::Backend backend = gl::Backend::automatic;
+  PipelineKind pipeline = PipelineKind::tureen;
   PlanPreferences plan = {};
   /// Colour behind the scene and behind photographs with alpha; display-referred.
   glm::vec3 background{0.0f};

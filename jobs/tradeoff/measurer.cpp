@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "base/error.hpp"
+#include "jobs/baseline/baseline.hpp"
 #include "jobs/timing/benchmark.hpp"
 #include "jobs/tradeoff/study_images.hpp"
 
@@ -51,8 +52,11 @@ void Measurer::report_share(double fraction) const {
 
 std::unique_ptr<Renderer> Measurer::renderer_for(const Job& job) const {
   const RenderOptions options{.plan = job.plan, .background = {options_.background, 0.0f}};
+  const PipelineKind pipeline =
+      job.outcome.method == Method::baseline ? PipelineKind::baseline : PipelineKind::tureen;
   const auto renderer_of = [&](const TriangleSoup& soup) {
-    return std::make_unique<Renderer>(scene_.context, soup, scene_.origin, options);
+    return std::make_unique<Renderer>(
+        make_renderer(scene_.context, soup, scene_.origin, pipeline, options));
   };
   const Edits& edits = job.outcome.applied.edits;
   if (edits == Edits{}) return renderer_of(scene_.soup);

@@ -14,7 +14,7 @@ ModelError drawn_error(const Outcome& outcome, const TriangleSoup& soup, glm::dv
                        const Share& progress) {
   EvaluationOptions evaluation;
   evaluation.backend = options.backend;
-  if (outcome.method == Method::baseline) evaluation.plan.pipeline = PipelineKind::baseline;
+  if (outcome.method == Method::baseline) evaluation.pipeline = PipelineKind::baseline;
   evaluation.plan.quality = outcome.applied.quality;
   evaluation.background = options.background;
   evaluation.metrics.with_flip = options.with_flip;

@@ -87,7 +87,7 @@ void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& 
   Job baseline = job_of(panel.settings, star.configurations.front(), true);
   baseline.outcome.name = "baseline";
   baseline.outcome.method = Method::baseline;
-  baseline.plan = {.pipeline = PipelineKind::baseline};
+  baseline.plan = {};
   jobs.insert(jobs.begin() + 1, std::move(baseline));
   std::vector<Job> generic = jobs_of(panel.settings, star.configurations, false);
   std::move(generic.begin(), generic.end(), std::back_inserter(jobs));

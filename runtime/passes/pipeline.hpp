@@ -1,4 +1,5 @@
-// A method of rendering a planned soup to a target. Internal to runtime/: users include Renderer.
+// A method of rendering a planned soup to a target. Users include Renderer; a module outside
+// runtime/ can implement a pipeline of its own and pass it to a Renderer (jobs/baseline).
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -64,8 +65,5 @@ std::unique_ptr<Pipeline> make_tureen_pipeline(const gl::Capabilities& capabilit
                                                AppearanceSource appearance,
                                                const GeometrySource& geometry,
                                                const RenderPlan& plan);
-std::unique_ptr<Pipeline> make_baseline_pipeline(const gl::Capabilities& capabilities,
-                                                 const DeviceLimits& limits,
-                                                 const TriangleSoup& soup, const RenderPlan& plan);
 
 }  // namespace tureen

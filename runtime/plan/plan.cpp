@@ -67,15 +67,10 @@ RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
                      const PlanPreferences& preferences) {
   if (const auto reason = defect(preferences.quality)) throw UsageError(*reason);
   PlanDraft draft{soup, preferences, {}};
-  draft.plan.pipeline = preferences.pipeline;
   draft.plan.specialise = preferences.specialise;
   draft.plan.appearance = appearance_name(soup.appearance);
   draft.plan.soup_faces = soup.triangles.size();
   draft.plan.quality = preferences.quality;
-  if (preferences.pipeline == PipelineKind::baseline) {
-    plan_baseline(draft);
-    return std::move(draft.plan);
-  }
   draft.plan.reversed_depth = limits.clip_control && preferences.reversed_depth;
   plan_faces(draft, limits);
   std::visit([&](const auto& appearance) { plan_appearance(draft, appearance); }, soup.appearance);

@@ -25,11 +25,6 @@ struct DeviceLimits {
   bool software = false;         // the processor draws: triangles are expensive and use its time
 };
 
-enum class PipelineKind {
-  tureen,    // visibility pass, then shading of covered pixels; or forward
-  baseline,  // a reimplementation of the published DiffSoup viewer, the baseline
-};
-
 enum class ShadingSite {
   forward,   // colour in the only pass
   deferred,  // a visibility pass stores the visible fragment, a shading pass colours it
@@ -44,7 +39,6 @@ enum class ShadingStage {
 };
 
 struct PlanPreferences {
-  PipelineKind pipeline = PipelineKind::tureen;
   /// Whether specialisations are applied. If false, every face is alpha-tested, every pixel is
   /// shaded, and network weights are uniforms.
   bool specialise = true;
@@ -77,7 +71,6 @@ struct LatticePlan {
 };
 
 struct RenderPlan {
-  PipelineKind pipeline = PipelineKind::tureen;
   ShadingSite site = ShadingSite::deferred;
   bool reversed_depth = false;
 
@@ -118,13 +111,12 @@ struct RenderPlan {
   bool specialise = true;            // PlanPreferences::specialise
   /// PlanPreferences::shading_stage: compute runs only if the plan is deferred.
   ShadingStage requested_stage = ShadingStage::fragment;
-  /// Whether --keep has no effect, since the baseline has no specialisations.
-  bool ignores_specialisations = false;
+  /// All sentences of describe(), for a pipeline from outside runtime/; empty for ours.
+  std::vector<std::string> description;
 };
 
-/// The soup must have no defect(). Throws UsageError if the baseline is requested and cannot draw
-/// this soup, and for a quality with a defect(). Throws DeviceLimitError if the compute stage is
-/// requested without compute shaders.
+/// The soup must have no defect(). Throws UsageError for a quality with a defect(). Throws
+/// DeviceLimitError if the compute stage is requested without compute shaders.
 RenderPlan make_plan(const TriangleSoup& soup, const DeviceLimits& limits,
                      const PlanPreferences& preferences = {});
 

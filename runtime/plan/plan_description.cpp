@@ -63,9 +63,6 @@ std::string effect_of(const AppliedSpecialisation& applied) {
 }
 
 std::string describe_frame(const RenderPlan& plan) {
-  if (plan.pipeline == PipelineKind::baseline)
-    return "baseline: two RGBA8 feature targets, every fragment samples all eight "
-           "channels, faces in file order, the network on every pixel with its weights in uniforms";
   std::string sentence = "draws " + part_of(plan.faces.size(), plan.soup_faces) + "faces (" +
                          plan.appearance + "), near ones first in " +
                          std::to_string(plan.clusters.size()) + " clusters, ";
@@ -84,14 +81,19 @@ std::string describe(const AppliedSpecialisation& applied) {
   return name_of(applied.what) + (": " + effect_of(applied)) + margin_of(applied);
 }
 
+std::vector<std::string> describe_sampling(const Quality& quality) {
+  std::vector<std::string> sentences;
+  if (quality.resolution_scale < 1)
+    sentences.push_back("draws " + describe(quality) + " and enlarges the image bilinearly");
+  if (quality.supersampling > 1) sentences.push_back("draws " + describe(quality));
+  return sentences;
+}
+
 std::vector<std::string> describe(const RenderPlan& plan) {
+  if (!plan.description.empty()) return plan.description;
   std::vector<std::string> sentences{describe_frame(plan)};
   const auto add = [&](std::string sentence) { sentences.push_back(std::move(sentence)); };
-  if (plan.quality.resolution_scale < 1)
-    add("draws " + describe(plan.quality) + " and enlarges the image bilinearly");
-  if (plan.quality.supersampling > 1) add("draws " + describe(plan.quality));
-  if (plan.ignores_specialisations)
-    add("--keep has no effect: the baseline has no specialisations");
+  for (std::string& sentence : describe_sampling(plan.quality)) add(std::move(sentence));
   if (plan.undrawable_faces > 0)
     add(std::to_string(plan.undrawable_faces) +
         " faces without area or with corners that are not finite are not drawn");

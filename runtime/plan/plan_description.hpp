@@ -9,8 +9,11 @@
 namespace tureen {
 
 /// The method of drawing, then one sentence for each quality setting, and one for each
-/// specialisation with its count and margin.
+/// specialisation with its count and margin. RenderPlan::description, if the plan has one.
 std::vector<std::string> describe(const RenderPlan& plan);
+
+/// A sentence on the resolution scale and one on the samples; none for one sample a pixel.
+std::vector<std::string> describe_sampling(const Quality& quality);
 
 /// "alpha-test: 7 of 9 faces are opaque throughout and need no alpha test (exact)".
 std::string describe(const AppliedSpecialisation& specialisation);

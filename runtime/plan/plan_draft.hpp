@@ -39,7 +39,4 @@ void plan_appearance(PlanDraft& draft, const UvTextures& textures);
 /// Chooses the form of a network's weights in the shader, and the necessary weights.
 void plan_network(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges& ranges);
 
-/// The complete plan of the baseline. Throws UsageError if it cannot draw this soup.
-void plan_baseline(PlanDraft& draft);
-
 }  // namespace tureen

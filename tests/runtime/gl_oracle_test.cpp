@@ -138,26 +138,6 @@ INSTANTIATE_TEST_SUITE_P(Level, GlOracleLattice,
                                   std::to_string(100 + std::get<0>(i.param));
                          });
 
-class GlOraclePublished : public testing::TestWithParam<int> {};
-
-// Features pass through 8 bits once more than the texels do, before the network.
-TEST_P(GlOraclePublished, AgreesAtThisLevel) {
-  const std::uint64_t seed = 200 + std::uint64_t(GetParam());
-  const TriangleSoup soup =
-      test::random_soup(seed, {.kind = test::Kind::lattice_mlp, .level = GetParam()});
-  const Camera camera = camera_for(seed);
-  // It names no faces; it rasterises as the generic plan with ordinary depth does.
-  const Drawn generic = draw(
-      soup, camera, {.specialise = false, .reversed_depth = false, .site = ShadingSite::deferred});
-  const Drawn published = draw(soup, camera, {.pipeline = PipelineKind::baseline, .site = {}});
-  // Measured before this was written: 54 to 61 dB for rounded texels through an 8-bit G-buffer.
-  expect_agreement(snapped_oracle(soup, camera), with_faces_of(generic, published), "published",
-                   {.min_psnr = 53.0});
-}
-
-INSTANTIATE_TEST_SUITE_P(Level, GlOraclePublished, testing::Range(0, 8),
-                         testing::PrintToStringParamName());
-
 class GlOracleHarmonics : public testing::TestWithParam<std::tuple<int, ViewConvention>> {};
 
 TEST_P(GlOracleHarmonics, AgreeAtThisDegree) {

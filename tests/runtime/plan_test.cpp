@@ -6,13 +6,11 @@
 
 #include <cmath>
 
-#include "base/error.hpp"
 #include "runtime/plan/face_alpha.hpp"
 #include "scene/lattice.hpp"
 #include "scene/spherical_harmonics.hpp"
 #include "tests/runtime/specialised_images.hpp"
 #include "tests/support/cutout_cloud.hpp"
-#include "tests/support/errors.hpp"
 
 namespace tureen::test {
 namespace plan_test {
@@ -183,21 +181,6 @@ TEST(Plan, WithoutSpecialisationNothingIsLeftOut) {
   EXPECT_EQ(plan.mlp_weights, MlpWeights::uniforms);
   EXPECT_TRUE(plan.applied.empty());
   EXPECT_FALSE(plan.depth_rejects_background);
-}
-
-TEST(Plan, KeepingChangesNothingForThePublishedPipeline) {
-  const TriangleSoup soup = random_soup(1, {.kind = Kind::lattice_mlp, .level = 2});
-  PlanPreferences published{.pipeline = PipelineKind::baseline};
-  EXPECT_FALSE(make_plan(soup, DeviceLimits{}, published).ignores_specialisations);
-  published.specialisations = SpecialisationSet::all().without(Specialisation::alpha_test);
-  EXPECT_TRUE(make_plan(soup, DeviceLimits{}, published).ignores_specialisations);
-}
-
-TEST(Plan, ThePublishedPipelineRefusesWhatItCannotDraw) {
-  const TriangleSoup soup = random_soup(1, {.kind = Kind::face_colors});
-  EXPECT_THAT(error_of<UsageError>(
-                  [&] { make_plan(soup, DeviceLimits{}, {.pipeline = PipelineKind::baseline}); }),
-              ErrorAt("", appearance_name(soup.appearance)));
 }
 
 TEST(Plan, CoincidentFacesShareAClusterAndABucket) {

@@ -19,13 +19,6 @@ TEST(QualityPlan, IsWhatWasAskedFor) {
     EXPECT_EQ(make_plan(soup, {}, with(quality)).quality, quality);
 }
 
-TEST(QualityPlan, IsThePublishedPipelinesToo) {
-  const TriangleSoup one_level = random_soup(21, {.kind = Kind::lattice_mlp, .level = 1});
-  PlanPreferences plan = with({.supersampling = 2});
-  plan.pipeline = PipelineKind::baseline;
-  EXPECT_EQ(make_plan(one_level, {}, plan).quality, plan.quality);
-}
-
 TEST(QualityPlan, WhatCannotBeDrawnIsRefused) {
   EXPECT_THROW(make_plan(soup_of(Kind::lattice_mlp), {}, with({.supersampling = 9})), UsageError);
 }

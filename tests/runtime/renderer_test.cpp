@@ -166,10 +166,8 @@ TEST(Renderer, StateThatSomebodyElseLeftChangesNothing) {
 // What it makes anew in the context that draws next; the window's tests move between two contexts.
 TEST(Renderer, DrawsTheSameAfterItLeftTheContext) {
   const gl::Context context = gl::Context::create(osmesa);
-  const std::vector<PlanPreferences> plans = {{},
-                                              {.site = ShadingSite::forward},
-                                              {.quality = {.supersampling = 2}},
-                                              {.pipeline = PipelineKind::baseline}};
+  const std::vector<PlanPreferences> plans = {
+      {}, {.site = ShadingSite::forward}, {.quality = {.supersampling = 2}}};
   for (const PlanPreferences& plan : plans) {
     const TriangleSoup soup = random_soup(11, {.kind = Kind::lattice_mlp, .level = 2});
     Random random(11);
@@ -261,7 +259,6 @@ TEST(Renderer, TellsWhatItsTargetsTake) {
       {{.site = ShadingSite::deferred}, 4 + 4 + 8},
       {{.site = ShadingSite::deferred, .quality = {.supersampling = 3}}, 9 * 16 + 4},
       {{.site = ShadingSite::deferred, .quality = {.resolution_scale = 0.5}}, 4 + 4},
-      {{.pipeline = PipelineKind::baseline}, 4 + 3 * 4},
   };
   for (const auto& [plan, each] : bytes_a_pixel) {
     SCOPED_TRACE(each);

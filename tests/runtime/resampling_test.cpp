@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "base/error.hpp"
+#include "jobs/baseline/baseline.hpp"
 #include "runtime/passes/resampled_pipeline.hpp"
 #include "tests/runtime/quality_drawing.hpp"
 #include "tests/support/contexts.hpp"
@@ -42,13 +43,14 @@ void expect_filtered(const Image8& drawn, const std::function<glm::dvec4(int, in
 
 struct Variant {
   const char* name;
-  PlanPreferences plan;
+  PlanPreferences plan = {};
+  PipelineKind pipeline = PipelineKind::tureen;
 };
 
 const Variant variants[] = {
     {"deferred", {.site = ShadingSite::deferred}},
     {"forward", {.site = ShadingSite::forward}},
-    {"published", {.pipeline = PipelineKind::baseline}},
+    {.name = "baseline", .pipeline = PipelineKind::baseline},
 };
 
 class Resampling : public testing::TestWithParam<NamedContext> {
@@ -57,6 +59,12 @@ class Resampling : public testing::TestWithParam<NamedContext> {
     RenderOptions result{.plan = variant.plan, .limits = {}};
     result.background = glm::vec4(0.9f, 0.2f, 0.5f, background_alpha);
     return result;
+  }
+  Image8 draw(const gl::Context& context, const Camera& camera, const Variant& variant,
+              const RenderOptions& options) const {
+    Renderer renderer = make_renderer(context, soup, {}, variant.pipeline, options);
+    renderer.draw(camera);
+    return renderer.read_color();
   }
   const TriangleSoup soup = random_soup(22, {.kind = Kind::lattice_mlp, .size = 0.3, .level = 2});
 };
@@ -69,9 +77,9 @@ TEST_P(Resampling, SupersamplingIsTheMeanOfALargerImage) {
     for (const int n : {2, 3, 8}) {
       SCOPED_TRACE(std::string(variant.name) + " " + std::to_string(n));
       RenderOptions all = options(variant, n == 3 ? 0.0f : 1.0f);
-      const Image8 large = draw(context, soup, resampled(camera, 61 * n, 43 * n), all);
+      const Image8 large = draw(context, resampled(camera, 61 * n, 43 * n), variant, all);
       all.plan.quality.supersampling = n;
-      expect_filtered(draw(context, soup, camera, all), [&](int x, int y) {
+      expect_filtered(draw(context, camera, variant, all), [&](int x, int y) {
         WeightedMean mean;
         for (int i = 0; i < n * n; ++i)
           mean.add(large.at(n * x + i % n, n * y + i / n), 1.0 / (n * n));
@@ -88,9 +96,9 @@ TEST_P(Resampling, ScaleInterpolatesASmallerImage) {
       SCOPED_TRACE(std::string(variant.name) + " " + std::to_string(scale));
       RenderOptions all = options(variant, scale == 0.5 ? 0.0f : 1.0f);
       const auto width = int(std::lround(61 * scale)), height = int(std::lround(43 * scale));
-      const Image8 small = draw(context, soup, resampled(camera, width, height), all);
+      const Image8 small = draw(context, resampled(camera, width, height), variant, all);
       all.plan.quality.resolution_scale = scale;
-      expect_filtered(draw(context, soup, camera, all), [&](int x, int y) {
+      expect_filtered(draw(context, camera, variant, all), [&](int x, int y) {
         const double u = std::clamp((x + 0.5) * width / 61.0 - 0.5, 0.0, width - 1.0);
         const double v = std::clamp((y + 0.5) * height / 43.0 - 0.5, 0.0, height - 1.0);
         const int left = int(u), top = int(v);

@@ -123,11 +123,6 @@ TEST(ShadingStagePlan, IsComputeOnlyWhereThePlanIsDeferred) {
   EXPECT_EQ(forward.shading_stage, ShadingStage::fragment);
   EXPECT_EQ(forward.requested_stage, ShadingStage::compute);
   EXPECT_EQ(plan_of({}).shading_stage, ShadingStage::compute);
-
-  PlanPreferences published{.pipeline = PipelineKind::baseline};
-  published.shading_stage = ShadingStage::compute;
-  const TriangleSoup one_level = random_soup(21, {.kind = Kind::lattice_mlp, .level = 1});
-  EXPECT_THROW(make_plan(one_level, limits, published), UsageError);
 }
 
 }  // namespace shading_stage_test

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "jobs/baseline/baseline.hpp"
 #include "runtime/renderer.hpp"
 #include "tests/support/evidence.hpp"
 
@@ -62,6 +63,14 @@ Drawn draw(gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin, co
   Renderer renderer(context, soup, origin, {.plan = plan, .limits = {}});
   renderer.draw(camera);
   return {renderer.read_color(), renderer.read_faces()};
+}
+
+Drawn draw_baseline(gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
+                    const Camera& camera) {
+  context.make_current();
+  Renderer renderer = make_renderer(context, soup, origin, PipelineKind::baseline);
+  renderer.draw(camera);
+  return {renderer.read_color(), {}};
 }
 
 OracleImage snapped_oracle(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera,

@@ -29,6 +29,10 @@ struct Drawn {
 Drawn draw(gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera,
            const PlanPreferences& plan = {.site = ShadingSite::deferred});
 
+/// The same frame by the baseline, which names no faces.
+Drawn draw_baseline(gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
+                    const Camera& camera);
+
 /// The oracle's image of the same frame, rasterised as GL does.
 OracleImage snapped_oracle(const TriangleSoup& soup, glm::dvec3 origin, const Camera& camera,
                            oracle::Attributes attributes = oracle::Attributes::unsnapped);

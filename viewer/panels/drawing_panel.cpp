@@ -61,9 +61,9 @@ void drawing_panel(State& state) {
   Stage& stage = *state.stage;
   DrawingChoice choice = state.wanted;
   bool changed = sampling(choice, *stage.scene);
-  bool baseline = choice.plan.pipeline == PipelineKind::baseline;
+  bool baseline = choice.pipeline == PipelineKind::baseline;
   if (ImGui::Checkbox("the baseline", &baseline)) {
-    choice.plan.pipeline = baseline ? PipelineKind::baseline : PipelineKind::tureen;
+    choice.pipeline = baseline ? PipelineKind::baseline : PipelineKind::tureen;
     changed = true;
   }
   tip("A likeness of the viewer that was published with DiffSoup: the baseline");

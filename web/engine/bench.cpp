@@ -10,6 +10,7 @@
 #include "camera/camera_sets.hpp"
 #include "formats/dataset/camera_file.hpp"
 #include "formats/scene_file.hpp"
+#include "jobs/baseline/baseline.hpp"
 #include "jobs/timing/benchmark.hpp"
 #include "runtime/plan/plan_description.hpp"
 #include "web/engine/page_view.hpp"
@@ -95,13 +96,13 @@ Json add_published(const Json& arguments) {
   BenchScene& to = scene_at(arguments.at("scene"));
   Scene scene = read_scene(scene_path(arguments));
   RenderOptions options{.background = glm::vec4(scene.info.background, 1.0f)};
-  options.plan.pipeline = PipelineKind::baseline;
   options.plan.quality = scene.quality;
   const TriangleSoup& soup = opaque_soup(scene);
   const double start = milliseconds();
-  RenderPlan plan = make_plan(soup, device_limits(page_view().capabilities()), options.plan);
+  RenderPlan plan = make_baseline_plan(soup, options.plan);
   const double planned = milliseconds();
-  to.published.emplace(page_view().context(), soup, scene.origin, std::move(plan), options);
+  to.published =
+      make_baseline_renderer(page_view().context(), soup, scene.origin, std::move(plan), options);
   Json result = facts(*to.published, planned);
   result["plan_ms"] = planned - start;
   return result;

@@ -10,15 +10,14 @@ namespace {
 
 template <class Archive, class Plan>
 void archive_plan(Archive& archive, Plan& plan) {
-  archive(plan.pipeline, plan.site, plan.reversed_depth, plan.faces, plan.opaque_count,
-          plan.clusters, plan.drops_small_triangles, plan.flat_colors, plan.color_mlp,
-          plan.mlp_weights, plan.view_direction, plan.latent_features,
-          plan.depth_rejects_background, plan.harmonics_degree, plan.feature_ranges,
-          plan.lattice.uniform_level, plan.lattice.levels, plan.lattice.alpha_by_cell,
-          plan.lattice.refused_alpha_cell_bytes, plan.applied, plan.shading_stage,
-          plan.quality.resolution_scale, plan.quality.supersampling, plan.appearance,
-          plan.soup_faces, plan.undrawable_faces, plan.zero_weights, plan.specialise,
-          plan.requested_stage, plan.ignores_specialisations);
+  archive(plan.site, plan.reversed_depth, plan.faces, plan.opaque_count, plan.clusters,
+          plan.drops_small_triangles, plan.flat_colors, plan.color_mlp, plan.mlp_weights,
+          plan.view_direction, plan.latent_features, plan.depth_rejects_background,
+          plan.harmonics_degree, plan.feature_ranges, plan.lattice.uniform_level,
+          plan.lattice.levels, plan.lattice.alpha_by_cell, plan.lattice.refused_alpha_cell_bytes,
+          plan.applied, plan.shading_stage, plan.quality.resolution_scale,
+          plan.quality.supersampling, plan.appearance, plan.soup_faces, plan.undrawable_faces,
+          plan.zero_weights, plan.specialise, plan.requested_stage);
 }
 
 template <class Archive, class Network>

@@ -1,0 +1,43 @@
+// The baseline: our reimplementation of the pipeline in DiffSoup's viewer (arXiv 2603.27151), the
+// reference of all claims about speed. And the choice between the baseline and our own pipeline,
+// for programs that offer both.
+//
+// The baseline has the viewer's shortcomings too. It draws lattice textures with a color MLP, with
+// one lattice level for all faces, from lookup textures that must fit the largest 2D texture of the
+// device. It has no specialisations, and its renderers name no faces and no points.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "runtime/gl/context.hpp"
+#include "runtime/plan/plan.hpp"
+#include "runtime/render_options.hpp"
+#include "runtime/renderer.hpp"
+#include "scene/triangle_soup.hpp"
+
+namespace tureen {
+
+enum class PipelineKind {
+  tureen,  // our own: visibility pass, then shading of covered pixels; or forward
+  baseline,
+};
+
+/// Plans without GL. describe() of the plan describes the baseline. Of the preferences only the
+/// quality has an effect; if specialisations are kept, the description says that this has none. The
+/// soup must have no defect(). Throws UsageError for a soup that the baseline cannot draw, for
+/// ShadingStage::compute, and for a quality with a defect().
+RenderPlan make_baseline_plan(const TriangleSoup& soup, const PlanPreferences& preferences = {});
+
+/// Uploads the soup; it is not needed afterwards. The plan is from make_baseline_plan for this
+/// soup; options.plan is ignored. The context must be current. Throws DeviceLimitError if the
+/// lookup textures do not fit the device's limits, or those of the options.
+Renderer make_baseline_renderer(const gl::Context& context, const TriangleSoup& soup,
+                                glm::dvec3 origin, RenderPlan plan,
+                                const RenderOptions& options = {});
+
+/// Plans and uploads for this pipeline. Throws what the Renderer's constructor throws, or the
+/// baseline's functions.
+Renderer make_renderer(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
+                       PipelineKind kind, const RenderOptions& options = {});
+
+}  // namespace tureen
