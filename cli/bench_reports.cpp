@@ -12,7 +12,8 @@
 #include "cli/bench_comparison.hpp"
 #include "cli/bench_words.hpp"
 #include "cli/output_argument.hpp"
-#include "cli/report_page.hpp"
+#include "cli/result_files.hpp"
+#include "jobs/results/comparison_json.hpp"
 
 namespace tureen::cli {
 
@@ -82,7 +83,7 @@ std::optional<BenchResult> prepare_bench_reports(const BenchReportOptions& optio
   std::optional<BenchResult> then;
   if (!options.against.empty()) {
     require_there(options.against);
-    then = bench_result_from_json(text_of(options.against), options.against);
+    then = results::bench_result_from_json(text_of(options.against), options.against);
     const auto few = [](const BenchMeasurement& m) { return m.frame_ms.rounds < min_rounds; };
     if (options.fail_slower &&
         std::any_of(then->measurements.begin(), then->measurements.end(), few))
@@ -103,8 +104,8 @@ ExitCode report_bench(const BenchReportOptions& options, const BenchResult& now,
   std::optional<BenchComparison> comparison;
   if (then) comparison = compare_benches(now, *then);
   if (comparison) say_comparison(*comparison, options.against);
-  Json told = to_json(now);
-  if (comparison) told["comparison"] = to_json(*comparison, options.against);
+  Json told = results::to_json(now);
+  if (comparison) told["comparison"] = results::to_json(*comparison, options.against);
   if (options.json) print_json(told);
 
   if (!options.folder.empty()) write_result(options.folder, "bench", json_text(told));

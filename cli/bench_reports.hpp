@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cli/arguments.hpp"
-#include "cli/bench_result.hpp"
 #include "cli/exit_code.hpp"
+#include "jobs/results/bench_json.hpp"
 
 namespace tureen::cli {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/bench_result.hpp"
+#include "jobs/results/bench_json.hpp"
 
 namespace tureen::cli {
 

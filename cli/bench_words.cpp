@@ -17,22 +17,8 @@ std::string ratio_text(double ratio, const BenchMeasurement& a, const BenchMeasu
              : verdict_text(verdict, std::min(a.frame_ms.rounds, b.frame_ms.rounds));
 }
 
-const char* verdict_word(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::unknown:
-      return "unknown";
-    case Verdict::equal:
-      return "equal";
-    case Verdict::faster:
-      return "faster";
-    case Verdict::slower:
-      return "slower";
-  }
-  return "";
-}
-
 std::string verdict_text(Verdict verdict, int rounds) {
-  return verdict == Verdict::unknown ? count_text(rounds, "round") : verdict_word(verdict);
+  return verdict == Verdict::unknown ? count_text(rounds, "round") : name_of(verdict);
 }
 
 std::string slowest_percent_text(const FrameStatistics& ms, const std::string& figure) {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "cli/bench_result.hpp"
+#include "jobs/bench/bench_result.hpp"
 
 namespace tureen::cli {
 
@@ -14,11 +14,7 @@ inline constexpr const char* not_known = "–";
 /// A ratio of two measurements of one run, where it means something: "5.20". Else its verdict.
 std::string ratio_text(double ratio, const BenchMeasurement& a, const BenchMeasurement& b);
 
-/// "unknown", "equal", "faster", "slower".
-const char* verdict_word(Verdict verdict);
-
-/// The same, but "1 round" where that is not known, of the one of the two that has
-/// fewer `rounds`.
+/// The verdict's name, or "1 round" if it is unknown; `rounds` is the smaller of the two.
 std::string verdict_text(Verdict verdict, int rounds);
 
 /// `figure` of p99 or the 1 % low; not_known where that is the slowest sample and nothing more.

@@ -14,14 +14,14 @@
 #include "cli/eval_images.hpp"
 #include "cli/memory_option.hpp"
 #include "cli/output_argument.hpp"
-#include "cli/plan_json.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
-#include "cli/report_page.hpp"
+#include "cli/result_files.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/table.hpp"
 #include "cli/values.hpp"
 #include "jobs/eval/evaluation.hpp"
+#include "jobs/results/plan_json.hpp"
 
 namespace tureen::cli {
 
@@ -65,7 +65,7 @@ Json report(const EvalOptions& options, const Evaluation& result,
           {"context", result.context},
           {"renderer", result.renderer},
           {"plan", result.plan},
-          {"specialisations", specialisations_json(result.specialisations)},
+          {"specialisations", results::specialisations_json(result.specialisations)},
           {"output", output}};
 }
 

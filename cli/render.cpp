@@ -15,12 +15,12 @@
 #include "cli/interrupt.hpp"
 #include "cli/memory_option.hpp"
 #include "cli/output_argument.hpp"
-#include "cli/plan_json.hpp"
 #include "cli/report.hpp"
 #include "cli/scene_argument.hpp"
 #include "cli/values.hpp"
 #include "cli/view_options.hpp"
 #include "image/video_file.hpp"
+#include "jobs/results/plan_json.hpp"
 #include "runtime/debug_views/debug_view_renderer.hpp"
 #include "runtime/plan/plan_description.hpp"
 #include "runtime/renderer.hpp"
@@ -181,7 +181,7 @@ ExitCode render(RenderOptions options) {
          {"triangles", soup.triangles.size()},
          {"frame_ms", {{"median", times.median()}, {"p95", times.p95()}, {"n", times.ms.size()}}},
          {"plan", drawn.plan},
-         {"specialisations", specialisations_json(drawn.specialisations)},
+         {"specialisations", results::specialisations_json(drawn.specialisations)},
          {"output", images.paths}});
   return ExitCode::done;
 }

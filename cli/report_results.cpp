@@ -5,10 +5,10 @@
 #include "base/existing_path.hpp"
 #include "base/extension.hpp"
 #include "base/input.hpp"
-#include "cli/json_reading.hpp"
-#include "cli/provenance.hpp"
-#include "cli/tradeoff_report.hpp"
-#include "cli/web_bench.hpp"
+#include "jobs/results/json_reading.hpp"
+#include "jobs/results/provenance.hpp"
+#include "jobs/results/tradeoff_json.hpp"
+#include "jobs/results/web_bench.hpp"
 #include "trainer/common/training_log.hpp"
 
 namespace tureen::cli {
@@ -23,27 +23,28 @@ struct UnknownResult : InputError {
 };
 
 void check_tradeoff(const JsonView& root) {
-  require_format(root, tradeoff_format, tradeoff_version, "not a result of tureen tradeoff");
-  scene_of(root["scene"]);
-  device_of(root["device"]);
+  results::require_format(root, results::tradeoff_format, results::tradeoff_version,
+                          "not a result of tureen tradeoff");
+  results::scene_of(root["scene"]);
+  results::device_of(root["device"]);
   for (const char* name : {"drawing", "antialiasing"}) {
     const JsonView configurations = root[name]["configurations"];
     if (configurations.size() == 0) configurations.fail("is empty");
-    list(configurations, [](const JsonView& each) { return each["e_render"]["psnr_db"].number(); });
+    results::list(configurations, [](const JsonView& each) { return each["e_render"]["psnr_db"].number(); });
   }
 }
 
 void check_eval(const JsonView& root) {
   root["mean"]["psnr_db"].number();
   if (root["views"].size() == 0) root["views"].fail("is empty");
-  list(root["views"], [](const JsonView& each) {
+  results::list(root["views"], [](const JsonView& each) {
     each["name"].text();
     return each["psnr_db"].number();
   });
 }
 
 void check_measurements(const JsonView& root) {
-  require_format(root, "tureen measurements", 1, "not measurements");
+  results::require_format(root, "tureen measurements", 1, "not measurements");
   root["name"].text();
   const JsonView tables = root["tables"];
   for (const auto& [name, rows] : tables.value().items()) tables[name.c_str()].size();
@@ -61,8 +62,8 @@ ReportResult training(const std::string& file, const std::string& text) {
 std::vector<ReportResult> web_bench(const std::string& file) {
   Input input = Input::open(file);
   std::vector<ReportResult> results;
-  for (const BenchResult& each : read_web_bench(input))
-    results.push_back({file, "bench", json_text(to_json(each))});
+  for (const BenchResult& each : results::read_web_bench(input))
+    results.push_back({file, "bench", json_text(results::to_json(each))});
   return results;
 }
 
@@ -79,7 +80,7 @@ std::vector<ReportResult> read_file(const std::string& file) {
       document.is_object() ? document.value("format", nlohmann::json()).dump() : "";
   if (format == "\"tureen web bench\"") return web_bench(file);
   if (format == "\"tureen bench\"") {
-    bench_result_from_json(text, file);
+    results::bench_result_from_json(text, file);
     return {{file, "bench", text}};
   }
   if (format == "\"tureen tradeoff\"") {

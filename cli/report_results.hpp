@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <vector>
 
-#include "cli/report_page.hpp"
+#include "jobs/results/report_page.hpp"
 
 namespace tureen::cli {
+
+using results::ReportResult;
 
 /// The results of a file: several from a download of bench.html, else one, with the file's JSON.
 /// Of a folder, the results in all its .json and .jsonl files, also in folders below it, by name;

@@ -6,7 +6,7 @@
 
 #include "cli/dataset_argument.hpp"
 #include "cli/scene_argument.hpp"
-#include "cli/tradeoff_report.hpp"
+#include "cli/tradeoff_tables.hpp"
 #include "jobs/tradeoff/pareto.hpp"
 #include "jobs/tradeoff/reference.hpp"
 #include "runtime/gl/context.hpp"

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "cli/tradeoff_report.hpp"
+#include "cli/tradeoff_tables.hpp"
 #include "scene/scene.hpp"
 
 namespace tureen::cli {

@@ -25,6 +25,7 @@ set(arrows
   "jobs/eval: base image scene runtime runtime/gl runtime/plan"
   "jobs/tradeoff: base image scene oracle runtime runtime/gl runtime/plan jobs/eval jobs/timing jobs/visibility"
   "jobs/compress: base image scene camera formats runtime runtime/gl jobs/visibility"
+  "jobs/results: base scene runtime/plan jobs/bench jobs/timing jobs/tradeoff"
   "viewer: base image scene camera formats runtime runtime/gl runtime/plan runtime/passes runtime/debug_views jobs/timing"
   "web: base image scene camera formats runtime runtime/gl runtime/plan runtime/debug_views jobs/timing")
 

@@ -111,4 +111,18 @@ Verdict verdict_on(const FrameStatistics& a, const FrameStatistics& b, double aa
   return ours < theirs ? Verdict::faster : Verdict::slower;
 }
 
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::unknown:
+      return "unknown";
+    case Verdict::equal:
+      return "equal";
+    case Verdict::faster:
+      return "faster";
+    case Verdict::slower:
+      return "slower";
+  }
+  return "";
+}
+
 }  // namespace tureen

@@ -79,6 +79,9 @@ std::optional<double> spread_between(const FrameStatistics& a, const FrameStatis
 
 enum class Verdict { unknown, equal, faster, slower };
 
+/// "unknown", "equal", "faster", "slower".
+const char* name_of(Verdict verdict);
+
 /// Compares the min_of_medians of `a` and `b`; `tureen bench` and the benchmarks use it. Equal:
 /// they differ by less than twice spread_between(), relative to the smaller. Unknown:
 /// spread_between() is unknown.

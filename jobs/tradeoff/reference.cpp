@@ -60,9 +60,9 @@ ImageF reference_image(const TriangleSoup& soup, glm::dvec3 origin, const Camera
       oracle.progress = [&](double fraction) {
         options.progress((first + fraction * strip.height) / camera.height);
       };
-    OracleImage image = render_oracle(soup, origin, strip, oracle);
-    set_coverage(image, n);
-    std::copy(image.color.pixels.begin(), image.color.pixels.end(), &image.at(0, first));
+    OracleImage drawn = render_oracle(soup, origin, strip, oracle);
+    set_coverage(drawn, n);
+    std::copy(drawn.color.pixels.begin(), drawn.color.pixels.end(), &image.at(0, first));
   }
   return image;
 }

@@ -20,9 +20,8 @@ TexelLayout TexelLayout::fitted(std::uint64_t max_texels) const {
   const std::uint64_t rows = (max_texels >> row_bits) + 1;
   TexelLayout layout = *this;
   if (rows <= std::uint64_t(1) << layer_bits) return layout;
-  const auto max_layers = std::uint64_t(std::min(64, max_layers));
-  while (layout.layer_bits > 0 && (rows >> (layout.layer_bits - 1)) < max_layers)
-    --layout.layer_bits;
+  const auto largest = std::uint64_t(std::min(64, max_layers));
+  while (layout.layer_bits > 0 && (rows >> (layout.layer_bits - 1)) < largest) --layout.layer_bits;
   return layout;
 }
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "base/json_view.hpp"
-#include "cli/report.hpp"
+#include "jobs/results/json_text.hpp"
 #include "runtime/plan/specialisation.hpp"
 
-namespace tureen::cli {
+namespace tureen::results {
 
 /// [{"name": "alpha-test", "count": 7, "total": 9, "margin": 0}, ..]: "margin" in steps of 8 bits,
 /// "count" of "total" faces, bands or neurons, or 0 of 0.
@@ -18,4 +18,4 @@ Json specialisations_json(std::span<const AppliedSpecialisation> specialisations
 /// files of earlier versions. Throws InputError.
 std::vector<AppliedSpecialisation> specialisations_of(const JsonView& configuration);
 
-}  // namespace tureen::cli
+}  // namespace tureen::results

@@ -3,10 +3,10 @@
 
 #include <string>
 
-#include "cli/report.hpp"
 #include "jobs/bench/bench_result.hpp"
+#include "jobs/results/json_text.hpp"
 
-namespace tureen::cli {
+namespace tureen::results {
 
 /// Of the file's layout. A reader refuses a larger one.
 /// 2: p99 and low_1_percent_fps may be null, and there are keys that not every file has.
@@ -18,4 +18,4 @@ Json to_json(const BenchResult& result);
 /// and the path of what is missing or of another kind: untrusted.
 BenchResult bench_result_from_json(const std::string& text, const std::string& file);
 
-}  // namespace tureen::cli
+}  // namespace tureen::results

@@ -1,5 +1,5 @@
 // The file of `tureen bench`: written, read back, and refused when bad.
-#include "cli/bench_result.hpp"
+#include "jobs/results/bench_json.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,11 +8,10 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "cli/version.hpp"
 #include "tests/support/errors.hpp"
 
-namespace tureen::cli {
-namespace bench_result_test {
+namespace tureen::results {
+namespace bench_json_test {
 
 /// Every field set, to values that no other field has.
 BenchResult example() {
@@ -271,5 +270,5 @@ TEST(Version, SaysWhetherThisIsARelease) {
 #endif
 }
 
-}  // namespace bench_result_test
-}  // namespace tureen::cli
+}  // namespace bench_json_test
+}  // namespace tureen::results

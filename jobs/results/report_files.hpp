@@ -4,9 +4,9 @@
 
 #include <string_view>
 
-namespace tureen::cli::report_files {
+namespace tureen::results::report_files {
 
 /// Empty where there is no such file.
 std::string_view text(std::string_view name);
 
-}  // namespace tureen::cli::report_files
+}  // namespace tureen::results::report_files

@@ -13,7 +13,7 @@
 
 #include "base/json_view.hpp"
 
-namespace tureen::cli {
+namespace tureen::results {
 
 /// A whole number that an int holds.
 inline int integer(const JsonView& view) {
@@ -90,4 +90,4 @@ inline void require_format(const JsonView& root, const std::string& name, int ne
     root["version"].fail(fmt::format("version {} is newer than this program", version));
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen::results

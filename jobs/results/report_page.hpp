@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace tureen::cli {
+namespace tureen::results {
 
 /// One result on the page.
 struct ReportResult {
@@ -19,12 +19,4 @@ struct ReportResult {
 /// The page, to be written to `page`: addresses of images are relative to its folder.
 std::string report_page(std::span<const ReportResult> results, const std::filesystem::path& page);
 
-/// What `-o FOLDER` writes for a result of this kind: FOLDER/KIND.json and FOLDER/report.html.
-std::vector<std::filesystem::path> result_files(const std::filesystem::path& folder,
-                                                const std::string& kind);
-
-/// Writes both, each complete or not at all, and the folder. Throws OutputError.
-void write_result(const std::filesystem::path& folder, const std::string& kind,
-                  const std::string& json);
-
-}  // namespace tureen::cli
+}  // namespace tureen::results

@@ -1,14 +1,14 @@
-#include "cli/web_bench.hpp"
+#include "jobs/results/web_bench.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "base/json_file.hpp"
-#include "cli/json_reading.hpp"
-#include "cli/plan_json.hpp"
+#include "jobs/results/json_reading.hpp"
+#include "jobs/results/plan_json.hpp"
 
-namespace tureen::cli {
+namespace tureen::results {
 
 namespace {
 
@@ -179,4 +179,4 @@ std::vector<BenchResult> read_web_bench(Input& input) {
   return list(scenes, [&](const JsonView& scene) { return result_of_scene(scene, shared); });
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen::results

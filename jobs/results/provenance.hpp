@@ -4,9 +4,9 @@
 #pragma once
 
 #include "base/json_view.hpp"
-#include "cli/bench_result.hpp"
+#include "jobs/results/bench_json.hpp"
 
-namespace tureen::cli {
+namespace tureen::results {
 
 Json to_json(const BenchProgram& program);
 Json to_json(const BenchScene& scene);
@@ -20,4 +20,4 @@ BenchScene scene_of(const JsonView& view);
 Machine machine_of(const JsonView& view);
 BenchDevice device_of(const JsonView& view);
 
-}  // namespace tureen::cli
+}  // namespace tureen::results

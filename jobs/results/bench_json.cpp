@@ -1,10 +1,10 @@
-#include "cli/bench_result.hpp"
+#include "jobs/results/bench_json.hpp"
 
-#include "cli/json_reading.hpp"
-#include "cli/plan_json.hpp"
-#include "cli/provenance.hpp"
+#include "jobs/results/json_reading.hpp"
+#include "jobs/results/plan_json.hpp"
+#include "jobs/results/provenance.hpp"
 
-namespace tureen::cli {
+namespace tureen::results {
 
 namespace {
 
@@ -196,4 +196,4 @@ BenchResult bench_result_from_json(const std::string& text, const std::string& f
           .peak_mib = peak ? std::optional(peak->number()) : std::nullopt};
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen::results

@@ -1,8 +1,8 @@
-#include "cli/plan_json.hpp"
+#include "jobs/results/plan_json.hpp"
 
-#include "cli/json_reading.hpp"
+#include "jobs/results/json_reading.hpp"
 
-namespace tureen::cli {
+namespace tureen::results {
 
 Json specialisations_json(std::span<const AppliedSpecialisation> specialisations) {
   Json list = Json::array();
@@ -28,4 +28,4 @@ std::vector<AppliedSpecialisation> specialisations_of(const JsonView& configurat
   return known;
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen::results

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/input.hpp"
-#include "cli/bench_result.hpp"
+#include "jobs/results/bench_json.hpp"
 
-namespace tureen::cli {
+namespace tureen::results {
 
 /// Of the file's layout. A reader refuses a larger one.
 inline constexpr int web_bench_version = 1;
@@ -19,4 +19,4 @@ inline constexpr int web_bench_version = 1;
 /// of another kind or impossible: untrusted.
 std::vector<BenchResult> read_web_bench(Input& input);
 
-}  // namespace tureen::cli
+}  // namespace tureen::results

@@ -1,13 +1,12 @@
-#include "cli/report_page.hpp"
+#include "jobs/results/report_page.hpp"
 
 #include <cctype>
 #include <string_view>
 
-#include "base/output.hpp"
-#include "cli/report.hpp"
-#include "cli/report_files.hpp"
+#include "jobs/results/json_text.hpp"
+#include "jobs/results/report_files.hpp"
 
-namespace tureen::cli {
+namespace tureen::results {
 
 namespace {
 
@@ -87,16 +86,4 @@ std::string report_page(std::span<const ReportResult> results, const fs::path& p
   return html.append(rest);
 }
 
-std::vector<fs::path> result_files(const fs::path& folder, const std::string& kind) {
-  return {folder / (kind + ".json"), folder / "report.html"};
-}
-
-void write_result(const fs::path& folder, const std::string& kind, const std::string& json) {
-  const std::vector<fs::path> files = result_files(folder, kind);
-  const ReportResult result{files[0].string(), kind, json};
-  make_folder(folder);
-  write_file(files[0], json);
-  write_file(files[1], report_page({&result, 1}, files[1]));
-}
-
-}  // namespace tureen::cli
+}  // namespace tureen::results

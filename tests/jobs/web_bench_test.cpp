@@ -1,5 +1,5 @@
 // Downloads of bench.html: what is made of them, and what is refused.
-#include "cli/web_bench.hpp"
+#include "jobs/results/web_bench.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,10 +9,9 @@
 
 #include "base/error.hpp"
 #include "cli/bench_table.hpp"
-#include "cli/bench_words.hpp"
 #include "tests/support/errors.hpp"
 
-namespace tureen::cli {
+namespace tureen::results {
 namespace web_bench_test {
 
 using test::error_of;
@@ -27,7 +26,7 @@ using ::testing::MatchesRegex;
 using Pointer = nlohmann::json::json_pointer;
 
 nlohmann::json fixture() {
-  std::ifstream stream(std::string(TUREEN_SOURCE_DIR) + "/tests/cli/web_bench.json");
+  std::ifstream stream(std::string(TUREEN_SOURCE_DIR) + "/tests/jobs/web_bench.json");
   return nlohmann::json::parse(stream);
 }
 
@@ -93,7 +92,7 @@ TEST(WebBench, JudgesTimesByTheStatisticsOfEveryBenchmark) {
   EXPECT_EQ(result.measurements[2].aa_spread, 0);
   EXPECT_EQ(result.protocol.rounds, 3);
   EXPECT_EQ(result.protocol.aa_spread, 0.0625);
-  EXPECT_THAT(bench_table(result), Contains(MatchesRegex(".* 3.00 +3.23 .*")));
+  EXPECT_THAT(cli::bench_table(result), Contains(MatchesRegex(".* 3.00 +3.23 .*")));
 }
 
 TEST(WebBench, HasTheSpecialisationsOfItsPlans) {
@@ -212,4 +211,4 @@ TEST(WebBench, NamesWhatIsWrong) {
 }
 
 }  // namespace web_bench_test
-}  // namespace tureen::cli
+}  // namespace tureen::results

@@ -1,8 +1,8 @@
-#include "cli/provenance.hpp"
+#include "jobs/results/provenance.hpp"
 
-#include "cli/json_reading.hpp"
+#include "jobs/results/json_reading.hpp"
 
-namespace tureen::cli {
+namespace tureen::results {
 
 Json to_json(const BenchProgram& program) {
   Json json{
@@ -67,4 +67,4 @@ BenchDevice device_of(const JsonView& view) {
           .software = boolean(view["software"])};
 }
 
-}  // namespace tureen::cli
+}  // namespace tureen::results

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "cli/bench_result.hpp"
-#include "cli/report.hpp"
+#include "jobs/results/bench_json.hpp"
+#include "jobs/results/json_text.hpp"
 #include "jobs/tradeoff/model_errors.hpp"
 #include "jobs/tradeoff/panel.hpp"
 
-namespace tureen::cli {
+namespace tureen::results {
 
 /// What the document calls itself, and the version of its layout.
 inline constexpr const char* tradeoff_format = "tureen tradeoff";
@@ -49,15 +49,6 @@ struct TradeoffReport {
   std::vector<std::string> output;           // files that were written
 };
 
-/// The reference of drawing settings, in words: "at the device's own sample points".
-const char* where_it_looks(const TradeoffReport& report);
-
 Json to_json(const TradeoffReport& report);
 
-/// The tables for a terminal, with what was skipped, the rules, the front and the choice.
-void say_tables(const TradeoffReport& report);
-
-/// The choice in a sentence, or why there is none.
-std::string choice_sentence(const TradeoffReport& report);
-
-}  // namespace tureen::cli
+}  // namespace tureen::results
