@@ -6,9 +6,9 @@
 
 #include "base/decimal_text.hpp"
 #include "cli/commands.hpp"
-#include "cli/memory_option.hpp"
+#include "cli/options/memory_option.hpp"
+#include "cli/options/scene_argument.hpp"
 #include "cli/report.hpp"
-#include "cli/scene_argument.hpp"
 #include "cli/table.hpp"
 #include "formats/dataset/camera_file.hpp"
 #include "jobs/results/plan_json.hpp"

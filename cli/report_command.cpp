@@ -9,9 +9,9 @@
 #include "base/extension.hpp"
 #include "base/output.hpp"
 #include "cli/commands.hpp"
-#include "cli/output_argument.hpp"
+#include "cli/files/report_results.hpp"
+#include "cli/options/output_argument.hpp"
 #include "cli/report.hpp"
-#include "cli/report_results.hpp"
 
 extern char** environ;
 

@@ -10,7 +10,7 @@
 namespace tureen {
 
 glm::vec3 heat_ramp(float t) {
-  // shaders/heat_ramp.glsl has the same.
+  // shaders/debug_views/heat_ramp.glsl has the same.
   constexpr std::array<glm::vec3, 5> stops{{{0.18f, 0.05f, 0.38f},
                                             {0.58f, 0.10f, 0.42f},
                                             {0.90f, 0.28f, 0.20f},

@@ -12,7 +12,7 @@
 #ifndef __EMSCRIPTEN__  // its sources are left out there, see CMakeLists.txt
 #include "formats/dataset/colmap.hpp"
 #endif
-#include "base/json_file.hpp"
+#include "base/json/json_file.hpp"
 #include "formats/dataset/gaussian_cameras.hpp"
 #include "formats/dataset/transforms_json.hpp"
 

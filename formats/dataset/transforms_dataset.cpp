@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/input.hpp"
-#include "base/json_file.hpp"
+#include "base/json/json_file.hpp"
 #include "formats/dataset/transforms_json.hpp"
 
 namespace tureen {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "base/json_file.hpp"
+#include "base/json/json_file.hpp"
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "formats/diffsoup/diffsoup_mesh.hpp"
 #include "formats/gltf/uri.hpp"

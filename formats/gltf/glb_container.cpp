@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "base/json_view.hpp"
+#include "base/json/json_view.hpp"
 
 namespace tureen {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "base/json_limits.hpp"
+#include "base/json/json_limits.hpp"
 #include "formats/gltf/uri.hpp"
 #include "image/png.hpp"
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "base/extension.hpp"
-#include "base/json_file.hpp"
+#include "base/json/json_file.hpp"
 #include "formats/gltf/uri.hpp"
 #include "formats/mesh/obj.hpp"
 #include "image/png.hpp"

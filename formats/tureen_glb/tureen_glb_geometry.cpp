@@ -1,6 +1,6 @@
 #include "formats/tureen_glb/tureen_glb_geometry.hpp"
 
-#include "base/json_vector.hpp"
+#include "base/json/json_vector.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "image/png.hpp"
 

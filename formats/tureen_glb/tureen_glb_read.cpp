@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "base/crc32.hpp"
-#include "base/json_vector.hpp"
+#include "base/json/json_vector.hpp"
 #include "formats/gltf/glb_arrays.hpp"
 #include "formats/tureen_glb/compressed_geometry.hpp"
 #include "formats/tureen_glb/compressed_texels.hpp"

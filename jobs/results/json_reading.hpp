@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/json_view.hpp"
+#include "base/json/json_view.hpp"
 
 namespace tureen::results {
 

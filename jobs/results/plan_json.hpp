@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "base/json_view.hpp"
+#include "base/json/json_view.hpp"
 #include "jobs/results/json_text.hpp"
 #include "runtime/plan/specialisation.hpp"
 

@@ -3,7 +3,7 @@
 // Include it in sources only.
 #pragma once
 
-#include "base/json_view.hpp"
+#include "base/json/json_view.hpp"
 #include "jobs/results/bench_json.hpp"
 
 namespace tureen::results {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "base/json_file.hpp"
+#include "base/json/json_file.hpp"
 #include "jobs/results/json_reading.hpp"
 #include "jobs/results/plan_json.hpp"
 

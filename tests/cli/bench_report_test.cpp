@@ -6,9 +6,9 @@
 
 #include "base/error.hpp"
 #include "base/output.hpp"
-#include "cli/bench_comparison.hpp"
-#include "cli/bench_reports.hpp"
-#include "cli/bench_words.hpp"
+#include "cli/bench/bench_comparison.hpp"
+#include "cli/bench/bench_reports.hpp"
+#include "cli/bench/bench_words.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/support/errors.hpp"
 

@@ -8,12 +8,12 @@
 #include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "base/suggestion.hpp"
-#include "cli/contact_sheet.hpp"
-#include "cli/image_file.hpp"
+#include "cli/files/contact_sheet.hpp"
+#include "cli/files/image_file.hpp"
+#include "cli/options/values.hpp"
+#include "cli/options/view_options.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
-#include "cli/values.hpp"
-#include "cli/view_options.hpp"
 
 namespace tureen::cli {
 namespace parts_test {

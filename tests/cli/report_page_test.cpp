@@ -10,8 +10,8 @@
 
 #include "base/error.hpp"
 #include "base/output.hpp"
-#include "cli/report_results.hpp"
-#include "cli/result_files.hpp"
+#include "cli/files/report_results.hpp"
+#include "cli/files/result_files.hpp"
 #include "tests/cli/tradeoff_fixture.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/support/errors.hpp"

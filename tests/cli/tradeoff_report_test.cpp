@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "cli/tradeoff_tables.hpp"
+#include "cli/tradeoff/tradeoff_tables.hpp"
 #include "jobs/tradeoff/model_errors.hpp"
 #include "jobs/tradeoff/reference.hpp"
 #include "tests/support/errors.hpp"

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "cli/bench_table.hpp"
+#include "cli/bench/bench_table.hpp"
 #include "tests/support/errors.hpp"
 
 namespace tureen::results {

@@ -6,8 +6,8 @@
 
 #include "base/error.hpp"
 #include "base/input.hpp"
-#include "base/json_file.hpp"
-#include "base/json_view.hpp"
+#include "base/json/json_file.hpp"
+#include "base/json/json_view.hpp"
 
 namespace tureen::viewer {
 

@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/input.hpp"
-#include "base/json_file.hpp"
+#include "base/json/json_file.hpp"
 #include "base/output.hpp"
 
 namespace tureen::viewer {
