@@ -9,7 +9,7 @@
 
 #include "base/machine.hpp"
 #include "jobs/timing/frame_statistics.hpp"
-#include "jobs/timing/pass_times.hpp"
+#include "jobs/timing/pass_times_gap.hpp"
 #include "runtime/plan/specialisation.hpp"
 #include "scene/camera.hpp"
 

@@ -12,6 +12,7 @@
 namespace tureen::cli {
 namespace tradeoff_report_test {
 
+using results::Json;
 using test::Names;
 using testing::ElementsAre;
 

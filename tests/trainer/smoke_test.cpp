@@ -5,15 +5,17 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "base/error.hpp"
 #include "examples/photograph.hpp"
 #include "examples/still_life.hpp"
 #include "formats/scene_file.hpp"
 #include "image/metrics.hpp"
 #include "image/quantise.hpp"
+#include "trainer/common/training_log.hpp"
 #include "trainer/common/training_views.hpp"
 #include "trainer/diffsoup/checkpoint.hpp"
 #include "trainer/diffsoup/initialise.hpp"
-#include "trainer/diffsoup/trainer.hpp"
+#include "trainer/diffsoup/training.hpp"
 
 namespace tureen::trainer {
 namespace smoke_test {
@@ -163,6 +165,56 @@ TEST(SmokeTraining, GoesOnFromACheckpointAsIfItHadNeverStopped) {
   EXPECT_EQ(a.baseline, b.baseline);
   EXPECT_EQ(a.errors, b.errors);
   EXPECT_EQ(file_of(a), file_of(b));
+}
+
+/// A whole run with its files, as a program without our command line starts one.
+TrainingRequest short_run() {
+  TrainingRequest request;
+  request.config = smoke_config();
+  request.config.steps = 20;
+  request.name = "still life";
+  request.session.checkpoint = temporary(".checkpoint");
+  request.session.log = temporary(".jsonl");
+  return request;
+}
+
+TEST(SmokeTraining, RunsWithoutTheCommandLine) {
+  Dataset dataset = still_life();
+  TrainingRequest request = short_run();
+  const fs::path log = request.session.log;
+  std::vector<std::string> calls;
+  int last_step = 0;
+  Scene evaluated;
+  request.begun = [&](const Backend&, bool) { calls.push_back("begun"); };
+  request.session.progress = [&](const SessionStatus& now) { last_step = now.step; };
+  request.finished = [&](const Scene&) { calls.push_back("finished"); };
+  request.evaluate = [&](const Scene& scene) {
+    calls.push_back("evaluate");
+    evaluated = scene;
+  };
+  const TrainingResult result = train(dataset, std::move(request));
+  EXPECT_EQ(calls, (std::vector<std::string>{"begun", "finished", "evaluate"}));
+  EXPECT_EQ(last_step, 19);
+  EXPECT_EQ(result.state.step, 20);
+  EXPECT_GT(result.test_psnr_db, 0);
+  EXPECT_EQ(evaluated.info.name, "still life");
+  EXPECT_EQ(evaluated.cameras.size(), still_life().train.size());
+  EXPECT_EQ(std::get<TriangleSoup>(evaluated.primitives).triangles.size(),
+            result.state.model.faces());
+  EXPECT_FALSE(read_training_log(log).empty());
+  fs::remove(log);
+}
+
+TEST(SmokeTraining, KeepsACheckpointIfTheSceneCannotBeStored) {
+  Dataset dataset = still_life();
+  TrainingRequest request = short_run();
+  const fs::path checkpoint = request.session.checkpoint, log = request.session.log;
+  request.finished = [](const Scene&) { throw OutputError({}, "no space"); };
+  request.evaluate = [](const Scene&) { FAIL() << "there is no stored scene"; };
+  EXPECT_THROW(train(dataset, std::move(request)), OutputError);
+  EXPECT_EQ(read_checkpoint(checkpoint).state.step, 20);
+  fs::remove(checkpoint);
+  fs::remove(log);
 }
 
 }  // namespace smoke_test

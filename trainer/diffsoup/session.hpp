@@ -35,7 +35,7 @@ struct SessionOptions {
   /// Called before each step; what it throws ends the run.
   std::function<void(const SessionStatus&)> progress = {};
   /// Called after the checkpoint of a run that ends early.
-  std::function<void()> interrupted = {};
+  std::function<void(int step)> interrupted = {};
 };
 
 class TrainingSession {
