@@ -14,6 +14,7 @@
 #include "cli/options/view_options.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
+#include "cli/version.hpp"
 
 namespace tureen::cli {
 namespace parts_test {
@@ -200,6 +201,14 @@ TEST(Views, ReadTheFilesOfRealDataSets) {
   const Views lego = resolve_views(options, box_scene(), "");
   EXPECT_EQ(lego.cameras.size(), 25u);
   EXPECT_NEAR(lego.cameras[0].fx, 1111.111, 1e-3);
+}
+
+TEST(Version, SaysWhetherThisIsARelease) {
+#if defined NDEBUG && !defined __SANITIZE_ADDRESS__ && !defined __SANITIZE_THREAD__
+  EXPECT_STREQ(program_build(), "release");
+#else
+  EXPECT_STRNE(program_build(), "release");
+#endif
 }
 
 }  // namespace parts_test

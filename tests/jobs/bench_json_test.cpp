@@ -262,13 +262,5 @@ TEST(Machine, KnowsWithHowManyThreadsLlvmpipeDraws) {
   EXPECT_EQ(rasteriser_threads_of("a graphics card"), std::nullopt);
 }
 
-TEST(Version, SaysWhetherThisIsARelease) {
-#if defined NDEBUG && !defined __SANITIZE_ADDRESS__ && !defined __SANITIZE_THREAD__
-  EXPECT_STREQ(program_build(), "release");
-#else
-  EXPECT_STRNE(program_build(), "release");
-#endif
-}
-
 }  // namespace bench_json_test
 }  // namespace tureen::results
