@@ -53,7 +53,7 @@ const ColmapLensModel& find_lens_model(const std::string& name) {
 }
 
 /// Skips the line of features (x, y and a point's number each), which may be empty. If it is
-/// missing, the next image stands in its place and must not be skipped.
+/// missing, the next image is in its place and must not be skipped.
 void pass_features(TextScanner& text, const std::string& image) {
   std::size_t words = 0;
   for (; !text.at_line_end(); ++words) text.read_word("a feature");

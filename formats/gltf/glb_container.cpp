@@ -18,7 +18,7 @@ constexpr std::uint32_t bin_chunk = 0x004E4942;   // "BIN\0"
 
 constexpr std::uint64_t header_bytes = 12, chunk_header_bytes = 8;
 
-constexpr char trailing_bytes[] = "bytes trail the file: its header says ";
+constexpr char trailing_bytes[] = "bytes follow the end of the file: its header gives ";
 
 std::string lengths(std::uint64_t length, const Input& input) {
   return std::to_string(length) + " bytes, it has " + std::to_string(input.size());
@@ -92,7 +92,7 @@ GlbContainer read_glb_container(Input& input) {
   const std::uint64_t length = read_header(input);
   if (length != input.size())
     input.fail_at(
-        8, (length > input.size() ? "the file is cut short: its header says " : trailing_bytes) +
+        8, (length > input.size() ? "the file is cut short: its header gives " : trailing_bytes) +
                lengths(length, input));
   GlbContainer glb;
   for (int index = 0; input.remaining() > 0; ++index) {

@@ -93,7 +93,7 @@ Network read_network(const fs::path& folder, const MemoryBudget& budget) {
   return network;
 }
 
-/// "shape3.obj" is {3, -1}, "shape3_1.obj" is {3, 1}; nothing for other names.
+/// "shape3.obj" is {3, -1}, "shape3_1.obj" is {3, 1}; nullopt for other names.
 std::optional<std::pair<int, int>> shape_and_piece(std::string_view name) {
   constexpr std::string_view begin = "shape", end = ".obj";
   if (name.size() <= begin.size() + end.size() || name.substr(0, begin.size()) != begin ||
