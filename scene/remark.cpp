@@ -92,7 +92,7 @@ std::string describe(const Remark& remark) {
   const auto& [kind, counts, values, names] = remark;
   switch (kind) {
     case Kind::up_unknown_to_format:
-      return names[0] + " knows no up axis: z is assumed";
+      return names[0] + " stores no up axis: z is assumed";
     case Kind::up_unknown_to_trimesh:
       return "written by trimesh, which keeps no up axis: z is assumed";
     case Kind::up_unknown_to_checkpoint:

@@ -42,8 +42,8 @@ TEST(Remark, NotesOfAFileStandBeforeRemarksOnIt) {
   info.notes = {"a note; --not an option"};
   info.remarks = {{.kind = Kind::up_unknown_to_format, .names = {"OFF"}}};
   EXPECT_THAT(all_notes(info), ElementsAre("a note; --not an option",
-                                           "OFF knows no up axis: z is assumed; --up changes it"));
-  EXPECT_EQ(describe(info.remarks[0]), "OFF knows no up axis: z is assumed");
+                                           "OFF stores no up axis: z is assumed; --up changes it"));
+  EXPECT_EQ(describe(info.remarks[0]), "OFF stores no up axis: z is assumed");
 }
 
 }  // namespace remark_test
