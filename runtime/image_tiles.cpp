@@ -81,9 +81,8 @@ Image8 draw_in_tiles(const Camera& camera, const ImageTiles& tiles) {
 ImageTiles tiles_of(Renderer& renderer, const gl::Capabilities& capabilities) {
   if (renderer.plan().quality.resolution_scale < 1)
     throw UsageError(
-        "an image drawn in tiles cannot have a resolution scale: its tiles would not match at "
-        "their "
-        "borders");
+        "an image drawn in tiles cannot have a resolution scale: the borders of its tiles would "
+        "not match");
   // 2^26 samples: 1 GiB of targets, the limit for images drawn whole.
   constexpr int max_samples = 8192;
   return tiles_drawn_by(renderer, std::min(capabilities.max_image_side, max_samples) /

@@ -1,5 +1,5 @@
-// Colours the pixels that the visibility pass has named by what they are: SHOWN is one of the
-// SHOW_.. constants, DebugView in C++.
+// Colours the covered pixels of the visibility pass by a debug view. SHOWN is one of the SHOW_..
+// constants, DebugView in C++.
 #include "appearance.glsl"
 #include "face_corners.glsl"
 #include "heat_ramp.glsl"

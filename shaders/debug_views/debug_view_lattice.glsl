@@ -1,4 +1,4 @@
-// What a lattice has to show.
+// Debug view values of lattices.
 #include "texel_cell.glsl"
 
 float debug_view_alpha(uint face, vec2 b) { return fragment_alpha(face, b); }
@@ -11,8 +11,8 @@ void debug_view_features(uint face, vec2 b, out vec4 first, out vec4 second) {
   second = lattice_sample(features1, at);
 }
 
-// The texel with the largest weight, features 0..2. Its neighbours in the lattice are those at (1, 0),
-// (0, 1), (-1, 1) and their opposites: x - y modulo 3 is another for each.
+// The texel with the largest weight, features 0..2. Its neighbours in the lattice are at (1, 0),
+// (0, 1), (-1, 1) and their opposites: each has another x - y modulo 3.
 vec3 debug_view_texel(uint face, vec2 b) {
   FacePatch of_face = patch_of(face);
   LatticeCell cell = lattice_cell(of_face.level, b);
@@ -25,7 +25,7 @@ vec3 debug_view_texel(uint face, vec2 b) {
     at.y += 1;
   else if (upper)
     at += 1;
-  // On the last diagonal the fourth corner lies outside the lattice: the border texel stands in.
+  // On the last diagonal the fourth corner lies outside the lattice: the border texel replaces it.
   at.y = min(at.y, (1 << of_face.level) - at.x);
   uint texel = of_face.first_texel + lattice_texel_index(at.x, at.y);
   // 384 is a multiple of 3, and no lattice has more than 128 rows.

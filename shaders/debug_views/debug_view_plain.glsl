@@ -1,4 +1,4 @@
-// What appearances without texels have to show.
+// Debug view values of appearances without texels.
 float debug_view_alpha(uint face, vec2 b) { return alpha_margin(face, b) + ALPHA_THRESHOLD; }
 
 float debug_view_threshold(uint face) { return ALPHA_THRESHOLD; }

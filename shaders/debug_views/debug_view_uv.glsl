@@ -1,4 +1,4 @@
-// What conventional textures have to show.
+// Debug view values of conventional textures.
 #include "texel_cell.glsl"
 
 float debug_view_alpha(uint face, vec2 b) { return mask_value(material_of(face), face, b); }
@@ -17,7 +17,7 @@ void debug_view_features(uint face, vec2 b, out vec4 first, out vec4 second) {
 #endif
 }
 
-// The texel under the point, as it is stored; the factor where a material has no image.
+// The stored texel at the point, or the factor of a material without an image.
 vec3 debug_view_texel(uint face, vec2 b) {
   Material material = material_of(face);
   if ((material.image.w & flag_has_image) == 0u) return min(material.factor.rgb, 1.0);

@@ -1,4 +1,4 @@
-// The colours of how often fragment_count.frag has drawn to a pixel; overdraw_color() of
+// The colour of a pixel's count from fragment_count.frag, as overdraw_color() in
 // runtime/debug_views/debug_view.cpp.
 #include "heat_ramp.glsl"
 

@@ -1,4 +1,5 @@
-// A bright colour a face; runtime/debug_views/debug_view.cpp has the same, a test holds the two equal.
+// A bright colour a face; runtime/debug_views/debug_view.cpp has the same colours, and a test
+// compares the two.
 uint mixed_bits(uint x) {
   x = (x ^ (x >> 16)) * 0x7feb352du;
   x = (x ^ (x >> 15)) * 0x846ca68bu;

@@ -1,5 +1,5 @@
-// The edges of triangles, LINE_PIXELS wide on the inner side, over what was drawn before. Nothing is
-// tested for alpha: a cut-out's triangle is outlined whole.
+// The edges of triangles, LINE_PIXELS wide on the inner side, over the previous colours. There is
+// no alpha test: a cut-out triangle is outlined completely.
 #include "face_corners.glsl"
 
 flat in uint face;
