@@ -25,8 +25,8 @@ constexpr int frames_after_event = 3;
 /// The time constant of smooth motion, in seconds: the default of CameraControls.
 const double gliding_seconds = CameraControls().smoothing();
 
-/// Relative change of the screen's scale from which the interface is created anew, with new fonts
-/// and closed panels. Rounding while the window is resized changes the scale by less.
+/// Relative change of the screen's scale from which the interface is recreated, with new fonts and
+/// closed panels. Rounding while the window is resized changes the scale by less.
 constexpr double min_rescaling = 0.05;
 
 /// Wait without events, in seconds. Then the window only checks files for changes.

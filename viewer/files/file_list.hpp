@@ -23,7 +23,7 @@ struct FileList {
 /// Largest number of listed entries.
 inline constexpr std::size_t max_entries = 2000;
 
-/// Folders, and files with the name of a scene or a dataset. An error is in FileList::trouble.
+/// Folders, and files with the name of a scene or a dataset. Errors are in FileList::trouble.
 FileList list_files(const std::filesystem::path& folder);
 
 }  // namespace tureen::viewer
