@@ -11,18 +11,19 @@ namespace tureen {
 
 namespace {
 
-/// Programs that write JSON by hand leave numbers in it that JSON does not have.
+/// The reason for a parse error. Programs that write JSON without a library often write NaN and
+/// infinities, which JSON does not have.
 std::string what_is_wrong(std::string_view text, std::size_t byte) {
   if (text.empty()) return "the file is empty";
   for (const std::string_view word : {"NaN", "nan", "-Infinity", "Infinity", "-inf", "inf"})
-    // The parser stops at the letter that it cannot take, which may lie within the word.
+    // The parser stops at the first letter that it rejects, which may lie within the word.
     for (std::size_t back = 0; back < word.size() && back <= byte; ++back)
       if (text.substr(byte - back, word.size()) == word)
-        return "not valid JSON: " + std::string(word) + " is no number there";
+        return "not valid JSON: " + std::string(word) + " is not a JSON number";
   return "not valid JSON";
 }
 
-/// Refuses the second key of a name in one object.
+/// Rejects a repeated key in an object.
 class KeyWatch {
  public:
   explicit KeyWatch(Input& input) : input_(input) {}
@@ -32,20 +33,20 @@ class KeyWatch {
     if (event == Event::object_start) keys_.emplace_back();
     if (event == Event::object_end) keys_.pop_back();
     if (event == Event::key && !keys_.back().insert(parsed.get<std::string>()).second)
-      input_.fail_at(0, "\"" + parsed.get<std::string>() + "\" stands there twice");
+      input_.fail_at(0, "\"" + parsed.get<std::string>() + "\" occurs twice");
     return true;
   }
 
  private:
   Input& input_;
-  std::vector<std::set<std::string>> keys_;  // of the objects that are open
+  std::vector<std::set<std::string>> keys_;  // of each open object
 };
 
 }  // namespace
 
 nlohmann::json read_json(Input& input, RepeatedKeys repeated) {
   if (input.remaining() > max_json_bytes)
-    input.fail("JSON of " + std::to_string(input.remaining()) + " bytes, the limit is " +
+    input.fail("the JSON has " + std::to_string(input.remaining()) + " bytes, the limit is " +
                std::to_string(max_json_bytes));
   const auto bytes = input.read_rest();
   const auto* text = reinterpret_cast<const char*>(bytes.data());
@@ -55,7 +56,7 @@ nlohmann::json read_json(Input& input, RepeatedKeys repeated) {
       return nlohmann::json::parse(text, text + bytes.size(), KeyWatch(input));
     return nlohmann::json::parse(text, text + bytes.size());
   } catch (const nlohmann::json::parse_error& error) {
-    // Its byte counts from 1, and is one past the end where the text is cut short.
+    // The parser counts bytes from 1. For a truncated text, its byte is one past the end.
     const std::size_t byte = error.byte > 0 ? error.byte - 1 : 0;
     input.fail_at(byte, what_is_wrong({text, bytes.size()}, byte));
   } catch (const nlohmann::json::out_of_range& error) {
@@ -76,7 +77,7 @@ std::vector<float> json_floats(const nlohmann::json& value, std::size_t count,
     throw InputError(
         {file, {}, {}},
         what + " is not a list of " + std::to_string(count) + " numbers" +
-            (value.is_array() ? ", but of " + std::to_string(value.size()) : std::string()));
+            (value.is_array() ? ", but has " + std::to_string(value.size()) : std::string()));
   std::vector<float> numbers;
   numbers.reserve(count);
   for (std::size_t i = 0; i < count; ++i)

@@ -6,8 +6,8 @@ namespace tureen {
 
 namespace {
 
-/// Whether a parser gets past the first character; of what is no JSON at all it should say so, not
-/// that some of its bytes look like deep nesting.
+/// Whether a parser gets past the first character. Otherwise the parser should report that the text
+/// is not JSON, instead of an error about nesting in arbitrary bytes.
 bool may_be_json(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
   const std::size_t first = text.find_first_not_of(" \t\r\n");
@@ -27,7 +27,7 @@ std::uint64_t count_json_values(std::string_view text, const std::string& file,
     const char c = text[i];
     if (in_string) {
       if (c == '\\')
-        ++i;  // whatever is escaped does not end the string
+        ++i;  // an escaped character does not end the string
       else if (c == '"')
         in_string = false;
       continue;
@@ -39,8 +39,9 @@ std::uint64_t count_json_values(std::string_view text, const std::string& file,
       case '[':
       case '{':
         if (++depth > max_json_depth)
-          throw InputError({file, first_byte + i, {}},
-                           "JSON nested deeper than " + std::to_string(max_json_depth) + " levels");
+          throw InputError(
+              {file, first_byte + i, {}},
+              "JSON is nested deeper than " + std::to_string(max_json_depth) + " levels");
         ++values;
         break;
       case ']':
@@ -70,7 +71,7 @@ InputError json_number_too_large(std::string_view message, std::string_view text
   const std::size_t begin = message.find('\''), end = message.rfind('\'');
   const std::string_view number =
       begin < end ? message.substr(begin + 1, end - begin - 1) : std::string_view();
-  // Where it stands in a text, too, only one of its places is the number's.
+  // If the digits occur more than once, the position is ambiguous and omitted.
   std::optional<std::uint64_t> byte;
   if (const std::size_t at = text.find(number); at != text.npos && at == text.rfind(number))
     byte = first_byte + at;

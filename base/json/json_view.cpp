@@ -15,7 +15,7 @@ json parse_json(std::string_view text, const std::string& file, std::uint64_t fi
   try {
     return json::parse(text.begin(), text.end());
   } catch (const json::parse_error& error) {
-    // Its message repeats what we say ourselves; what helps follows "syntax error ".
+    // The useful part of the parser's message follows "syntax error ".
     std::string detail = error.what();
     const std::size_t start = detail.find("syntax error ");
     if (start != std::string::npos) detail = detail.substr(start + 13);
@@ -55,12 +55,12 @@ std::uint64_t JsonView::natural(std::uint64_t limit) const {
     result = value_->get<std::uint64_t>();
   } else {
     const double real = number();
-    // 2^53: beyond it a double no longer tells whole numbers apart.
+    // Above 2^53, a double cannot represent every whole number.
     if (!(real >= 0.0 && real <= 9007199254740992.0) || real != std::floor(real))
       fail("expected a whole number, not " + value_->dump());
     result = static_cast<std::uint64_t>(real);
   }
-  if (result > limit) fail(std::to_string(result) + " is beyond " + std::to_string(limit));
+  if (result > limit) fail(std::to_string(result) + " exceeds " + std::to_string(limit));
   return result;
 }
 
@@ -71,9 +71,9 @@ double JsonView::number() const {
 
 float JsonView::number_float() const {
   const double real = number();
-  // Casting a double that no float can hold is undefined.
+  // Casting a double outside the range of float is undefined behaviour.
   if (!(std::abs(real) <= double(std::numeric_limits<float>::max())))
-    fail("a number beyond what a float can hold");
+    fail("the number exceeds the range of a 32-bit float");
   return static_cast<float>(real);
 }
 
@@ -90,11 +90,12 @@ std::size_t JsonView::one_of(std::span<const char* const> names) const {
     if (have == name) return index;
     list += (index++ > 0 ? ", " : "") + std::string(name);
   }
-  fail("\"" + have + "\" is none of " + list);
+  fail("\"" + have + "\" is not supported; expected one of " + list);
 }
 
 void JsonView::fail(const std::string& reason, const std::string& hint) const {
-  // Both may hold what the file says: a letter 0 would end the sentence, a new line forge another.
+  // Path and reason may contain text from the file. An unescaped NUL would cut the message, and a
+  // newline could forge another message.
   throw InputError({*file_, {}, {}}, shown_text(path_.empty() ? reason : path_ + ": " + reason),
                    hint);
 }
