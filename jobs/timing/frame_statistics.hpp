@@ -51,8 +51,8 @@ struct FrameStatistics {
   std::size_t samples = 0;
 };
 
-/// Whether there are at least 100 samples, so that p99 and low_1_percent_fps rest on at least one
-/// sample. With several frames a sample both use means, which hide single slow frames.
+/// Whether there are at least 100 samples, so that the slowest 1 % has at least one sample. If
+/// samples have several frames, p99 and low_1_percent_fps use means, which hide single slow frames.
 bool tells_slowest_percent(const FrameStatistics& ms);
 
 /// Asserts a whole round.
