@@ -33,8 +33,7 @@ namespace weights_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// -- M1, M3: the network
-// ---------------------------------------------------------------------------
+// -- M1, M3: the network -------------------------------------------------------------------------
 
 struct Sample {
   std::array<double, 7> features;

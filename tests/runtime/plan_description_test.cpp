@@ -1,4 +1,4 @@
-// The English of plans. Other tests look at a plan's fields.
+// The English descriptions of plans. Other tests check a plan's fields.
 #include "runtime/plan/plan_description.hpp"
 
 #include <gmock/gmock.h>

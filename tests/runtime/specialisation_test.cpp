@@ -1,5 +1,5 @@
-// Each thing that a plan leaves out, alone: a soup that has its trait loses nothing, one that lacks
-// it keeps it. docs/specialisations.md names these tests as its proofs.
+// Each specialisation alone: a soup with its trait looks the same, and a soup without it is not
+// specialised. docs/specialisations.md cites these tests.
 #include "runtime/plan/specialisation.hpp"
 
 #include <gtest/gtest.h>
@@ -19,15 +19,15 @@ RenderPlan plan_of(const TriangleSoup& soup,
   return make_plan(soup, DeviceLimits{.software = true}, {.specialisations = specialisations});
 }
 
-/// How far images may move.
+/// Allowed change of images.
 struct Tolerance {
   int steps;
-  double channels;  // the part of them that may move
+  double channels;  // fraction of channels that may change
 };
 
-/// Exact is exact, but that a network whose sums are taken in another order may round one channel
-/// in 100,000 otherwise, and that a shading pass knows barycentrics in 16 bits only. What has a
-/// bound of half a step can turn into a whole one by rounding, anywhere.
+/// Exact specialisations change nothing, with two exceptions. A network's sums in another order may
+/// change the rounding of one channel in 100,000. A shading pass has barycentrics in 16 bits.
+/// Rounding can make a bound of half a step a whole step, in any channel.
 Tolerance tolerance_of(Specialisation what) {
   switch (what) {
     case Specialisation::shading_pass:
@@ -70,8 +70,8 @@ TEST_P(LeavingOut, IsPlannedWhereTheSceneHasTheTrait) {
 
 class LeavingOutImage : public LeavingOut {};
 
-// Against nothing left out, with everything and with this alone (which shows what depends on
-// something else being left out); and everything but this.
+// Compares the generic images with images for three sets: all specialisations, only this one (which
+// shows dependencies on others), and all others.
 TEST_P(LeavingOutImage, LosesNothing) {
   const TriangleSoup soup = soup_with_trait();
   const std::vector<Camera> views = four_views(seed());
@@ -86,7 +86,7 @@ TEST_P(LeavingOutImage, LosesNothing) {
         difference(images(soup, views, {.specialisations = specialisations}), generic);
     EXPECT_LE(found.largest, steps) << name;
     EXPECT_LE(double(found.channels), channels * double(found.all_channels)) << name;
-    EXPECT_GT(found.covered, 0.05) << "there is nothing to compare";
+    EXPECT_GT(found.covered, 0.05) << "too few pixels to compare";
   }
 }
 
@@ -122,7 +122,7 @@ std::string case_name(const testing::TestParamInfo<Case>& test) {
 INSTANTIATE_TEST_SUITE_P(All, LeavingOut, testing::ValuesIn(cases()), case_name);
 INSTANTIATE_TEST_SUITE_P(All, LeavingOutImage, testing::ValuesIn(cases()), case_name);
 
-/// Has no name, as nobody could keep it: such a face covers no pixel centre.
+/// This omission has no name, because it cannot be disabled: such a face covers no pixel centre.
 TEST(FacesWithoutArea, AreSaidAndChangeNothing) {
   for (const std::uint64_t seed : {1, 2}) {
     const TriangleSoup soup = random_soup(seed, {.kind = Kind::face_colors, .faces = 300});
@@ -140,7 +140,7 @@ TEST(FacesWithoutArea, AreSaidAndChangeNothing) {
     const std::vector<Camera> views = four_views(seed);
     const Difference found = difference(images(more, views, {}), images(soup, views, {}));
     EXPECT_EQ(found.channels, 0u);
-    EXPECT_GT(found.covered, 0.05) << "there is nothing to compare";
+    EXPECT_GT(found.covered, 0.05) << "too few pixels to compare";
   }
 }
 
