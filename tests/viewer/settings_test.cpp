@@ -40,7 +40,7 @@ TEST(Settings, ComeBackAsTheyWereLeft) {
   EXPECT_EQ(read.smooth_motion, false);
   EXPECT_EQ(read.images, "/some where");
   EXPECT_THAT(read.recent, testing::ElementsAre("/b.glb", "/a folder"))
-      << "newest first, without duplicates";
+      << "newest first, no duplicates";
 }
 
 TEST(Settings, OnlyTheNewestScenesAreRemembered) {
