@@ -293,8 +293,8 @@ TEST(SpaceOrder, KeepsFacesAndPutsNeighboursTogether) {
   std::sort(origins.begin(), origins.end());
   for (std::uint32_t i = 0; i < origins.size(); ++i) ASSERT_EQ(origins[i], i);
   for (std::size_t t = 0; t < 50; ++t) expect_same_face(ordered, t, model, ordered.origin[t]);
-  // A Morton curve through n random points is O(n^(2/3)) long, a random tour O(n): here about a
-  // fifth; a third would still be a curve, a half hardly.
+  // A Morton curve through n random points has a length of O(n^(2/3)), a random order of O(n): here
+  // about a fifth. A third would still be a curve, a half hardly.
   EXPECT_LT(length_of_tour(ordered.model), length_of_tour(model) / 3);
 }
 
