@@ -83,7 +83,7 @@ TEST(Compress, MeasuresAgainstPhotographsWhereThereAreSome) {
   EXPECT_LT(result.loss.render_psnr_db, 45);
 }
 
-TEST(Compress, LeavesOutWhatNoViewSees) {
+TEST(Compress, OmitsWhatNoViewSees) {
   Scene scene = part_of_the_example(300);
   auto& soup = std::get<TriangleSoup>(scene.primitives);
   // Three degenerate faces.

@@ -135,7 +135,7 @@ TEST_P(Ceilings, TrianglesWithoutColoursLeaveTheBackground) {
   EXPECT_TRUE(renderer.read_faces().empty());
 }
 
-TEST_P(Ceilings, TheCopyIsAImagesWorthOfPixels) {
+TEST_P(Ceilings, TheCopyIsAnImagesWorthOfPixels) {
   const gl::Context context = gl::Context::create(GetParam().request);
   CopyCeiling copy(context);
   for (const int width : {64, 200, 37}) {

@@ -239,7 +239,7 @@ TEST(Factorial, WithTheStarIsEveryCombinationOnce) {
   EXPECT_EQ(all.size(), 3u * 4 * 2 * 3);
 }
 
-TEST(Factorial, SaysWhatItsLimitsLeaveOut) {
+TEST(Factorial, ReportsWhatItsLimitsOmit) {
   const std::vector<int> value_counts{3, 3, 3, 3, 3};
   std::vector<SettingRange> ranges;
   for (std::size_t setting = 0; setting < 5; ++setting)

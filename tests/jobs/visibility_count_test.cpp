@@ -129,7 +129,7 @@ TEST(VisibilityCount, TheMostVisibleAreKeptStably) {
 }
 
 // Removing faces that no view shows changes no view.
-TEST(VisibilityCount, LeavingOutWhatIsNotSeenChangesNothing) {
+TEST(VisibilityCount, OmittingWhatIsNotSeenChangesNothing) {
   SCOPED_TRACE("seed 803");
   const TriangleSoup soup = test::random_soup(803, {.kind = test::Kind::lattice_mlp});
   const auto views = cameras(803, 2);

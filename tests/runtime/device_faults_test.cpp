@@ -85,7 +85,7 @@ TEST_P(DeviceFaults, MemoryThatIsRefusedIsALimitAndTheDeviceServesOn) {
   EXPECT_EQ(image().pixels, before.pixels);
 }
 
-TEST_P(DeviceFaults, AImageWithoutMemoryIsALimitAndASmallerOneIsDrawn) {
+TEST_P(DeviceFaults, AnImageWithoutMemoryIsALimitAndASmallerOneIsDrawn) {
   const Image8 before = image();
   Renderer renderer(context, soup, {});
   Camera large = camera;
@@ -101,7 +101,7 @@ TEST_P(DeviceFaults, AImageWithoutMemoryIsALimitAndASmallerOneIsDrawn) {
   EXPECT_EQ(renderer.read_color().pixels, before.pixels);
 }
 
-TEST_P(DeviceFaults, AResetIsToldAsWhatItIsAndNotAsAImage) {
+TEST_P(DeviceFaults, AResetIsReportedAsAResetAndNotAsAnImage) {
   if (!glGetGraphicsResetStatus) GTEST_SKIP() << "older contexts do not report resets";
   Renderer renderer(context, soup, {});
   renderer.draw(camera);

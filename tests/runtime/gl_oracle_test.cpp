@@ -139,10 +139,10 @@ INSTANTIATE_TEST_SUITE_P(Level, GlOracleLattice,
                                   std::to_string(100 + std::get<0>(i.param));
                          });
 
-class GlOraclePublished : public testing::TestWithParam<int> {};
+class GlOracleBaseline : public testing::TestWithParam<int> {};
 
 // Features are quantised to 8 bits once more than the texels, before the network.
-TEST_P(GlOraclePublished, AgreesAtThisLevel) {
+TEST_P(GlOracleBaseline, AgreesAtThisLevel) {
   const std::uint64_t seed = 200 + std::uint64_t(GetParam());
   const TriangleSoup soup =
       test::random_soup(seed, {.kind = test::Kind::lattice_mlp, .level = GetParam()});
@@ -156,7 +156,7 @@ TEST_P(GlOraclePublished, AgreesAtThisLevel) {
                    {.min_psnr = 53.0});
 }
 
-INSTANTIATE_TEST_SUITE_P(Level, GlOraclePublished, testing::Range(0, 8),
+INSTANTIATE_TEST_SUITE_P(Level, GlOracleBaseline, testing::Range(0, 8),
                          testing::PrintToStringParamName());
 
 class GlOracleHarmonics : public testing::TestWithParam<std::tuple<int, ViewConvention>> {};

@@ -257,7 +257,7 @@ class AtTheBound : public testing::TestWithParam<Edge> {
   }
 };
 
-TEST_P(AtTheBound, WhatMovesNoColourByHalfAStepIsLeftOut) {
+TEST_P(AtTheBound, WhatMovesNoColourByHalfAStepIsOmitted) {
   const EdgeSoup edge = soup(inside);
   EXPECT_TRUE(is_left_out(edge));
   EXPECT_LE(largest_shift(GetParam().what, edge), half_step);

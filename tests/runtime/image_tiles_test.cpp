@@ -173,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(All, DrawnInTiles, testing::ValuesIn(every_context),
                          [](const auto& test) { return std::string(test.param.name); });
 
 /// An image wider than any device can draw, compared with the oracle, which has no limit.
-TEST(ImageTiles, AImageBeyondTheDeviceShowsWhatTheOracleSees) {
+TEST(ImageTiles, AnImageBeyondTheDeviceShowsWhatTheOracleSees) {
   const gl::Context context = gl::Context::create(osmesa);
   const int width = context.capabilities().max_image_side + 5000;
   const TriangleSoup soup = random_soup(4, {.kind = Kind::face_colors, .faces = 40, .size = 0.4});

@@ -112,7 +112,7 @@ TEST(Plan, AnAffineFaceThatIsCutOutKeepsItsLatticeUnlessItsAlphaIsAffineToo) {
   EXPECT_NE(plan.lattice.uniform_level, 0);
 }
 
-TEST(Plan, HarmonicsBandsThatNobodySeesAreDropped) {
+TEST(Plan, InvisibleHarmonicsBandsAreDropped) {
   TriangleSoup soup = random_soup(1, {.kind = Kind::face_harmonics, .degree = 3});
   EXPECT_EQ(plan_of(soup).harmonics_degree, 3);
   auto& sh = std::get<Harmonics>(soup.appearance);
@@ -173,7 +173,7 @@ TEST(Plan, TexelsSharedInPartAreNotCopied) {
   EXPECT_TRUE(plan_of(soup).lattice.levels.empty());
 }
 
-TEST(Plan, WithoutSpecialisationNothingIsLeftOut) {
+TEST(Plan, WithoutSpecialisationNothingIsOmitted) {
   TriangleSoup soup = random_soup(1, {.kind = Kind::lattice_mlp, .level = 2});
   for_each_texel(soup, [](std::uint8_t* texel) { texel[3] = texel[7] = 0; });
   const RenderPlan plan = make_plan(soup, DeviceLimits{}, {.specialise = false});
@@ -185,7 +185,7 @@ TEST(Plan, WithoutSpecialisationNothingIsLeftOut) {
   EXPECT_FALSE(plan.depth_rejects_background);
 }
 
-TEST(Plan, KeepingChangesNothingForThePublishedPipeline) {
+TEST(Plan, KeepingChangesNothingForTheBaseline) {
   const TriangleSoup soup = random_soup(1, {.kind = Kind::lattice_mlp, .level = 2});
   PlanPreferences published{.pipeline = PipelineKind::baseline};
   EXPECT_FALSE(make_plan(soup, DeviceLimits{}, published).ignores_specialisations);
@@ -193,7 +193,7 @@ TEST(Plan, KeepingChangesNothingForThePublishedPipeline) {
   EXPECT_TRUE(make_plan(soup, DeviceLimits{}, published).ignores_specialisations);
 }
 
-TEST(Plan, ThePublishedPipelineRefusesWhatItCannotDraw) {
+TEST(Plan, TheBaselineRefusesWhatItCannotDraw) {
   const TriangleSoup soup = random_soup(1, {.kind = Kind::face_colors});
   EXPECT_THAT(error_of<UsageError>(
                   [&] { make_plan(soup, DeviceLimits{}, {.pipeline = PipelineKind::baseline}); }),

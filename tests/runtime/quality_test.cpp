@@ -18,7 +18,7 @@ TEST(QualityPlan, IsWhatWasAskedFor) {
     EXPECT_EQ(make_plan(soup, {}, with(quality)).quality, quality);
 }
 
-TEST(QualityPlan, IsThePublishedPipelinesToo) {
+TEST(QualityPlan, IsTheBaselinesToo) {
   const TriangleSoup one_level = random_soup(21, {.kind = Kind::lattice_mlp, .level = 1});
   PlanPreferences plan = with({.supersampling = 2});
   plan.pipeline = PipelineKind::baseline;
@@ -60,7 +60,7 @@ TEST_P(Frames, LeaveNothingForTheNext) {
       }
 }
 
-TEST_P(Frames, DoNotDependOnStateThatSomebodyElseLeft) {
+TEST_P(Frames, DoNotDependOnForeignState) {
   const gl::Context context = gl::Context::create(GetParam().request);
   const TriangleSoup soup = soup_of(Kind::lattice_mlp);
   const Camera camera = camera_of(64, 48);

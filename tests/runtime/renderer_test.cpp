@@ -121,7 +121,7 @@ TEST(Renderer, AnAlphaOfOneHalfThroughoutHasNoHoles) {
   }
 }
 
-TEST(Renderer, AImageTooLargeForTheDeviceIsRefused) {
+TEST(Renderer, AnImageTooLargeForTheDeviceIsRefused) {
   const gl::Context context = gl::Context::create(osmesa);
   Renderer renderer(context, random_soup(9, {.kind = Kind::lattice}), {});
   Random random(9);
@@ -135,7 +135,7 @@ TEST(Renderer, AImageTooLargeForTheDeviceIsRefused) {
 }
 
 // Other code that shares the context may change its state; runtime/renderer.hpp gives the limits.
-TEST(Renderer, StateThatSomebodyElseLeftChangesNothing) {
+TEST(Renderer, ForeignStateChangesNothing) {
   for (const gl::ContextRequest& request : {osmesa, egl_es30})
     for (const Kind kind : {Kind::lattice_mlp, Kind::face_colors}) {
       const gl::Context context = gl::Context::create(request);

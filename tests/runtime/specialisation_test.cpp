@@ -47,7 +47,7 @@ struct Case {
   std::uint64_t seed;
 };
 
-class LeavingOut : public testing::TestWithParam<Case> {
+class Omission : public testing::TestWithParam<Case> {
  protected:
   Specialisation what() const { return GetParam().what; }
   std::uint64_t seed() const { return GetParam().seed; }
@@ -59,7 +59,7 @@ class LeavingOut : public testing::TestWithParam<Case> {
   }
 };
 
-TEST_P(LeavingOut, IsPlannedWhereTheSceneHasTheTrait) {
+TEST_P(Omission, IsPlannedWhereTheSceneHasTheTrait) {
   const TriangleSoup soup = soup_with_trait();
   ASSERT_EQ(defect(soup), std::nullopt);
   const RenderPlan with = plan_of(soup);
@@ -68,11 +68,11 @@ TEST_P(LeavingOut, IsPlannedWhereTheSceneHasTheTrait) {
   EXPECT_FALSE(without.applies(what()));
 }
 
-class LeavingOutImage : public LeavingOut {};
+class OmissionImage : public Omission {};
 
 // Compares the generic images with images for three sets: all specialisations, only this one (which
 // shows dependencies on others), and all others.
-TEST_P(LeavingOutImage, LosesNothing) {
+TEST_P(OmissionImage, LosesNothing) {
   const TriangleSoup soup = soup_with_trait();
   const std::vector<Camera> views = four_views(seed());
   const std::vector<Image8> generic = images(soup, views, {.specialise = false});
@@ -90,7 +90,7 @@ TEST_P(LeavingOutImage, LosesNothing) {
   }
 }
 
-TEST_P(LeavingOut, DoesNotHappenWhereTheSceneLacksTheTrait) {
+TEST_P(Omission, DoesNotHappenWhereTheSceneLacksTheTrait) {
   const TriangleSoup soup = soup_without_trait(what(), seed());
   const RenderPlan with = plan_of(soup);
   EXPECT_FALSE(with.applies(what()));
@@ -119,8 +119,8 @@ std::string case_name(const testing::TestParamInfo<Case>& test) {
   return test_name(test.param.what) + "_seed" + std::to_string(test.param.seed);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, LeavingOut, testing::ValuesIn(cases()), case_name);
-INSTANTIATE_TEST_SUITE_P(All, LeavingOutImage, testing::ValuesIn(cases()), case_name);
+INSTANTIATE_TEST_SUITE_P(All, Omission, testing::ValuesIn(cases()), case_name);
+INSTANTIATE_TEST_SUITE_P(All, OmissionImage, testing::ValuesIn(cases()), case_name);
 
 /// This omission has no name, because it cannot be disabled: such a face covers no pixel centre.
 TEST(FacesWithoutArea, AreSaidAndChangeNothing) {
@@ -152,7 +152,7 @@ TEST(SpecialisationNames, AreFoundAgain) {
   EXPECT_EQ(specialisation_named("everything"), std::nullopt);
 }
 
-TEST(SpecialisationNames, OnlyWhatIsAskedForIsLeftOut) {
+TEST(SpecialisationNames, OnlyWhatIsAskedForIsOmitted) {
   const TriangleSoup soup = random_soup(1, {.kind = Kind::lattice_mlp, .level = 3});
   EXPECT_TRUE(plan_of(soup, SpecialisationSet()).applied.empty());
   const RenderPlan plan = plan_of(soup, SpecialisationSet::only(Specialisation::background));

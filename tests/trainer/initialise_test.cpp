@@ -262,7 +262,7 @@ TEST(SeedsAtPoints, OfTooFewPointsLieBesideThem) {
   }
 }
 
-TEST(SeedsAtPoints, LeaveOutMistakesButNotWhatIsFar) {
+TEST(SeedsAtPoints, SkipMistakesButNotWhatIsFar) {
   std::vector<DatasetPoint> points = ball(84, 960, {0, 0, 0}, 1);
   for (const DatasetPoint& point : ball(85, 40, {50, 0, 0}, 5)) points.push_back(point);
   points.push_back({.position = {0, 1e6, 0}, .color = {}});

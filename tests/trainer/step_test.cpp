@@ -311,7 +311,7 @@ void expect_finite(const TrainingState& state, std::size_t skipped_face) {
 
 class ATexelThatIsNoNumber : public testing::TestWithParam<int> {};  // the channel
 
-TEST_P(ATexelThatIsNoNumber, IsCountedAndHurtsNobodyElse) {
+TEST_P(ATexelThatIsNoNumber, IsCountedAndDoesNotSpread) {
   // docs/numerics.md, O5. A wall that is visible in many pixels, with other faces in front of it
   // and beside it.
   constexpr std::size_t bad_face = 40;
@@ -374,7 +374,7 @@ TEST(CpuStep, WhatDoesNotCountLeavesTheBaselineAlone) {
   }
 }
 
-TEST(CpuStep, APositionThatIsNoNumberHurtsNobodyElse) {
+TEST(CpuStep, APositionThatIsNoNumberDoesNotSpread) {
   TrainingState state = random_state(43, 60, 0, 1);
   const auto views = random_views(44, 4, state.model.origin);
   state.model.positions[3 * 7 + 1].y = std::numeric_limits<float>::quiet_NaN();
@@ -390,7 +390,7 @@ TEST(CpuStep, APositionThatIsNoNumberHurtsNobodyElse) {
   expect_finite(cleared, ~std::size_t(0));
 }
 
-TEST(CpuStep, AGradientWhoseSquareIsInfiniteIsLeftOut) {
+TEST(CpuStep, AGradientWhoseSquareIsInfiniteIsSkipped) {
   // With an infinite second moment, a parameter would never move again.
   test::Faces faces({{-2, -2, -2}, {2, -2, -2}, {0, 3, -2}});
   std::vector<BatchImage> images{test::make_image(test::axis_camera(32, 32, 32))};

@@ -78,7 +78,7 @@ TEST(RenderCommand, WhatOptionsCannotSayComesFromAFile) {
   EXPECT_THAT(command, Not(HasSubstr("--eye")));
 }
 
-TEST(RenderCommand, SaysWhatIsLookedAt) {
+TEST(RenderCommand, NamesTheDebugView) {
   const Camera camera = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.8, 400, 300);
   const auto command = [&](const DebugViewChoice& debug_view) {
     return render_command(source("a.glb"), {}, debug_view, camera, "");

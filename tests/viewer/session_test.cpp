@@ -90,7 +90,7 @@ TEST(Replay, DealsByItsOwnClock) {
   EXPECT_EQ(frames, 3) << "0.05 s are three frames of 1/60 s";
 }
 
-TEST(Replay, WaitsForRestAndEndsAFrameWithAImage) {
+TEST(Replay, WaitsForRestAndEndsAFrameWithAnImage) {
   Replay replay(read(with_event(
       R"({"at": 0, "await": true}, {"at": 0, "image": "a.png"}, {"at": 0, "wheel": [0, 1]})")));
   for (int i = 0; i < 10; ++i) EXPECT_TRUE(replay.next(false).events.empty());

@@ -220,7 +220,7 @@ TEST_F(Window, PlaysACameraPath) {
   expect_golden(image("end"), "window_path_end");
 }
 
-TEST_F(Window, LooksBehindTheColours) {
+TEST_F(Window, ShowsDebugViews) {
   Person person;
   person.wait().press(Key::digit_7);
   const std::vector<std::string> looks = {"depth",  "normals",  "triangle_id", "texels",   "alpha",
@@ -234,7 +234,7 @@ TEST_F(Window, LooksBehindTheColours) {
   expect_golden(image("depth"), "window_depth");
 }
 
-TEST_F(Window, BackFromALookTheColoursAreOfNow) {
+TEST_F(Window, BackFromADebugViewTheColoursAreCurrent) {
   const auto drag = [](Person& person) -> Person& {
     return person.drag(Button::left, {150, 200}, {230, 180}).wait();
   };
@@ -260,7 +260,7 @@ TEST_F(Window, AnotherSceneIsShownAsFarAsItCanBe) {
 }
 
 // The saved image is the displayed one, although another renderer than the window's draws it.
-TEST_F(Window, SavesWhatIsLookedAt) {
+TEST_F(Window, SavesTheDebugView) {
   const ChildResult result = replay(Person({320, 240})
                                         .wait()
                                         .press(Key::h)

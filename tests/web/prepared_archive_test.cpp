@@ -79,7 +79,7 @@ TEST_P(PreparedArchive, DrawsAsIfItHadNotTravelled) {
   expect_same(test::random_soup(81, {.kind = GetParam(), .faces = 300, .degree = 2}), {});
 }
 
-TEST_P(PreparedArchive, NorWithNothingLeftOut) {
+TEST_P(PreparedArchive, NorWithNothingOmitted) {
   RenderOptions options;
   options.plan.specialise = false;
   expect_same(test::random_soup(82, {.kind = GetParam(), .faces = 100, .degree = 2}), options);
