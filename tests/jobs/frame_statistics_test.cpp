@@ -54,8 +54,7 @@ TEST(FrameStatistics, FewFramesHaveOneSlowest) {
 }
 
 TEST(FrameStatistics, MinOfMediansIgnoresTheDisturbedRound) {
-  // Medians 5, 6, 50, 5.5: the smallest of four is the first quartile, the third smallest the third
-  // quartile.
+  // Medians 5, 6, 50, 5.5: of four, the third quartile is the third smallest, 6.
   const FrameTimes times{.views = 3, .ms = {5, 5, 9, 6, 1, 7, 50, 50, 50, 5.5, 5.5, 5.5}};
   const FrameStatistics statistics = statistics_of(times);
   EXPECT_EQ(statistics.min_of_medians, 5);

@@ -252,8 +252,7 @@ TEST(EdgeGradient, ATexturedTriangleTakesItsTextureAlong) {
 // A cut-out: alpha falls linearly from one corner's texel to the others', so its edge at one half
 // is a straight line in the triangle.
 TEST(EdgeGradient, AnOpacityEdgeMovesWithItsTriangle) {
-  const std::array<double, 3> alpha = {0.05, 0.85,
-                                       0.9};  // by corner; the edge is far from the corners
+  const std::array<double, 3> alpha = {0.05, 0.85, 0.9};  // by corner; the edge is far from them
   test::Faces faces(floats({wall, tilted}));
   // Texels of level 0 are those of corners 2, 0, 1 (scene/lattice.hpp).
   for (std::size_t k = 0; k < 3; ++k)
