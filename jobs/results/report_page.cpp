@@ -49,15 +49,17 @@ std::string escaped(std::string_view json) {
   return result;
 }
 
+/// Text as a JSON string.
+std::string quoted(const std::string& text) {
+  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 std::string data_of(std::span<const ReportResult> results, const fs::path& page) {
   std::string data;
-  for (const ReportResult& each : results) {
-    std::string head = json_text(
-        {{"file", each.file}, {"folder", folder_address(each.file, page)}, {"kind", each.kind}},
-        -1);
-    head.resize(head.rfind('}'));
-    data += (data.empty() ? "" : ",\n") + head + ",\"data\":" + each.json + "}";
-  }
+  for (const ReportResult& each : results)
+    data += (data.empty() ? "{\"file\":" : ",\n{\"file\":") + quoted(each.file) +
+            ",\"folder\":" + quoted(folder_address(each.file, page)) +
+            ",\"kind\":" + quoted(each.kind) + ",\"data\":" + each.json + "}";
   return escaped("[" + data + "]");
 }
 
