@@ -26,8 +26,8 @@ constexpr std::array<double, 23> exact_power{1e0,  1e1,  1e2,  1e3,  1e4,  1e5, 
                                              1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                              1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-/// value * 10^exponent, with a relative error of at most 2^-53 a step of 10^22. Over- and
-/// underflow of the double are the caller's to exclude.
+/// value * 10^exponent, with a relative error of at most 2^-53 per step of 10^22. The caller
+/// excludes overflow and underflow of the double.
 double scaled(double value, int exponent) {
   for (; exponent > 22; exponent -= 22) value *= exact_power[22];
   for (; exponent < -22; exponent += 22) value /= exact_power[22];
@@ -35,11 +35,11 @@ double scaled(double value, int exponent) {
                        : value / exact_power[std::size_t(-exponent)];
 }
 
-/// One past the number with which `text` begins, or null.
+/// One past the number at the start of `text`, or null.
 const char* parse(std::string_view text, float& value) {
 #ifdef __EMSCRIPTEN__
-  // fast_float's tables and code are 18 KB by brotli; strtof is in the engine anyway, for JSON, and
-  // there is one locale. It also skips blanks and reads hexadecimal numbers.
+  // fast_float's tables and code take 18 KB with brotli. The engine contains strtof anyway, for
+  // JSON, and has only one locale. strtof would also skip blanks and read hexadecimal numbers.
   const char* first = text.data();
   if (std::isspace(static_cast<unsigned char>(*first))) return nullptr;
   const char* digits = first + (*first == '-' || *first == '+');
@@ -52,7 +52,7 @@ const char* parse(std::string_view text, float& value) {
   return end == first ? nullptr : end;
 #else
   const auto [end, error] = fast_float::from_chars(text.data(), text.data() + text.size(), value);
-  // Newer versions report what is too large or too small, and set infinity or zero all the same.
+  // Newer versions report overflow and underflow, but still set infinity or zero.
   return error == std::errc::invalid_argument ? nullptr : end;
 #endif
 }
@@ -90,7 +90,7 @@ Rounded rounded(double value, int leading_exponent, int wanted) {
   return {static_cast<std::uint64_t>(scaled(value, -exponent) + 0.5), exponent};
 }
 
-/// Writes digits * 10^exponent, as 123.45 where that is short and as 1.2345e-7 elsewhere.
+/// Writes digits * 10^exponent: as 123.45 for leading exponents -5..8, else as 1.2345e-7.
 char* write_digits(char* out, std::uint64_t digits, int exponent) {
   while (digits % 10 == 0) digits /= 10, ++exponent;
   char text[20];
@@ -135,9 +135,9 @@ char* format_float(char* out, float value) {
   }
   if (value == infinity) return static_cast<char*>(std::memcpy(out, "inf", 4)) + 3;
   if (value == 0.0f) return static_cast<char*>(std::memcpy(out, "0", 2)) + 1;
-  // Nine digits always suffice, even if the last were not rounded perfectly: they lie at least
-  // 10^8 / 2^24 = 5.9 times as close together as floats do. The logarithm cannot reach the next
-  // integer by rounding, for the largest float below a power of ten is 3e-8 of its size away.
+  // Nine digits always suffice, even with an imperfectly rounded last digit: nine-digit decimals
+  // lie at least 10^8 / 2^24 = 5.9 times as close together as floats. The logarithm cannot round
+  // up to the next integer: the largest float below a power of ten is 3e-8 of its size away.
   const double exact = value;
   int leading = static_cast<int>(std::floor(std::log10(exact)));
   for (int wanted = 6;; ++wanted) {

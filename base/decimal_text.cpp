@@ -7,12 +7,12 @@ namespace tureen {
 
 namespace {
 
-// Not std::to_chars: browser toolchains have it for integers only.
+// std::to_chars is not an option: browser toolchains support it only for integers.
 std::string formatted(const char* format, int digits, double value) {
   std::array<char, 330> text;  // the largest double has 309 digits before the point
   const int size = std::snprintf(text.data(), text.size(), format, digits, value);
   std::string result(text.data(), std::size_t(size));
-  // A locale's decimal point may be any characters, but none of those that numbers consist of.
+  // A locale's decimal point may have several characters, but never a character of a number.
   constexpr const char* of_numbers = "0123456789+-einfa";
   const std::size_t point = result.find_first_not_of(of_numbers);
   if (point != std::string::npos) {

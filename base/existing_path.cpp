@@ -25,11 +25,11 @@ void require_there(const fs::path& path) {
   if (status.type() == fs::file_type::not_found) {
     std::error_code none;
     const fs::path target = fs::read_symlink(path, none);
-    if (!none) fail("is a link to " + target.string() + ", which is not there");
+    if (!none) fail("is a link to " + target.string() + ", which does not exist");
     fail(why_missing(path), did_you_mean(path));
   }
   if (!fs::status_known(status)) fail("cannot be looked up: " + error.message());
-  // What lies in a folder that may not be entered looks as if it were not there.
+  // Without this check, files in a folder that cannot be entered would seem to be missing.
   if (fs::is_directory(status) && !fs::status_known(fs::status(path / ".", error)))
     fail("cannot be opened: " + error.message());
 }

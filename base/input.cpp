@@ -20,7 +20,7 @@ Input Input::open(const std::filesystem::path& path, MemoryBudget budget) {
   const auto status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found)
     throw InputError({input.name_, {}, {}}, "no such file");
-  if (!std::filesystem::status_known(status))  // links in a ring, a name too long, no permission
+  if (!std::filesystem::status_known(status))  // a cycle of links, a long name, no permission
     throw InputError({input.name_, {}, {}}, "cannot be looked up: " + error.message());
   if (!std::filesystem::is_regular_file(status))
     throw InputError({input.name_, {}, {}}, std::filesystem::is_directory(status)
@@ -44,7 +44,7 @@ Input Input::memory(std::string name, std::span<const std::byte> bytes, MemoryBu
 
 void Input::seek(std::uint64_t position) {
   if (position > size_)
-    fail("something lies at byte " + std::to_string(position) + ", past the end of the file at " +
+    fail("the data at byte " + std::to_string(position) + " lies past the end of the file at " +
          std::to_string(size_));
   if (file_ && fseeko(file_.get(), static_cast<off_t>(position), SEEK_SET) != 0)
     fail(std::string("cannot seek: ") + std::strerror(errno));
@@ -59,7 +59,7 @@ std::size_t Input::read_some(std::span<std::byte> buffer) {
     if (got < count && std::ferror(file_.get()))
       fail(std::string("cannot be read: ") + std::strerror(errno));
     position_ += got;
-    // A file that shrinks while it is read: its new end is the end.
+    // The file has shrunk since it was opened.
     if (got < count) size_ = position_;
     return got;
   }
@@ -90,7 +90,7 @@ void Input::fail_at(std::uint64_t byte, const std::string& reason, const std::st
 
 void Input::fail_truncated(std::uint64_t count, std::size_t each, const char* what) const {
   const std::string want = each == 1 ? plural(count) : std::to_string(count) + " x " + plural(each);
-  fail(std::string(what) + " cut short: " + want + " expected, " + plural(remaining()) + " left");
+  fail(std::string(what) + " truncated: " + want + " expected, " + plural(remaining()) + " left");
 }
 
 }  // namespace tureen

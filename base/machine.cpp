@@ -12,7 +12,7 @@ namespace tureen {
 
 namespace {
 
-/// What follows "key   :" in a file of such lines, as Linux describes itself; empty without it.
+/// The text after "key   :" in a /proc file with lines of this form; empty if there is none.
 std::string value_of(const char* file, const std::string& key) {
   std::ifstream lines(file);
   for (std::string line; std::getline(lines, line);) {
@@ -53,7 +53,7 @@ double peak_mib() {
   rusage usage{};
   if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
 #ifdef __APPLE__
-  return double(usage.ru_maxrss) / (1 << 20);  // bytes there
+  return double(usage.ru_maxrss) / (1 << 20);  // bytes
 #else
   return double(usage.ru_maxrss) / (1 << 10);  // KiB
 #endif

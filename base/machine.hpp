@@ -1,4 +1,4 @@
-// The machine that figures are measured on, and what this process takes of it.
+// The machine of a measurement, and the memory use of this process.
 #pragma once
 
 #include <optional>
@@ -7,21 +7,21 @@
 namespace tureen {
 
 struct Machine {
-  std::string cpu = "unknown";  // the model's name
-  int cores = 0;                // that this process may use; 0 where it cannot be told
-  double memory_mib = 0;        // 0 where it cannot be told
-  std::optional<int> rasteriser_threads = {};  // where llvmpipe draws: rasteriser_threads_of
+  std::string cpu = "unknown";                 // the model name
+  int cores = 0;                               // available to this process; 0 if unknown
+  double memory_mib = 0;                       // 0 if unknown
+  std::optional<int> rasteriser_threads = {};  // with llvmpipe: rasteriser_threads_of
 };
 
-/// But for rasteriser_threads, which depend on the device.
+/// Everything except rasteriser_threads, which depend on the device.
 Machine this_machine();
 
-/// How many threads are asked to draw where GL_RENDERER is `renderer` and that is llvmpipe's, as
-/// Mesa counts them: LP_NUM_THREADS where that is a number, else one a core, and 0, the thread that
-/// calls OpenGL, for a single core. Above it Mesa has a limit of its own.
+/// The number of threads that llvmpipe is asked to draw with; nullopt if `renderer` (GL_RENDERER)
+/// is not llvmpipe. As in Mesa: LP_NUM_THREADS if that is a number, else one per core, or 0 on a
+/// single core. 0 means the thread that calls OpenGL. Mesa's own upper limit is not applied.
 std::optional<int> rasteriser_threads_of(const std::string& renderer);
 
-/// The largest resident set of this process so far, in MiB; 0 where it cannot be told.
+/// The largest resident set of this process so far, in MiB; 0 if unknown.
 double peak_mib();
 
 }  // namespace tureen

@@ -15,7 +15,7 @@ namespace tureen {
 
 namespace {
 
-// The window reads on a thread of its own.
+// Atomic, because the window reads on a separate thread.
 std::atomic<std::uint64_t> process_limit{default_max_memory};
 
 struct Unit {
@@ -24,7 +24,7 @@ struct Unit {
 };
 constexpr std::array<Unit, 5> units{{{"", 0}, {"k", 10}, {"m", 20}, {"g", 30}, {"t", 40}}};
 
-/// "GB", "GiB", "G" and "g" are one; nothing for what is no unit.
+/// "GB", "GiB", "G" and "g" are the same unit; null if `word` is not a unit.
 const Unit* unit_of(std::string word) {
   for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (word == "byte" || word == "bytes") word.clear();
@@ -42,7 +42,7 @@ std::uint64_t max_memory() { return process_limit; }
 
 std::uint64_t parse_memory_size(const std::string& text) {
   const auto refuse = [&] {
-    throw UsageError("'" + text + "' is no amount of memory", "write it as 512MB or 8GB");
+    throw UsageError("'" + text + "' is not a memory size", "write it as 512MB or 8GB");
   };
   const Decimal number = parse_decimal(text);
   if (!number.end) refuse();
@@ -50,10 +50,10 @@ std::uint64_t parse_memory_size(const std::string& text) {
   while (!rest.empty() && rest.front() == ' ') rest.remove_prefix(1);
   const Unit* unit = unit_of(std::string(rest));
   if (!unit) refuse();
-  // A float rounds whole numbers of more than 24 bits.
+  // A float would round whole numbers above 24 bits.
   const double value = number.is_integer ? double(parse_integer(text).value) : double(number.value);
   const double bytes = std::ldexp(value, unit->bits);
-  // 2^62 is beyond any machine, and sums of two such still fit into 64 bits.
+  // 2^62 exceeds any machine's memory, and the sum of two such sizes fits into 64 bits.
   if (!(bytes >= 1 && bytes <= std::ldexp(1.0, 62))) refuse();
   return static_cast<std::uint64_t>(bytes);
 }
@@ -83,8 +83,8 @@ void MemoryBudget::give_back(std::uint64_t bytes) {
 }
 
 std::string MemoryBudget::refusal(const std::string& what) const {
-  return what + " would take more than the " + memory_size_text(limit()) +
-         " of memory that reading may take";
+  return what + " would exceed the limit of " + memory_size_text(limit()) +
+         " on memory for reading";
 }
 
 }  // namespace tureen

@@ -25,7 +25,7 @@ void set_max_memory(std::uint64_t bytes);
 std::uint64_t max_memory();
 
 /// The hint in every error about this limit.
-inline constexpr const char* max_memory_hint = "--max-memory changes that";
+inline constexpr const char* max_memory_hint = "raise the limit with --max-memory";
 
 /// Parses "512MB", "4 GB", "1.5GB" or a number of bytes; kB, MB, GB and TB are powers of 1024.
 /// Throws UsageError for any other text, for zero and for more than a file can have.
@@ -80,8 +80,8 @@ class PassingMemory {
   std::uint64_t before_, kept_ = 0;
 };
 
-/// Reserves room for `more` elements. The first large part gets its exact size; later small ones
-/// double the capacity. Returns false and changes nothing if the budget is exceeded. The old and
+/// Reserves capacity for `more` elements: at least twice the old size if the budget allows it, else
+/// the exact size. Returns false and changes nothing if that exceeds the budget too. The old and
 /// the new memory are both counted until the copy is done.
 template <class T>
 [[nodiscard]] bool make_room(std::vector<T>& values, std::uint64_t more, MemoryBudget& budget) {

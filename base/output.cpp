@@ -19,7 +19,7 @@ std::span<const std::byte> bytes_of(std::string_view text) {
   return std::as_bytes(std::span(text.data(), text.size()));
 }
 
-/// Both are there afterwards, or neither has moved.
+/// Swaps two existing names atomically. Returns false and changes nothing if the system cannot.
 bool swap_names([[maybe_unused]] const std::filesystem::path& a,
                 [[maybe_unused]] const std::filesystem::path& b) {
 #ifdef RENAME_EXCHANGE
@@ -32,14 +32,14 @@ bool swap_names([[maybe_unused]] const std::filesystem::path& a,
 }  // namespace
 
 Output::Output(std::filesystem::path path) : path_(std::move(path)) {
-#ifndef __EMSCRIPTEN__  // whose files have no links, no permissions and no devices among them
+#ifndef __EMSCRIPTEN__  // its file system has no links, permissions or devices
   path_ = writable_file(path_);
 #endif
   temporary_ = temporary_beside(path_);
   file_ = std::fopen(temporary_.c_str(), "wb");
   const int reason = errno;
   std::error_code none;
-  // What only some may read stays so.
+  // The new file keeps the permissions of the old one.
   if (const auto old = std::filesystem::status(path_, none); file_ && std::filesystem::exists(old))
     std::filesystem::permissions(temporary_, old.permissions(), none);
   if (file_) return;
@@ -103,7 +103,7 @@ void replace_folder(const std::filesystem::path& made, const std::filesystem::pa
     fs::remove_all(made, ignored);
     return;
   }
-  // Not on every system and not on every disk: then there is a moment without either.
+  // Some systems and disks cannot swap names. Then `path` is missing for a moment.
   fs::path old = made;
   old += ".old";
   const bool replaces = fs::exists(path, ignored);
@@ -120,8 +120,9 @@ void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder, error))
-    throw OutputError({folder.string(), {}, {}},
-                      "cannot be made a folder" + (error ? ": " + error.message() : std::string()));
+    throw OutputError(
+        {folder.string(), {}, {}},
+        "cannot be created as a folder" + (error ? ": " + error.message() : std::string()));
 }
 
 }  // namespace tureen

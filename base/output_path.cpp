@@ -24,7 +24,7 @@ bool may_write(const fs::path& path) {
 #ifdef _WIN32
   return _waccess(path.c_str(), 2) == 0;
 #else
-  // For whom the program runs, as opening would ask, and not who started it.
+  // AT_EACCESS checks the effective user, as opening a file does.
   return faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0;
 #endif
 }
@@ -32,13 +32,13 @@ bool may_write(const fs::path& path) {
 }  // namespace
 
 fs::path followed(const fs::path& path) {
-  constexpr int max_links = 40;  // as Linux follows in one path
+  constexpr int max_links = 40;  // Linux's limit per path
   fs::path target = path;
   for (int i = 0; i < max_links; ++i) {
     std::error_code none;
     const fs::path next = fs::read_symlink(target, none);
     if (none) break;
-    target = target.parent_path() / next;  // which is `next` where that is absolute
+    target = target.parent_path() / next;  // `next` if it is absolute
   }
   return target;
 }

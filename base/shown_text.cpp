@@ -8,7 +8,7 @@ namespace tureen {
 
 namespace {
 
-/// Whether a terminal does something else with it than to show it in its place, or it is none.
+/// Whether `code` controls a terminal or the direction of text, or is not a character.
 bool is_steering(std::uint32_t code) {
   return code < 0x20 || (code >= 0x7f && code <= 0x9f) ||  // C0, DEL and C1
          code == 0x061c || code == 0x200e || code == 0x200f ||
@@ -58,7 +58,7 @@ std::string shown_text(std::string_view text) {
 }
 
 std::string shown_line(std::string_view text) {
-  // Enough for any sentence of ours with two paths of usual length in it.
+  // Enough for each of our messages with two paths of usual length.
   constexpr std::size_t most = 1000;
   std::string shown = shown_text(text);
   if (shown.size() <= most) return shown;

@@ -30,7 +30,7 @@ int edit_distance(const std::string& a, const std::string& b) {
 
 std::string nearest(const std::string& word, std::span<const std::string> known) {
   std::string best;
-  // One slip is forgiven even in a short word.
+  // One error is allowed even in words below three letters.
   int best_distance = std::max(1, int(word.size()) / 3) + 1;
   for (const std::string& candidate : known)
     if (const int distance = edit_distance(word, candidate); distance < best_distance) {
@@ -49,7 +49,7 @@ std::string did_you_mean(const std::string& word, std::span<const std::string> k
 }
 
 std::string did_you_mean(const std::filesystem::path& path) {
-  // A folder with more names than this is not searched: the message must not take seconds.
+  // Only this many names are searched, since the message must not take seconds.
   constexpr std::size_t max_names = 10000;
   std::vector<std::string> names;
   std::error_code error;
@@ -58,7 +58,7 @@ std::string did_you_mean(const std::filesystem::path& path) {
     if (names.size() == max_names) break;
     names.push_back(it->path().filename().string());
   }
-  std::sort(names.begin(), names.end());  // the order of a folder is any
+  std::sort(names.begin(), names.end());  // a directory_iterator has no fixed order
   const std::string near = nearest(path.filename().string(), names);
   return near.empty() ? "" : "did you mean " + (path.parent_path() / near).string() + "?";
 }

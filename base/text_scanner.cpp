@@ -10,7 +10,7 @@ namespace {
 constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 constexpr bool is_line_break(char c) { return c == '\n' || c == '\r'; }
 
-/// A word as it may appear in a message: cut short, unprintable characters as dots.
+/// A word for a message: at most 40 characters, with dots for unprintable ones.
 std::string quoted(std::string_view word) {
   constexpr std::size_t most = 40;
   std::string text = "'";
@@ -23,7 +23,7 @@ std::string quoted(std::string_view word) {
 TextScanner::TextScanner(Input& input, TextSyntax syntax)
     : input_(input),
       syntax_(syntax),
-      // Small files are many where readers are fuzzed.
+      // Fuzzing reads many small files, so a small file gets a small buffer.
       buffer_(static_cast<std::size_t>(std::min<std::uint64_t>(window, input.remaining())) + 1),
       line_(syntax.first_line) {
   next_ = end_ = buffer_.data();
@@ -47,7 +47,7 @@ void TextScanner::skip_blanks() {
   look_ahead();
   while (is_blank(*next_)) {
     ++next_;
-    // Blanks may run on for longer than the window.
+    // A run of blanks may be longer than the window.
     if (next_ == end_) refill();
   }
   look_ahead();
@@ -73,7 +73,7 @@ bool TextScanner::next_line() {
     refill();
     if (next_ == end_) return false;
   }
-  look_ahead();  // so that a CR LF is seen whole
+  look_ahead();  // so that the window holds both bytes of a CR LF
   next_ += next_[0] == '\r' && next_[1] == '\n' ? 2 : 1;
   ++line_;
   return true;
@@ -130,7 +130,7 @@ std::string_view TextScanner::peek(std::size_t count) {
 
 void TextScanner::pass_number(const char* end, const char* what, const char* kind) {
   if (!end || !ends_word(*end)) fail_expected(what, kind);
-  // A number that fills the window to its end may go on behind it.
+  // A number that reaches the end of the window may continue after it.
   if (std::size_t(end - next_) > max_word)
     fail(std::string(what) + " has more than " + std::to_string(max_word) + " characters");
   next_ = end;
@@ -141,7 +141,7 @@ void TextScanner::fail_expected(const char* what, const char* kind) {
     fail(std::string(next_ == end_ ? "the file" : "the line") + " ends where " + what +
          " is expected");
   const std::string_view word = peek(max_word);
-  // Only a NUL can stand here and yet belong to no word.
+  // Only a NUL is left: every other character is a blank, ends the line or begins a word.
   if (word.empty()) fail(std::string("a NUL byte where ") + what + " is expected");
   fail(quoted(word) + " where " + what + " is expected" +
        (*kind ? std::string(": not ") + kind : std::string()));

@@ -19,7 +19,7 @@ Utf8Character utf8_character(std::string_view text, std::size_t at) {
     if (byte(at + i) >> 6 != 2) return {};
     code = code << 6 | (byte(at + i) & 0x3fu);
   }
-  // Longer than need be, half of a surrogate pair, beyond Unicode.
+  // Rejects overlong encodings, surrogates and codes beyond Unicode.
   constexpr std::uint32_t least[]{0, 0, 0x80, 0x800, 0x10000};
   const bool allowed =
       code >= least[length] && (code < 0xd800 || code > 0xdfff) && code <= 0x10ffff;

@@ -15,19 +15,20 @@ namespace {
 
 using std::numbers::pi;
 
-// Why the elevation ends here: orbit() in the header.
+// The reason for this limit: orbit() in the header.
 constexpr double highest_elevation = 89.9 * degree;
 
-// Nearer to the target than this the scene is a blur of single texels, and beyond it smaller than a
-// pixel; a wheel that is turned on for fun ends somewhere from where it comes back.
+// Nearer to the target, single texels fill the image; farther away, the scene is smaller than a
+// pixel. The limits also keep every wheel movement reversible.
 constexpr double nearest_radii = 1e-5, farthest_radii = 1e4, farthest_target_radii = 1e5;
 
 constexpr double dolly_factor = 0.9, speed_factor = 1.2;
 
-// No device makes so many steps or pixels in an event; powers of more would overflow.
+// Limits per event, above those of any device. Powers of larger numbers would overflow.
 constexpr double max_steps = 1000, max_pixels = 1e7;
 
-// A difference of 1e-5 radians is a twentieth of a pixel at a focal length of 5,000: arrived.
+// Gliding ends below this difference: 1e-5 radians are a twentieth of a pixel at a focal length of
+// 5,000 pixels.
 constexpr double arrived = 1e-5;
 
 bool is_finite(const glm::dvec3& v) {
@@ -40,7 +41,7 @@ bool is_delta(double x, double y) {
 
 double within(double value, double most) { return std::clamp(value, -most, most); }
 
-/// `wanted` within low..high; but a value that is outside already may stay and come back.
+/// `wanted` clamped to low..high. If `now` lies outside, the range extends to `now`.
 double limited(double wanted, double now, double low, double high) {
   return std::clamp(wanted, std::min(low, now), std::max(high, now));
 }
@@ -150,7 +151,8 @@ void CameraControls::move_to(const ViewState& next) {
   if (!usable(next)) return;
   adopted_.reset();
   goal_ = next;
-  // Angles that grow turn by turn lose digits: 100 turns cost three of sixteen.
+  // Whole turns are removed after 100 turns, since large angles lose precision: 100 turns cost
+  // three of sixteen digits.
   const double turns = 2 * pi * std::round(shown_.bearing.azimuth / (2 * pi));
   if (std::abs(turns) > 200 * pi) {
     goal_.bearing.azimuth -= turns;
@@ -217,7 +219,8 @@ void CameraControls::dolly(double steps, glm::dvec2 pointer) {
                                                      -from_axis.y / lens.focal, -1.0));
 }
 
-/// The point at the target's depth on the ray, which has depth 1, stays where it shows.
+/// The image position of the ray's point at the target's depth is unchanged. `fixed_ray` has depth
+/// 1.
 void CameraControls::dolly_about(double steps, const glm::dvec3& fixed_ray) {
   if (!is_delta(steps, 0)) return;
   ViewState next = goal_;
@@ -243,8 +246,8 @@ void CameraControls::advance(double seconds, const Flight& flight) {
   const bool flies = velocity != glm::dvec3(0);
   if (!flies && !moving_) return;
 
-  // The difference d between what is shown and the goal obeys d' = -d / tau - v while the goal
-  // moves with velocity v, so d(t) = d(0) exp(-t / tau) - v tau (1 - exp(-t / tau)).
+  // Let d be the shown view minus the goal, and v the goal's velocity. Then d' = -d / tau - v, so
+  // d(t) = d(0) exp(-t / tau) - v tau (1 - exp(-t / tau)).
   const double part = seconds_factor(seconds, smoothing_);
   const GlideAbout about = mode_ == NavigationMode::orbit ? GlideAbout::target : GlideAbout::eye;
   ViewState shown = between(shown_, goal_, part, about);
@@ -279,7 +282,7 @@ void CameraControls::show_box(ViewState next, const glm::dvec3& low, const glm::
   const Lens lens{
       .width = int(viewport_.x), .height = int(viewport_.y), .fov_y = next.lens.fov_y()};
   next.target = 0.5 * low + 0.5 * high;
-  // Of a point a thousandth of the subject is shown.
+  // The minimum distance applies to a point, which has no size to frame.
   next.distance =
       std::max(framing_distance({low, high, next.up}, rotation_of(next), lens), 1e-3 * radius_);
   travel_to(next);
@@ -334,7 +337,7 @@ void CameraControls::set_up(const glm::dvec3& up) {
   ViewState next = goal_;
   next.up = axis;
   next.roll = 0;
-  goal_.up = axis;  // the limits of usable() know no axis; the goal is replaced next
+  goal_.up = axis;  // goal_ and shown_ have the same axis even if travel_to() ignores `next`
   travel_to(next);
 }
 
@@ -343,8 +346,8 @@ void CameraControls::adopt(const Camera& camera) {
   const glm::dvec3 centre = 0.5 * low_ + 0.5 * high_;
   const double depth = -glm::dot(centre - camera.eye(), camera.world_from_view_rotation()[2]);
   ViewState next = state_of(camera, goal_.up, std::max(depth, 0.1 * radius_));
-  // Axes that are none, and lengths whose squares overflow. How far away it stands is not asked: a
-  // recorded camera is not ours to refuse.
+  // Rejects invalid axes and lengths whose squares overflow. The distance is not limited, since a
+  // recorded camera is shown as it is.
   if (!std::isfinite(difference(next, goal_))) return;
   take_short_way(next, shown_);
   goal_ = next;

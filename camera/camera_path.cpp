@@ -15,7 +15,8 @@ namespace tureen {
 
 namespace {
 
-constexpr int keyframes_a_turn = 8;  // far from half a turn, beyond which the short way is another
+constexpr int keyframes_a_turn =
+    8;  // steps far below half a turn, where the short way is ambiguous
 
 }  // namespace
 
@@ -28,8 +29,7 @@ double CameraPath::duration() const {
   return std::max(data_.keyframes.back().seconds - begin(), data_.loop_seconds);
 }
 
-// ---- The curves
-// ----------------------------------------------------------------------------------
+// --- Curves ---------------------------------------------------------------------------------
 
 void CameraPath::make_curves() {
   auto& keyframes = data_.keyframes;
@@ -40,7 +40,7 @@ void CameraPath::make_curves() {
                                [](const CameraKeyframe& k) { return k.target_distance > 0; });
   knots_.clear();
   for (const CameraKeyframe& keyframe : keyframes) knots_.push_back(knot_of(keyframe));
-  // Ends take theirs from the other side of their span.
+  // The derivative at an end depends on the one at the other end of its span.
   for (std::size_t i = 0; i < knots_.size(); ++i) take_rate(i);
   for (std::size_t i = 0; i < knots_.size(); ++i) take_end_rate(i);
 }
@@ -80,7 +80,7 @@ CameraPath::Change CameraPath::change(const Knot& from, const Knot& to) {
   return result;
 }
 
-/// Where there are spans on both sides.
+/// Sets the derivative of a knot with spans on both sides.
 void CameraPath::take_rate(std::size_t index) {
   const double before = span_after(previous(index)), after = span_after(index);
   if (!(before > 0 && after > 0)) return;
@@ -90,14 +90,14 @@ void CameraPath::take_rate(std::size_t index) {
   const auto rate = [&](const auto& a, const auto& b) {
     return joint_derivative({a, before}, {b, after});
   };
-  // A rotation vector is the same seen from both ends of its turn, so both are in this knot's axes.
+  // A rotation vector is the same in the axes of both its ends, so both are in this knot's axes.
   knot.rate.point = rate(came.point, goes.point);
   knot.rate.turn = rate(came.turn, goes.turn);
   for (std::size_t i = 0; i < knot.values.size(); ++i)
     knot.rate.values[i] = rate(came.values[i], goes.values[i]);
 }
 
-/// Where there is a span on one side only.
+/// Sets the derivative of a knot with a span on one side only.
 void CameraPath::take_end_rate(std::size_t index) {
   const double before = span_after(previous(index)), after = span_after(index);
   if ((before > 0) == (after > 0)) return;
@@ -107,7 +107,7 @@ void CameraPath::take_end_rate(std::size_t index) {
   Knot& knot = knots_[index];
   const Change way = after > 0 ? change(knot, knots_[other]) : change(knots_[other], knot);
   const auto rate = [&](const auto& difference, const auto& rate_there) {
-    // A span of its own has one speed.
+    // An isolated span has constant speed.
     return alone ? (1 / seconds) * difference : end_derivative({difference, seconds}, rate_there);
   };
   const Change& there = knots_[other].rate;
@@ -131,7 +131,8 @@ Camera CameraPath::at(double seconds, int width, int height) const {
   assert(!empty() && width > 0 && height > 0);
   double clock = seconds - begin();
   if (is_loop()) clock -= duration() * std::floor(clock / duration());
-  // What is not finite is the beginning; a remainder may round up to the whole.
+  // NaN and -infinity become the beginning; so does +infinity in a loop. The remainder may round up
+  // to the duration.
   if (!(clock > 0)) clock = std::isinf(seconds) && seconds > 0 && !is_loop() ? duration() : 0.0;
   clock = std::min(clock, duration()) + begin();
 
@@ -153,8 +154,7 @@ Camera CameraPath::at(double seconds, int width, int height) const {
   return camera_of(lens, axes, eye, width, height);
 }
 
-// ---- Changes by hand
-// -----------------------------------------------------------------------------
+// --- Editing --------------------------------------------------------------------------------
 
 std::size_t CameraPath::add(const CameraKeyframe& keyframe) {
   auto& keyframes = data_.keyframes;
@@ -195,8 +195,7 @@ void CameraPath::set_loop_seconds(double seconds) {
   make_curves();
 }
 
-// ---- Paths that are made
-// ---------------------------------------------------------------------------
+// --- Generated paths ------------------------------------------------------------------------
 
 CameraPathData turntable(const Turntable& options) {
   assert(options.distance > 0 && options.seconds > 0 && options.turns != 0);
@@ -222,7 +221,7 @@ CameraPathData turntable(const Turntable& options) {
 
 CameraPathData turntable(const Subject& subject, const Bearing& start, const Lens& lens,
                          double seconds) {
-  // What it takes changes with the direction by less than a hundredth between so many of them.
+  // With 72 directions, the framing distance changes by less than 1 % between neighbours.
   constexpr int directions = 72;
   double distance = 0;
   for (int i = 0; i < directions; ++i)
@@ -248,7 +247,7 @@ double frame_count(const CameraPath& path, double frames_per_second) {
   if (path.empty()) return 0;
   const double exact = path.duration() * frames_per_second;
   if (path.is_loop()) return std::max(1.0, std::round(exact));
-  // A whole number of frames that rounding has put just below itself is still whole.
+  // The constant compensates for rounding just below a whole number.
   return std::floor(exact + 1e-6) + 1;
 }
 
@@ -256,7 +255,7 @@ std::vector<Camera> frames(const CameraPath& path, const FrameRate& rate) {
   const double count = frame_count(path, rate.frames_per_second);
   std::vector<Camera> cameras;
   for (double i = 0; i < count; ++i) {
-    // A loop's frames share its duration evenly, so that its end meets its beginning.
+    // The frames of a loop divide its duration evenly, so that the last one joins the first.
     const double clock = path.is_loop() ? path.duration() * i / count : i / rate.frames_per_second;
     cameras.push_back(path.at(path.begin() + clock, rate.width, rate.height));
     cameras.back().name = "frame " + std::to_string(cameras.size() - 1);

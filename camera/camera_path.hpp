@@ -51,7 +51,7 @@ class CameraPath {
   /// Each of the following recomputes all curves, in time proportional to the number of keyframes.
   /// Returns the index of the added keyframe, after those of the same time.
   std::size_t add(const CameraKeyframe& keyframe);
-  void replace(std::size_t index, const CameraKeyframe& keyframe);  // keeps the time of the old one
+  void replace(std::size_t index, const CameraKeyframe& keyframe);  // keeps the old keyframe's time
   void remove(std::size_t index);
   /// Moves a keyframe to another time and returns its new index.
   std::size_t move(std::size_t index, double seconds);

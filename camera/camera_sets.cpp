@@ -40,7 +40,7 @@ Camera looking_at_centre(const Subject& subject, const Bearing& bearing, const L
                  up_of(subject), lens.fov_y, lens.width, lens.height);
 }
 
-/// Every n-th face, so that choosing a view takes as long for a large scene as for a middling one.
+/// The n of "every n-th face", which limits the time for large scenes.
 std::size_t stride_of(const TriangleSoup& soup) {
   constexpr std::size_t enough = 200'000;
   return std::max<std::size_t>(1, (soup.triangles.size() + enough - 1) / enough);
@@ -60,12 +60,12 @@ bool is_finite(const Corners& p) {
   return std::isfinite(glm::dot(p[0], p[0]) + glm::dot(p[1], p[1]) + glm::dot(p[2], p[2]));
 }
 
-// The grid of estimated_overdraw, coarse on purpose: it compares views, it does not draw them.
+// The grid of estimated_overdraw. It is coarse, since it only compares views.
 constexpr int columns = 64, rows = 36;
 
 double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
-/// How many cells of the grid have their centre in the triangle (in cells).
+/// The number of grid cells whose centre lies in the triangle `p`. Unit of `p`: cells.
 int covered_cells(const std::array<glm::dvec2, 3>& p, double area) {
   const auto [low_x, high_x] = std::minmax({p[0].x, p[1].x, p[2].x});
   const auto [low_y, high_y] = std::minmax({p[0].y, p[1].y, p[2].y});
@@ -80,12 +80,12 @@ int covered_cells(const std::array<glm::dvec2, 3>& p, double area) {
   return count;
 }
 
-/// Cells that a face covers in the image.
+/// The covered part of the image, in cells.
 double cells_of(const Corners& world, const Camera& camera) {
   std::array<glm::dvec2, 3> p;
   for (int k = 0; k < 3; ++k) {
     const glm::dvec3 view(camera.view_from_world * glm::dvec4(world[std::size_t(k)], 1.0));
-    // A face that reaches behind the eye counts as if it did not: this compares views.
+    // A face that extends behind the eye counts as 0. This is sufficient to compare views.
     if (!(view.z < 0)) return 0;
     const double x = camera.cx - camera.fx * view.x / view.z;
     const double y = camera.cy + camera.fy * view.y / view.z;
@@ -98,7 +98,7 @@ double cells_of(const Corners& world, const Camera& camera) {
   return inside ? std::abs(area) : 0;
 }
 
-/// The centre of mass of all faces, or of the box where they have no area.
+/// The centre of mass of all faces, or the centre of the box if they have no area.
 glm::dvec3 centre_of_mass(const TriangleSoup& soup, const glm::dvec3& origin,
                           const Subject& subject) {
   glm::dvec3 sum(0);
@@ -107,14 +107,14 @@ glm::dvec3 centre_of_mass(const TriangleSoup& soup, const glm::dvec3& origin,
     const Corners p = corners_of(soup, t, origin);
     if (!is_finite(p)) continue;
     const double area = glm::length(area_vector(p));
-    // Relative to the centre: far from the world's origin the sum would lose digits.
+    // Relative to the box's centre, since the sum would lose digits far from the world's origin.
     sum += area * ((p[0] + p[1] + p[2]) / 3.0 - subject.centre());
     weight += area;
   }
   return weight > 0 ? subject.centre() + sum / weight : subject.centre();
 }
 
-/// The camera with the highest score; of equals the first.
+/// The camera with the highest score; the first among equals.
 template <class Score>
 Camera best_of(const std::vector<Camera>& candidates, Score score) {
   const Camera* best = &candidates.front();
@@ -211,7 +211,7 @@ std::vector<Camera> adversarial_views(const TriangleSoup& soup, glm::dvec3 origi
     return estimated_overdraw(soup, origin, camera);
   };
   const auto edge_on = [&](const Camera& camera) { return -facing(soup, origin, camera); };
-  // Both halves of the sphere: nobody promises that the eye stays above the horizon.
+  // Both halves of the sphere, since an eye may also be below the horizon.
   const std::vector<Bearing> many = fibonacci_bearings(64, -1, 1);
   const std::vector<Bearing> few = fibonacci_bearings(24, -1, 1);
   return {

@@ -14,7 +14,7 @@
 
 namespace tureen {
 
-/// A set of views as people name it: "hemisphere:8".
+/// The name of a set of views on the command line: "hemisphere:8".
 struct CameraSetName {
   std::string kind;
   int count = 8;  // views, 1..1000
@@ -22,8 +22,8 @@ struct CameraSetName {
   std::string text() const { return kind + ":" + std::to_string(count); }
 };
 
-/// Reads "KIND" or "KIND:COUNT". Nothing where KIND is not in `kinds`. Throws UsageError for a
-/// count that is not a number in its range.
+/// Reads "KIND" or "KIND:COUNT". Returns nullopt if KIND is not in `kinds`. Throws UsageError if
+/// COUNT is not a number in its range.
 std::optional<CameraSetName> parse_camera_set(std::string_view text,
                                               std::initializer_list<std::string_view> kinds);
 

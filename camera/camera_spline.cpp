@@ -15,7 +15,8 @@ template <class Difference>
 Difference derivative_between(const Span<Difference>& before, const Span<Difference>& after) {
   const Difference slope0 = (1 / before.seconds) * before.change;
   const Difference slope1 = (1 / after.seconds) * after.change;
-  // Shares first: the product of two long spans and the sum of two short ones stay in range.
+  // With a quotient of spans instead of their product, long spans do not overflow and short ones do
+  // not underflow.
   const double share = after.seconds / (before.seconds + after.seconds);
   const Difference parabola = share * slope0 + (1 - share) * slope1;
   const double most = 3 * std::min(size_of(slope0), size_of(slope1)), size = size_of(parabola);
@@ -33,17 +34,17 @@ double joint_derivative(const Span<double>& before, const Span<double>& after) {
 }
 
 glm::dvec3 rotation_vector(const glm::dquat& rotation) {
-  // q and -q are one rotation: the one with w >= 0 turns by at most half a turn.
+  // q and -q are the same rotation; the one with w >= 0 turns by at most half a turn.
   const double sign = rotation.w < 0 ? -1.0 : 1.0;
   const glm::dvec3 v(sign * rotation.x, sign * rotation.y, sign * rotation.z);
   const double sine = glm::length(v);
-  // The angle is 2 asin(sine), twice the sine to all digits below 1e-8.
+  // The angle is 2 asin(sine). Below 1e-8 it equals 2 sine to all digits.
   return (sine > 1e-8 ? 2 * std::atan2(sine, sign * rotation.w) / sine : 2.0) * v;
 }
 
 glm::dquat rotation_of_vector(const glm::dvec3& vector) {
   const double angle = glm::length(vector);
-  // The next term, angle^2 / 48, is below the last digit where the limit is 1e-8.
+  // Below 1e-8 the next term of the series, angle^2 / 48, is below the last digit.
   const glm::dvec3 v = (angle > 1e-8 ? std::sin(0.5 * angle) / angle : 0.5) * vector;
   return glm::normalize(glm::dquat(std::cos(0.5 * angle), v.x, v.y, v.z));
 }

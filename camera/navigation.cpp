@@ -19,8 +19,7 @@ glm::dvec3 unit_up(const glm::dvec3& up) {
 
 /// The horizontal direction of azimuth 0.
 glm::dvec3 front_of(const glm::dvec3& up) {
-  // Where y is up the front is +z; where z is up it is -y; any other axis takes whichever of the
-  // two lies nearer to its horizon.
+  // +z if y is up, -y if z is up. For other axes, the one of the two that is nearer to the horizon.
   const glm::dvec3 preferred =
       std::abs(up.z) > std::abs(up.y) ? glm::dvec3(0, -1, 0) : glm::dvec3(0, 0, 1);
   return glm::normalize(preferred - up * glm::dot(up, preferred));
@@ -39,7 +38,7 @@ Subject subject_of(const Scene& scene) {
   if (const auto* soup = std::get_if<TriangleSoup>(&scene.primitives)) {
     box = bounds(*soup);
   } else {
-    // The box of soft triangles is that of their corners: the window never reaches past them.
+    // The window of a soft triangle is 0 outside the triangle, so its corners determine the box.
     TriangleSoup corners;
     corners.positions = std::get<SoftTriangles>(scene.primitives).positions;
     for (std::uint32_t i = 0; i + 2 < corners.positions.size(); i += 3)
@@ -57,8 +56,8 @@ glm::dvec3 direction_of(const glm::dvec3& up, const Bearing& bearing) {
 }
 
 double framing_distance(const Subject& subject, const Bearing& bearing, const Lens& lens) {
-  // The rotation of the camera depends neither on its distance nor on where the subject is; far
-  // from the origin a distance of 1 would drown in the coordinates.
+  // The camera's rotation depends neither on its distance nor on the subject's position. Far from
+  // the origin, rounding would swallow a distance of 1.
   const Subject at_origin{glm::dvec3(0.0), glm::dvec3(0.0), subject.up};
   const Camera camera = camera_at(at_origin, bearing, lens, 1.0);
   return std::max(1e-6, framing_distance(subject, camera.world_from_view_rotation(), lens));
@@ -74,7 +73,7 @@ double framing_distance(const Subject& subject, const glm::dmat3& world_from_vie
     const glm::dvec3 half = 0.5 * (subject.high - subject.low);
     const glm::dvec3 p =
         half * glm::dvec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-    // Towards the eye by z: the eye must be |x| / slope beyond that.
+    // The corner lies z towards the eye; the eye must be at least |x| / slope_x farther.
     const double x = std::abs(glm::dot(p, world_from_view[0]));
     const double y = std::abs(glm::dot(p, world_from_view[1]));
     const double z = glm::dot(p, world_from_view[2]);

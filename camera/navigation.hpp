@@ -15,7 +15,7 @@ namespace tureen {
 struct Subject {
   glm::dvec3 low{-1.0};
   glm::dvec3 high{1.0};
-  glm::dvec3 up{0.0, 1.0, 0.0};  // of any length; (0, 0, 0) stands for y
+  glm::dvec3 up{0.0, 1.0, 0.0};  // of any length; (0, 0, 0) means y
 
   glm::dvec3 centre() const { return 0.5 * (low + high); }
 };

@@ -33,7 +33,8 @@ std::optional<UpGuess> from_cameras(std::span<const Camera> cameras) {
   glm::dvec3 sum(0);
   for (const Camera& camera : cameras)
     if (const auto up = unit(camera.world_from_view_rotation()[1])) sum += *up;
-  // Three that agree are no accident; of axes that point everywhere less than half is left.
+  // Agreement of three cameras is unlikely by chance. For random axes, the mean is shorter than
+  // half.
   if (cameras.size() < 3 || !(glm::length(sum) > 0.5 * double(cameras.size()))) return {};
   const glm::dvec3 mean = glm::normalize(sum), axis = nearest_axis(mean);
   const double angle = std::acos(std::min(1.0, glm::dot(mean, axis)));
@@ -78,7 +79,7 @@ UpGuess guess_up(const UpEvidence& evidence) {
   const auto stored = unit(evidence.stored);
   if (stored && !evidence.stored_is_assumed) return {*stored, UpGuess::Reason::stored};
   if (const auto guess = from_cameras(evidence.cameras)) return *guess;
-  // A box that is flat along the assumed axis agrees with it, sign and all.
+  // A box that is flat along the assumed axis confirms it, and the assumed sign is kept.
   const auto flat = from_box(evidence.extent);
   if (flat && !(stored && std::abs(glm::dot(*stored, flat->axis)) > 0.999)) return *flat;
   if (stored) return {*stored, UpGuess::Reason::assumed};
@@ -91,18 +92,18 @@ std::string describe(const UpGuess& guess) {
       "the mean of the up axes of " + std::to_string(guess.cameras) + " cameras ";
   switch (guess.reason) {
     case UpGuess::Reason::stored:
-      return "the file says that " + axis + " is up";
+      return "the file stores " + axis + " as the up axis";
     case UpGuess::Reason::cameras_near_axis:
       return mean + "points " + fixed_decimal(guess.degrees, 0) + " degrees from " + axis +
-             ", which is taken to be up";
+             ", the assumed up axis";
     case UpGuess::Reason::cameras:
-      return mean + "is taken to be up: " + axis;
+      return mean + "is the assumed up axis: " + axis;
     case UpGuess::Reason::flat:
-      return "the scene is flat along " + axis + ", which is taken to be up; it may be " +
+      return "the scene is flat along " + axis + ", the assumed up axis; it may also be " +
              axis_name(-guess.axis);
     case UpGuess::Reason::assumed:
     case UpGuess::Reason::nothing:
-      return "nothing says what is up; " + axis + " is assumed";
+      return "the up axis is unknown; " + axis + " is assumed";
   }
   return "";
 }

@@ -10,14 +10,14 @@ namespace tureen {
 
 namespace {
 
-/// Front, side and up of the angles; right-handed like (z, x, y).
+/// The axes that the angles refer to; right-handed in this order.
 struct Horizon {
   glm::dvec3 front, side, up;
   explicit Horizon(const glm::dvec3& axis)
       : front(direction_of(axis, {})), side(glm::cross(axis, front)), up(axis) {}
 };
 
-/// right, above and backward without a roll.
+/// Columns: right, above and backward, without roll.
 glm::dmat3 level_rotation(const Horizon& horizon, const Bearing& bearing) {
   const double c = std::cos(bearing.azimuth), s = std::sin(bearing.azimuth);
   const glm::dvec3 level = c * horizon.front + s * horizon.side;
@@ -81,11 +81,11 @@ ViewState state_of(const Camera& camera, const glm::dvec3& up, double distance) 
   ViewState state{.up = up, .distance = distance};
   const double height = glm::dot(backward, up);
   const glm::dvec3 level = backward - height * up;
-  // atan2 keeps the digits near the poles, where asin loses half of them.
+  // Near the poles, asin would lose half of the digits.
   state.bearing.elevation = std::atan2(height, glm::length(level));
-  // Straight down the top of the image points away from the eye of azimuth 0, straight up towards
-  // it. 1e-9: a level part as short as this keeps seven digits of the azimuth, just enough for a
-  // image; what the recorded axes are off by may be as much.
+  // In a view straight down, the top of the image points away from the eye of azimuth 0; in a view
+  // straight up, towards it. At a level part of 1e-9, seven digits of the azimuth are left, just
+  // enough for an image. The error of recorded axes may have the same size.
   const bool at_pole = glm::length(level) < 1e-9;
   const glm::dvec3 toward = at_pole ? axes[1] * (height > 0 ? -1.0 : 1.0) : level;
   state.bearing.azimuth =

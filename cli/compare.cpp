@@ -7,14 +7,14 @@
 #include <optional>
 
 #include "base/error.hpp"
-#include "cli/arguments.hpp"
 #include "cli/commands.hpp"
-#include "cli/image_file.hpp"
-#include "cli/memory_option.hpp"
-#include "cli/output_argument.hpp"
+#include "cli/files/image_file.hpp"
+#include "cli/options/arguments.hpp"
+#include "cli/options/memory_option.hpp"
+#include "cli/options/output_argument.hpp"
+#include "cli/options/values.hpp"
 #include "cli/report.hpp"
 #include "cli/table.hpp"
-#include "cli/values.hpp"
 #include "image/heat_map.hpp"
 #include "image/metrics.hpp"
 
@@ -54,7 +54,7 @@ struct CompareOptions {
   bool json = false;
 };
 
-Json to_json(const CompareOptions& options, const Metrics& metrics, std::optional<bool> passed) {
+Json json_of(const CompareOptions& options, const Metrics& metrics, std::optional<bool> passed) {
   Json json;
   for (const NamedMetric& metric : named_metrics) json[metric.key] = metrics.*metric.value;
   json["ssim_border"] = name(options.metrics.ssim_border);
@@ -86,7 +86,7 @@ ExitCode compare_images(const CompareOptions& options) {
 
   if (!options.diff.empty()) write_image(side_by_side(a, b), options.diff);
   if (options.json) {
-    print_json(to_json(options, metrics, passed));
+    print_json(json_of(options, metrics, passed));
   } else {
     Table table({"", "", "<"});
     for (const NamedMetric& m : named_metrics)

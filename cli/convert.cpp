@@ -8,14 +8,14 @@
 #include "base/extension.hpp"
 #include "cli/commands.hpp"
 #include "cli/convert_compress.hpp"
-#include "cli/edit_options.hpp"
-#include "cli/memory_option.hpp"
-#include "cli/output_argument.hpp"
+#include "cli/files/scene_page.hpp"
+#include "cli/files/scratch.hpp"
+#include "cli/options/edit_options.hpp"
+#include "cli/options/memory_option.hpp"
+#include "cli/options/output_argument.hpp"
+#include "cli/options/scene_argument.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
-#include "cli/scene_argument.hpp"
-#include "cli/scene_page.hpp"
-#include "cli/scratch.hpp"
 
 namespace tureen::cli {
 

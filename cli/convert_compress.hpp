@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/arguments.hpp"
-#include "cli/dataset_argument.hpp"
+#include "cli/options/arguments.hpp"
+#include "cli/options/dataset_argument.hpp"
 #include "cli/report.hpp"
 #include "scene/scene.hpp"
 

@@ -7,21 +7,21 @@
 
 #include "base/decimal_text.hpp"
 #include "base/error.hpp"
-#include "cli/arguments.hpp"
 #include "cli/commands.hpp"
-#include "cli/dataset_argument.hpp"
-#include "cli/drawing_options.hpp"
-#include "cli/eval_images.hpp"
-#include "cli/memory_option.hpp"
-#include "cli/output_argument.hpp"
-#include "cli/plan_json.hpp"
+#include "cli/files/eval_images.hpp"
+#include "cli/files/result_files.hpp"
+#include "cli/options/arguments.hpp"
+#include "cli/options/dataset_argument.hpp"
+#include "cli/options/drawing_options.hpp"
+#include "cli/options/memory_option.hpp"
+#include "cli/options/output_argument.hpp"
+#include "cli/options/scene_argument.hpp"
+#include "cli/options/values.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
-#include "cli/report_page.hpp"
-#include "cli/scene_argument.hpp"
 #include "cli/table.hpp"
-#include "cli/values.hpp"
 #include "jobs/eval/evaluation.hpp"
+#include "jobs/results/plan_json.hpp"
 
 namespace tureen::cli {
 
@@ -65,7 +65,7 @@ Json report(const EvalOptions& options, const Evaluation& result,
           {"context", result.context},
           {"renderer", result.renderer},
           {"plan", result.plan},
-          {"specialisations", specialisations_json(result.specialisations)},
+          {"specialisations", results::specialisations_json(result.specialisations)},
           {"output", output}};
 }
 

@@ -6,12 +6,12 @@
 
 #include "base/decimal_text.hpp"
 #include "cli/commands.hpp"
-#include "cli/memory_option.hpp"
-#include "cli/plan_json.hpp"
+#include "cli/options/memory_option.hpp"
+#include "cli/options/scene_argument.hpp"
 #include "cli/report.hpp"
-#include "cli/scene_argument.hpp"
 #include "cli/table.hpp"
 #include "formats/dataset/camera_file.hpp"
+#include "jobs/results/plan_json.hpp"
 #include "runtime/device_forecast.hpp"
 #include "runtime/plan/plan_description.hpp"
 #include "scene/edit/lint.hpp"
@@ -229,7 +229,7 @@ ExitCode inform(const InfoOptions& options) {
                   {{"resolution_scale", scene.quality.resolution_scale},
                    {"supersampling", scene.quality.supersampling}}},
                  {"plan", describe(plan)},
-                 {"specialisations", specialisations_json(plan.applied)},
+                 {"specialisations", results::specialisations_json(plan.applied)},
                  {"devices", devices},
                  {"lint", to_json(findings)}});
     print_json(json);

@@ -5,9 +5,9 @@
 #include <sstream>
 
 #include "base/error.hpp"
-#include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/options/arguments.hpp"
 #include "cli/report.hpp"
 #include "cli/version.hpp"
 

@@ -1,5 +1,7 @@
 #include "cli/progress.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 

@@ -6,21 +6,21 @@
 
 #include "base/decimal_text.hpp"
 #include "base/error.hpp"
-#include "cli/arguments.hpp"
 #include "cli/commands.hpp"
-#include "cli/debug_view_option.hpp"
-#include "cli/drawing_options.hpp"
-#include "cli/image_file.hpp"
-#include "cli/images.hpp"
+#include "cli/files/image_file.hpp"
+#include "cli/files/images.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/memory_option.hpp"
-#include "cli/output_argument.hpp"
-#include "cli/plan_json.hpp"
+#include "cli/options/arguments.hpp"
+#include "cli/options/debug_view_option.hpp"
+#include "cli/options/drawing_options.hpp"
+#include "cli/options/memory_option.hpp"
+#include "cli/options/output_argument.hpp"
+#include "cli/options/scene_argument.hpp"
+#include "cli/options/values.hpp"
+#include "cli/options/view_options.hpp"
 #include "cli/report.hpp"
-#include "cli/scene_argument.hpp"
-#include "cli/values.hpp"
-#include "cli/view_options.hpp"
 #include "image/video_file.hpp"
+#include "jobs/results/plan_json.hpp"
 #include "runtime/debug_views/debug_view_renderer.hpp"
 #include "runtime/plan/plan_description.hpp"
 #include "runtime/renderer.hpp"
@@ -182,7 +182,7 @@ ExitCode render(RenderOptions options) {
          {"triangles", soup.triangles.size()},
          {"frame_ms", {{"median", times.median()}, {"p95", times.p95()}, {"n", times.ms.size()}}},
          {"plan", drawn.plan},
-         {"specialisations", specialisations_json(drawn.specialisations)},
+         {"specialisations", results::specialisations_json(drawn.specialisations)},
          {"output", images.paths}});
   return ExitCode::done;
 }

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "jobs/results/json_text.hpp"
 
 namespace tureen {
 struct Remark;
@@ -12,8 +13,8 @@ struct Remark;
 
 namespace tureen::cli {
 
-/// Keys stay in the order in which they were written.
-using Json = nlohmann::ordered_json;
+using results::Json;
+using results::json_text;
 
 /// A line of prose, never more than one: what files say steers no terminal and passes for no line
 /// of ours (base/shown_text.hpp).
@@ -25,11 +26,7 @@ void say_list(const std::string& heading, const std::vector<std::string>& lines)
 /// Standard output; throws OutputError where it cannot be written, as do the two below.
 void print_text(const std::string& text);
 
-/// The document and a line's end, for files; in one line where `indent` is -1. U+FFFD where text is
-/// no UTF-8.
-std::string json_text(const Json& document, int indent = 2);
-
-/// The same on standard output, where nothing in it steers a terminal.
+/// The document on standard output; control characters are escaped.
 void print_json(const Json& document);
 
 /// The same in one line, for programs that read output line by line.

@@ -9,9 +9,9 @@
 #include "base/extension.hpp"
 #include "base/output.hpp"
 #include "cli/commands.hpp"
-#include "cli/output_argument.hpp"
+#include "cli/files/report_results.hpp"
+#include "cli/options/output_argument.hpp"
 #include "cli/report.hpp"
-#include "cli/report_results.hpp"
 
 extern char** environ;
 
@@ -72,7 +72,7 @@ ExitCode report(const ReportOptions& options) {
   std::vector<ReportResult> results;
   for (const std::string& input : options.inputs)
     for (ReportResult& each : read_results(input)) results.push_back(std::move(each));
-  write_file(page, report_page(results, page));
+  write_file(page, results::report_page(results, page));
   if (!opens)
     say("wrote " + page.string());
   else if (!open_in_browser(page.string()))

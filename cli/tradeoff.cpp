@@ -8,17 +8,17 @@
 #include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "base/output.hpp"
-#include "cli/arguments.hpp"
 #include "cli/commands.hpp"
-#include "cli/drawing_options.hpp"
-#include "cli/memory_option.hpp"
-#include "cli/output_argument.hpp"
+#include "cli/files/result_files.hpp"
+#include "cli/options/arguments.hpp"
+#include "cli/options/drawing_options.hpp"
+#include "cli/options/memory_option.hpp"
+#include "cli/options/output_argument.hpp"
+#include "cli/options/scene_argument.hpp"
 #include "cli/report.hpp"
-#include "cli/report_page.hpp"
-#include "cli/scene_argument.hpp"
-#include "cli/tradeoff_report.hpp"
-#include "cli/tradeoff_run.hpp"
-#include "cli/tradeoff_write.hpp"
+#include "cli/tradeoff/tradeoff_run.hpp"
+#include "cli/tradeoff/tradeoff_tables.hpp"
+#include "cli/tradeoff/tradeoff_write.hpp"
 
 namespace tureen::cli {
 
@@ -37,7 +37,7 @@ void write_files(const TradeoffArguments& options, TradeoffReport& report) {
   if (options.folder.empty()) return;
   for (const fs::path& file : result_files(options.folder, "tradeoff"))
     report.output.push_back(file.string());
-  write_result(options.folder, "tradeoff", json_text(to_json(report)));
+  write_result(options.folder, "tradeoff", json_text(results::to_json(report)));
 }
 
 ExitCode tradeoff(const TradeoffArguments& options) {
@@ -65,7 +65,7 @@ ExitCode tradeoff(const TradeoffArguments& options) {
                   report.device.context));
   say_tables(report);
   for (const std::string& path : report.output) say("wrote " + path);
-  if (options.json) print_json(to_json(report));
+  if (options.json) print_json(results::to_json(report));
   if (unwritten) std::rethrow_exception(unwritten);
   const bool lacks_choice = !options.written_scene.empty() && !report.scene_written;
   return lacks_choice ? ExitCode::check_failed : ExitCode::done;

@@ -11,32 +11,28 @@
 #include "base/existing_path.hpp"
 #include "base/output.hpp"
 #include "base/suggestion.hpp"
-#include "cli/arguments.hpp"
 #include "cli/commands.hpp"
-#include "cli/config_options.hpp"
-#include "cli/dataset_argument.hpp"
-#include "cli/eval_images.hpp"
+#include "cli/files/eval_images.hpp"
+#include "cli/files/train_files.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/memory_option.hpp"
+#include "cli/options/arguments.hpp"
+#include "cli/options/config_options.hpp"
+#include "cli/options/dataset_argument.hpp"
+#include "cli/options/memory_option.hpp"
+#include "cli/options/scene_argument.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
-#include "cli/scene_argument.hpp"
 #include "cli/table.hpp"
-#include "cli/train_files.hpp"
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "formats/scene_file.hpp"
 #include "jobs/eval/evaluation.hpp"
-#include "scene/edit/lattice_bytes.hpp"
 #include "trainer/common/kernels/projection.hpp"
 #include "trainer/common/run_lock.hpp"
 #include "trainer/common/training_views.hpp"
 #include "trainer/diffsoup/config_fields.hpp"
 #include "trainer/diffsoup/config_file.hpp"
 #include "trainer/diffsoup/device.hpp"
-#include "trainer/diffsoup/held_out.hpp"
-#include "trainer/diffsoup/initialise.hpp"
-#include "trainer/diffsoup/near_zone.hpp"
-#include "trainer/diffsoup/session.hpp"
+#include "trainer/diffsoup/training.hpp"
 
 namespace tureen::cli {
 
@@ -97,34 +93,6 @@ void check_images(const TrainOptions& options, const Dataset& dataset) {
                 {.least = ssim_window, .most = trainer::kernels::max_image_side});
 }
 
-trainer::TrainingState first_state(const Dataset& dataset, const Config& config,
-                                   const std::optional<Scene>& mesh) {
-  trainer::TrainingState state;
-  state.model = trainer::initial_model(dataset, config, mesh ? &*mesh : nullptr);
-  state.moments.reset_faces(state.model);
-  return state;
-}
-
-std::vector<Camera> cameras_of(const std::vector<Photograph>& photographs) {
-  std::vector<Camera> cameras;
-  for (const Photograph& photograph : photographs) cameras.push_back(photograph.camera);
-  return cameras;
-}
-
-/// Of all texels, those whose alpha is within 0.05 of 0 or of 1.
-double opacity_binary_fraction(const trainer::Model& model) {
-  std::uint64_t binary = 0, texels = 0;
-  std::vector<float> values;
-  for (std::size_t face = 0; face < model.faces(); ++face) {
-    fine_texture(model, face, values);
-    for (std::size_t i = trainer::alpha_channel; i < values.size(); i += trainer::channels) {
-      binary += values[i] <= 0.05f || values[i] >= 0.95f;
-      ++texels;
-    }
-  }
-  return texels > 0 ? double(binary) / double(texels) : 1.0;
-}
-
 std::string progress_text(const trainer::SessionStatus& now) {
   std::string text = fmt::format("{}/{}", now.step, now.steps);
   if (now.loss > 0) text += fmt::format(", loss {:.4f}", now.loss);
@@ -136,25 +104,10 @@ std::string progress_text(const trainer::SessionStatus& now) {
 }
 
 struct Result {
-  trainer::TrainingState state;
-  bool visible_at_start = false;  // a triangle, in any training image
-  double seconds = 0;
-  double trainer_psnr_db = 0;
+  trainer::TrainingResult training;
   std::optional<Evaluation> evaluation;  // none without OpenGL
   std::vector<std::string> output;
 };
-
-Scene scene_of(const TrainOptions& options, const Dataset& dataset, const Config& config,
-               const trainer::TrainingState& state) {
-  Scene scene = to_scene(state.model);
-  round_to_bytes(std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance));
-  scene.cameras = cameras_of(dataset.train);
-  scene.info.name = fs::path(options.output).stem().string();
-  scene.info.up = dataset.up;
-  scene.info.background = {config.background[0], config.background[1], config.background[2]};
-  scene.info.source = fmt::format("Tureen trainer, {} steps", state.step);
-  return scene;
-}
 
 /// The soup and all that is made of it. Once this is written the checkpoint has done its work.
 void write_results(const TrainingFiles& files, const Scene& scene, Result& result) {
@@ -190,16 +143,16 @@ std::optional<Evaluation> evaluation_of(const Scene& scene, std::span<const Phot
 }
 
 void say_result(const TrainOptions& options, const Dataset& dataset, const Result& result) {
-  const trainer::TrainingState& state = result.state;
-  say(
-      fmt::format("{} triangles after {} steps in {}; {:.1f} % of the texels are transparent or "
-                  "opaque",
-                  counted(state.model.faces()), counted(std::uint64_t(state.step)),
-                  duration_text(result.seconds), 100 * opacity_binary_fraction(state.model)));
+  const trainer::TrainingState& state = result.training.state;
+  say(fmt::format(
+      "{} triangles after {} steps in {}; {:.1f} % of the texels are transparent or "
+      "opaque",
+      counted(state.model.faces()), counted(std::uint64_t(state.step)),
+      duration_text(result.training.seconds), 100 * result.training.opacity_binary_fraction));
   if (state.non_finite > 0)
     say(fmt::format("{} non-finite numbers were skipped", counted(state.non_finite)));
   Table table({counted(dataset.test.size()) + " test views", "PSNR dB", "SSIM", "FLIP"});
-  table.row({"drawn by the trainer", fmt::format("{:.2f}", result.trainer_psnr_db)});
+  table.row({"drawn by the trainer", fmt::format("{:.2f}", result.training.test_psnr_db)});
   if (result.evaluation) {
     const ViewMetrics& mean = result.evaluation->mean;
     table.row({options.output, fmt::format("{:.2f}", mean.psnr_db),
@@ -215,18 +168,18 @@ Json report(const Dataset& dataset, const Result& result) {
     test.update(cli::to_json(result.evaluation->mean, true));
     test["drawn_by"] = result.evaluation->renderer;
   } else {
-    test["psnr_db"] = result.trainer_psnr_db;
+    test["psnr_db"] = result.training.test_psnr_db;
     test["drawn_by"] = "trainer";
   }
   return {{"done", true},
-          {"steps", result.state.step},
-          {"seconds", result.seconds},
-          {"triangles", result.state.model.faces()},
-          {"visible_at_start", result.visible_at_start},
+          {"steps", result.training.state.step},
+          {"seconds", result.training.seconds},
+          {"triangles", result.training.state.model.faces()},
+          {"visible_at_start", result.training.visible_at_start},
           {"test", test},
-          {"trainer_psnr_db", result.trainer_psnr_db},
-          {"opacity_binary_fraction", opacity_binary_fraction(result.state.model)},
-          {"non_finite", result.state.non_finite},
+          {"trainer_psnr_db", result.training.test_psnr_db},
+          {"opacity_binary_fraction", result.training.opacity_binary_fraction},
+          {"non_finite", result.training.state.non_finite},
           {"output", result.output}};
 }
 
@@ -238,14 +191,6 @@ void say_beginning(const Dataset& dataset, const Config& config, const trainer::
                   counted(dataset.train.size()), counted(dataset.test.size()), first.width,
                   first.height, counted(std::uint64_t(config.steps)),
                   counted(std::uint64_t(config.triangles)), backend.description()));
-}
-
-/// Whether some training image shows a triangle.
-bool shows_something(trainer::Backend& backend, std::span<const trainer::TrainingView> views) {
-  return std::any_of(views.begin(), views.end(), [&](const trainer::TrainingView& view) {
-    const std::vector<std::uint64_t> pixels = backend.visible_pixels({&view.camera, 1});
-    return std::any_of(pixels.begin(), pixels.end(), [](auto count) { return count > 0; });
-  });
 }
 
 /// The scene of --init.
@@ -322,70 +267,61 @@ ExitCode train(const TrainOptions& options) {
     say(dataset.has_alpha ? "The images have alpha: --preset object"
                           : "The images have no alpha: --preset scene");
 
-  Checkpoint run{.config = config,
-                 .views = trainer::fingerprint(dataset.train),
-                 .seconds = checkpoint ? checkpoint->seconds : 0.0,
-                 .state = {}};
   if (checkpoint)
-    if (const auto reason = difference(run.views, checkpoint->views))
+    if (const auto reason = difference(trainer::fingerprint(dataset.train), checkpoint->views))
       throw UsageError("--resume needs the dataset of the checkpoint: " + *reason);
-  const trainer::Region region = trainer::region_of_interest(dataset);
-  const Config scaled =
-      trainer::with_empty_near_zone(trainer::scaled_to(config, region.half_side), dataset, region);
-  run.state = checkpoint ? std::move(checkpoint->state) : first_state(dataset, scaled, mesh);
-  const std::vector<trainer::TrainingView> views =
-      trainer::take_training_views(dataset.train, scaled.background);
-  trainer::Trainer trainer(scaled, views,
-                           trainer::make_backend(views, scaled, options.device, options.threads),
-                           run.state);
-  say_beginning(dataset, config, trainer.backend());
-  Result result;
-  result.visible_at_start = shows_something(trainer.backend(), views);
-  if (!result.visible_at_start)
-    say("No training image shows a triangle yet: check that the cameras see the scene.");
-
   Progress::Output output = Progress::standard_error();
   output.line_seconds = 10;
   std::optional<Progress> progress;
-  progress.emplace("training", output);
-  const double seconds_before = run.seconds;
-  trainer::TrainingSession session(
-      trainer,
-      {.checkpoint = files.checkpoint,
-       .log = files.log,
-       .previews = files.previews,
-       .checkpoint_every = options.checkpoint_every,
-       .preview_every = options.preview_every,
-       .test_views = dataset.test,
-       .seconds_before = seconds_before,
-       .progress =
-           [&](const trainer::SessionStatus& now) {
-             progress->update(double(now.step) / now.steps, progress_text(now));
+  Result result;
+  result.training = trainer::train(
+      dataset,
+      {.config = config,
+       .name = fs::path(options.output).stem().string(),
+       .mesh = mesh ? &*mesh : nullptr,
+       .checkpoint = std::move(checkpoint),
+       .device = options.device,
+       .threads = options.threads,
+       .session = {.checkpoint = files.checkpoint,
+                   .log = files.log,
+                   .previews = files.previews,
+                   .checkpoint_every = options.checkpoint_every,
+                   .preview_every = options.preview_every,
+                   .progress =
+                       [&](const trainer::SessionStatus& now) {
+                         if (!progress) progress.emplace("training", output);
+                         progress->update(double(now.step) / now.steps, progress_text(now));
+                       },
+                   .interrupted =
+                       [&](int step) {
+                         progress.reset();
+                         say(
+                             fmt::format("wrote {} after step {} of {}; the same command with "
+                                         "--resume goes on from it",
+                                         files.checkpoint.string(), counted(std::uint64_t(step)),
+                                         counted(std::uint64_t(config.steps))));
+                       }},
+       .begun =
+           [&](const trainer::Backend& backend, bool visible) {
+             say_beginning(dataset, config, backend);
+             if (!visible)
+               say("No training image shows a triangle yet: check that the cameras see the scene.");
            },
-       .interrupted =
-           [&] {
+       .finished =
+           [&](const Scene& scene) {
              progress.reset();
-             say(
-                 fmt::format("wrote {} after step {} of {}; the same command with --resume goes on "
-                             "from it",
-                             files.checkpoint.string(), counted(trainer.steps_done()),
-                             counted(trainer.config().steps)));
-           }},
-      std::move(run));
-  session.run();
-  progress.reset();
-
-  result.seconds = session.seconds();
-  result.state = trainer.state();
-  const Scene scene = scene_of(options, dataset, config, result.state);
-  session.keep_if_it_fails([&] { write_results(files, scene, result); });
-  {
-    Progress measuring("measuring");
-    result.trainer_psnr_db =
-        trainer::mean_psnr_db(trainer.backend(), dataset.test, config,
-                              [&](double fraction) { measuring.update(fraction); });
-  }
-  result.evaluation = evaluation_of(scene, dataset.test);
+             write_results(files, scene, result);
+           },
+       .measuring =
+           [&](double fraction) {
+             if (!progress) progress.emplace("measuring");
+             progress->update(fraction);
+           },
+       .evaluate =
+           [&](const Scene& scene) {
+             progress.reset();
+             result.evaluation = evaluation_of(scene, dataset.test);
+           }});
   say_result(options, dataset, result);
   if (options.json) print_json_line(report(dataset, result));
   return ExitCode::done;

@@ -13,7 +13,7 @@
 
 #include "base/error.hpp"
 #include "cli/commands.hpp"
-#include "cli/program_folder.hpp"
+#include "cli/files/program_folder.hpp"
 
 namespace tureen::cli {
 

@@ -1,9 +1,9 @@
-# Which module may include headers of which: ARCHITECTURE.md draws it. A module is a folder of this
-# list, and a file belongs to the longest one that holds it. Run by every build:
+# Checks which module includes headers from which (diagram: ARCHITECTURE.md). A module is a folder in
+# the list below. A file belongs to the module with the longest matching path. Every build runs:
 #   cmake -DROOT=<repository> -DSTAMP=<file> -P cmake/arrows.cmake
 cmake_minimum_required(VERSION 3.25)
 
-# Each line is a module and what it may include beside itself; "scene" stands for scene/edit, too.
+# Each line has a module and the modules that it may include; "scene" contains scene/edit.
 set(arrows
   "base:"
   "image: base"
@@ -26,6 +26,7 @@ set(arrows
   "jobs/eval: base image scene runtime runtime/gl runtime/plan jobs/baseline"
   "jobs/tradeoff: base image scene oracle runtime runtime/gl runtime/plan jobs/baseline jobs/eval jobs/timing jobs/visibility"
   "jobs/compress: base image scene camera formats runtime runtime/gl jobs/visibility"
+  "jobs/results: base scene runtime/plan jobs/bench jobs/timing jobs/tradeoff"
   "viewer: base image scene camera formats runtime runtime/gl runtime/plan runtime/passes runtime/debug_views jobs/baseline jobs/timing"
   "web: base image scene camera formats runtime runtime/gl runtime/plan runtime/debug_views jobs/baseline jobs/timing")
 
@@ -37,10 +38,10 @@ foreach(line IN LISTS arrows)
   list(APPEND modules ${module})
   set(allowed_${module} ${allowed})
 endforeach()
-# Longest first, so that runtime/gl is found before runtime.
+# In descending order, so that runtime/gl is found before runtime.
 list(SORT modules ORDER DESCENDING)
 
-# module_of(PATH OUT): empty for what no module holds.
+# module_of(PATH OUT): sets OUT to the module of PATH, or to "".
 function(module_of path out)
   foreach(module IN LISTS modules)
     string(FIND "${path}" "${module}/" at)

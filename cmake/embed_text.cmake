@@ -1,8 +1,8 @@
 # Turns text files into one C++ source with a table of (name, text). Run as a script:
 #   cmake -DOUTPUT=x.cpp -DFILES="a.glsl;b.frag" -DHEADER=shaders/shaders.hpp
 #         -DNAMESPACE=tureen::shaders -P embed_text.cmake
-# HEADER declares in NAMESPACE: std::string_view text(std::string_view name), empty where there is
-# no such file.
+# HEADER declares in NAMESPACE: std::string_view text(std::string_view name). text() returns an empty
+# view for an unknown name.
 set(entries "")
 foreach(file IN LISTS FILES)
   get_filename_component(name "${file}" NAME)

@@ -1,16 +1,17 @@
-# What libFuzzer needs: clang, its fuzzer and sanitizers in everything, and of the modules only what
-# reads. Included before any module; the fuzzers themselves are in tests/fuzz.
+# Settings for libFuzzer: clang, with its fuzzer and sanitizers in all targets. Included before any
+# module. The fuzz targets are in tests/fuzz.
 if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
-  message(FATAL_ERROR "libFuzzer is clang's: ./dev fuzz builds with it")
+  message(FATAL_ERROR "libFuzzer needs clang; ./dev fuzz selects it")
 endif()
 
-# Assertions are on, those of the standard library too: what one refuses would be a fault elsewhere.
+# Enables assertions, including those of the standard library. A failed assertion is a fault in builds
+# without assertions.
 add_compile_options(-O1 -gline-tables-only -fsanitize=fuzzer-no-link,address,undefined
   -fno-sanitize-recover=all -fno-omit-frame-pointer -D_GLIBCXX_ASSERTIONS)
 add_link_options(-fsanitize=address,undefined)
 
-# What of the trainer reads and writes its checkpoints: training would take longer to build than all
-# that is fuzzed.
+# The sources that read and write the trainer's checkpoints. The whole trainer would take longer to
+# build than all other fuzzed code.
 function(tureen_fuzz_trainer)
   find_package(fmt REQUIRED)
   find_package(nlohmann_json REQUIRED)

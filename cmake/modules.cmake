@@ -1,4 +1,4 @@
-# The arrows between modules are checked before anything compiles (cmake/arrows.cmake).
+# Checks the arrows between modules before compiling (cmake/arrows.cmake).
 file(GLOB_RECURSE arrows_sources CONFIGURE_DEPENDS LIST_DIRECTORIES false
   base/*.?pp image/*.?pp scene/*.?pp camera/*.?pp formats/*.?pp oracle/*.?pp runtime/*.?pp
   trainer/*.?pp trainer/*.cu* jobs/*.?pp viewer/*.?pp web/engine/*.?pp)
@@ -12,8 +12,8 @@ add_custom_command(
   VERBATIM)
 add_custom_target(arrows DEPENDS "${arrows_stamp}")
 
-# tureen_module(NAME SOURCES .. PUBLIC .. PRIVATE ..): the library tureen_NAME of a folder. Modules and
-# libraries that are PUBLIC appear in its headers, PRIVATE ones only in its sources.
+# tureen_module(NAME SOURCES .. PUBLIC .. PRIVATE ..): the library tureen_NAME of a folder. Its headers
+# include only PUBLIC modules and libraries; its sources also include PRIVATE ones.
 function(tureen_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(tureen_${name} STATIC ${ARG_SOURCES})
@@ -21,10 +21,11 @@ function(tureen_module name)
   target_link_libraries(tureen_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} tureen_warnings)
 endfunction()
 
-# Tests spend their time in what they test, so optimising them costs more than it saves.
+# Tests spend most of their time in the tested code, so -O1 saves more build time than it costs run
+# time.
 set(tureen_test_options $<$<CONFIG:Release>:-O1>)
 
-# tureen_test(NAME SOURCES .. LINK ..): a GoogleTest program, one ctest entry a test.
+# tureen_test(NAME SOURCES .. LINK ..): a GoogleTest program with one ctest entry per test.
 function(tureen_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
@@ -37,6 +38,7 @@ function(tureen_test name)
   if(TUREEN_SANITIZE)
     set(timeout 1200)  # damage of glTF takes 295 s under the thread sanitizer
   endif()
-  # NO_PRETTY_VALUES: without the values, which are bytes of memory where a type has no printer.
+  # NO_PRETTY_VALUES omits parameter values from test names. For types without a printer they would be
+  # raw bytes.
   gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${timeout})
 endfunction()

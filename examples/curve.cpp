@@ -38,7 +38,7 @@ glm::dvec3 Curve::at(double t) const {
 }
 
 glm::dvec3 Curve::tangent(double t) const {
-  constexpr double h = 1e-4;  // far above rounding, far below any bend of ours
+  constexpr double h = 1e-4;  // far above rounding errors, far below the curves' radii
   return glm::normalize(at(std::min(t + h, 1.0)) - at(std::max(t - h, 0.0)));
 }
 

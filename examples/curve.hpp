@@ -1,4 +1,4 @@
-// A smooth curve through given points, walked at constant speed: profiles of porcelain, stems.
+// A smooth curve through given points with constant speed, for profiles of porcelain and for stems.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -6,8 +6,8 @@
 
 namespace tureen::example {
 
-/// A uniform Catmull-Rom spline, whose end tangents are the end segments, parametrised by arc
-/// length.
+/// A uniform Catmull-Rom spline, parametrised by arc length. The end tangents are those of the end
+/// segments.
 class Curve {
  public:
   /// At least two points.
@@ -22,8 +22,8 @@ class Curve {
  private:
   glm::dvec3 point(double parameter) const;  // [0, number of segments]
 
-  std::vector<glm::dvec3> points_;  // with one more at either end
-  std::vector<double> arc_;         // length up to equidistant parameters
+  std::vector<glm::dvec3> points_;  // with an additional point at each end
+  std::vector<double> arc_;         // lengths up to equidistant parameters
 };
 
 }  // namespace tureen::example

@@ -16,8 +16,8 @@ const glm::dvec3 window_direction = glm::normalize(glm::dvec3(-0.62, 0.74, 0.36)
 constexpr double window_angle = 0.17;  // of the cone, radians
 const glm::dvec3 window_irradiance(2.15, 1.93, 1.62);
 
-// Rays start this far above a surface: facets of concave parts lie above the true surface by up
-// to 0.012 (a chord of 0.12 on the bend of the shoulder, radius 0.15).
+// Rays start at this offset above a surface. The facets of concave parts lie above the true surface
+// by up to 0.012 (a chord of 0.12 on the bend of the shoulder, radius 0.15).
 constexpr double offset = 0.022, nearest = 0.002;
 
 /// A Fibonacci lattice on the sphere, turned so that no sample lies in the table's plane.
@@ -46,7 +46,7 @@ std::vector<glm::dvec3> over_the_window(int count) {
 glm::dvec3 sky(glm::dvec3 d) {
   const glm::dvec3 zenith(0.60, 0.68, 0.80), horizon(0.66, 0.64, 0.60), floor(0.30, 0.26, 0.22);
   const glm::dvec3 above = glm::mix(horizon, zenith, glm::smoothstep(0.0, 0.9, d.y));
-  // Brighter from the window's side.
+  // Brighter on the window's side.
   const double side = 1 + 0.45 * glm::dot(d, glm::dvec3(-0.8, 0, 0.6));
   return glm::mix(floor, above * side, glm::smoothstep(-0.25, 0.05, d.y));
 }
@@ -54,7 +54,7 @@ glm::dvec3 sky(glm::dvec3 d) {
 }  // namespace
 
 glm::dvec3 room_radiance(glm::dvec3 d) {
-  // Seen in a glaze, the window is a soft spot, as wide as the cone that casts the shadows.
+  // In a glaze, the window is a soft spot, as wide as the cone of window_angle.
   const double angle = std::acos(std::clamp(glm::dot(d, window_direction), -1.0, 1.0));
   const double spot = std::exp(-0.5 * std::pow(angle / 0.15, 2.0));
   return sky(d) + spot * glm::dvec3(22.0, 20.7, 18.8);

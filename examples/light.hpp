@@ -1,5 +1,5 @@
-// The light of the room: a warm window to the left, a soft sky around, and what the things
-// themselves throw back. Linear radiance; exposure and display are decided in one place.
+// The light: a warm window to the left, a soft sky around, and two bounces from the surfaces. All
+// values are linear radiance; displayed() applies exposure and the display curve.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -10,7 +10,7 @@
 
 namespace tureen::example {
 
-/// What comes from a direction where nothing stands, window included.
+/// The radiance of the background in a direction, including the window.
 glm::dvec3 room_radiance(glm::dvec3 direction);
 
 struct LightQuality {
@@ -18,19 +18,19 @@ struct LightQuality {
   int window_rays = 36;
 };
 
-/// Diffuse light by ray casting. Every point uses the same directions: shadows are then smooth sums
-/// of many sharp ones, where random directions would leave grain in the images.
+/// Diffuse light by ray casting. Every point uses the same directions, so soft shadows are sums of
+/// many sharp ones. Random directions would leave noise in the images.
 class Light {
  public:
-  /// Estimates what each face throws back (two bounces). `caster` and `model` must outlive it.
+  /// Computes the radiance of each face with two bounces. `caster` and `model` must outlive this.
   Light(const Model& model, const RayCaster& caster, const LightQuality& quality = {});
 
-  /// Irradiance / pi on a point of a surface, front light and what shines through: times the
-  /// albedo it is the radiance that leaves.
+  /// Irradiance / pi at a point of a surface, from the front and through a translucent surface.
+  /// Times the albedo, this is the reflected radiance.
   glm::dvec3 falling(std::uint32_t surface, const SurfacePoint& at) const;
 
-  /// The radiance that a glaze at this point of a surface mirrors from a direction: the room's,
-  /// or what the thing that stands in the way throws back, faces each of one colour.
+  /// The radiance that arrives at a point of a surface from a direction, for a mirror: that of the
+  /// nearest face, with one colour per face, or of the background.
   glm::dvec3 mirrored(const SurfacePoint& at, glm::dvec3 direction) const;
 
  private:

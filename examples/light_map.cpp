@@ -12,7 +12,7 @@ namespace {
 
 /// The longest line of constant v (`along` = 0) or constant u (1).
 double longest_line(const Surface& surface, int along) {
-  constexpr int lines = 8, steps = 32;  // enough for the slow bends of our shapes
+  constexpr int lines = 8, steps = 32;  // sufficient for the low curvature of these shapes
   double longest = 0;
   for (int line = 0; line <= lines; ++line) {
     const auto at = [&](int step) {

@@ -1,5 +1,5 @@
-// Diffuse light does not depend on the eye: it is computed once, on a grid over every surface, and
-// all photographs share it.
+// Diffuse light on a grid over every surface. It does not depend on the viewpoint, so it is
+// computed once for all photographs.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -13,7 +13,7 @@ namespace tureen::example {
 
 class LightMap {
  public:
-  /// The grid's points are at most `spacing` apart. The same whatever the number of threads.
+  /// The grid's points are at most `spacing` apart. The result does not depend on `threads`.
   LightMap(const Model& model, const Light& light, double spacing, int threads);
 
   /// Light::falling, interpolated.

@@ -1,5 +1,5 @@
-// Photographs the still life from all around: what the example soup is trained from. The same
-// program takes the same photographs, to the byte, on any number of threads.
+// Renders the training images of the example soup: the still life from all directions. The images
+// are the same bytes with any number of threads.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -24,7 +24,8 @@ struct Options {
   int threads = int(std::max(1u, std::thread::hardware_concurrency()));
 };
 
-/// The images first and then what names them: an interrupted split is none.
+/// Writes the images first and the JSON that lists them last, so that an interrupted split is not
+/// read.
 void take(const Studio& studio, const Options& options, const std::string& split,
           const std::vector<Camera>& cameras) {
   const int count = int(cameras.size());
@@ -42,25 +43,26 @@ void take(const Studio& studio, const Options& options, const std::string& split
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Photographs the example's still life, as a dataset like those of NeRF-synthetic.");
+  CLI::App app("Renders the example's still life as a dataset in the layout of NeRF-synthetic.");
   Options options;
-  app.add_option("FOLDER", options.folder, "Where the dataset goes")->required();
-  app.add_option("--size", options.size, "Pixels a side")
-      ->check(CLI::Range(11, 4096))  // what can be trained on
+  app.add_option("FOLDER", options.folder, "Folder of the dataset")->required();
+  app.add_option("--size", options.size, "Pixels per side")
+      ->check(CLI::Range(11, 4096))  // the sizes that training supports
       ->capture_default_str();
-  app.add_option("--views", options.views, "Photographs to train on")
+  app.add_option("--views", options.views, "Number of training images")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  app.add_option("--test-views", options.test_views, "Photographs to test on")
+  app.add_option("--test-views", options.test_views, "Number of test images")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  app.add_option("--strata", options.strata, "Rays a pixel, squared")
+  app.add_option("--strata", options.strata, "Rays per pixel along each axis")
       ->check(CLI::Range(1, 32))
       ->capture_default_str();
   app.add_option("--threads", options.threads)->check(CLI::Range(1, 1024));
   CLI11_PARSE(app, argc, argv);
-  std::filesystem::create_directories(options.folder);  // before the minutes that light takes
-  std::fprintf(stderr, "lighting, a minute or two\n");
+  std::filesystem::create_directories(
+      options.folder);  // fails before the light, which takes minutes
+  std::fprintf(stderr, "computing the light (1 to 2 minutes)\n");
   const Studio studio(still_life(), {.threads = options.threads});
   take(studio, options, "train", example_cameras(options.views, options.size));
   take(studio, options, "test", example_cameras(options.test_views, options.size, 0.5));

@@ -10,7 +10,7 @@
 namespace tureen::example {
 
 Camera with_z_up(Camera camera) {
-  // Columns: where x, y and z go.
+  // Columns: the images of x, y and z.
   const glm::dmat4 y_up_from_z_up(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1);
   camera.view_from_world = camera.view_from_world * y_up_from_z_up;
   return camera;

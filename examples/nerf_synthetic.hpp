@@ -1,4 +1,4 @@
-// Cameras as the datasets of NeRF (Mildenhall et al., arXiv 2003.08934) hold them.
+// Cameras in the format of the NeRF datasets (Mildenhall et al., arXiv 2003.08934).
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,12 @@
 
 namespace tureen::example {
 
-/// The camera of a world with y up in the world with z up: there (x, y, z) is (x, -z, y).
+/// Converts a camera from a world with y up to one with z up: (x, y, z) becomes (x, -z, y).
 Camera with_z_up(Camera camera);
 
-/// Writes FOLDER/transforms_SPLIT.json, whose frames are FOLDER/SPLIT/NAME.png by the cameras'
-/// names. All cameras have square pixels, the principal point in the middle and the same angle of
-/// view: the format holds no more. What is written is with_z_up(camera), as the format has it.
+/// Writes FOLDER/transforms_SPLIT.json with with_z_up() of each camera. Its frames refer to
+/// FOLDER/SPLIT/NAME.png, where NAME is the camera's name. All cameras must have square pixels, a
+/// centred principal point and the same angle of view, since the format stores only one angle.
 /// Throws OutputError.
 void write_transforms(const std::filesystem::path& folder, const std::string& split,
                       std::span<const Camera> cameras);

@@ -1,5 +1,5 @@
-// Random numbers that are the same everywhere (the standard library's distributions are not), and
-// value noise for grain, pores and glaze.
+// Random numbers that are the same on every platform, unlike the standard library's distributions,
+// and value noise for grain, pores and glaze.
 #pragma once
 
 #include <cmath>
@@ -9,14 +9,14 @@
 
 namespace tureen::example {
 
-/// Mixes 64 bits so that every input bit moves every output bit (the finaliser of splitmix64).
+/// Mixes 64 bits so that every input bit affects every output bit (the finaliser of splitmix64).
 constexpr std::uint64_t mixed(std::uint64_t x) {
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
   return x ^ (x >> 31);
 }
 
-/// splitmix64: a counter, mixed.
+/// splitmix64: mixed() of a counter.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -43,7 +43,8 @@ inline double value_noise(glm::dvec2 p, std::uint64_t seed) {
                   glm::mix(corner(cell.x, cell.y + 1), corner(cell.x + 1, cell.y + 1), w.x), w.y);
 }
 
-/// Octaves of value noise, each twice as fine and half as strong; in [0, 1].
+/// Octaves of value noise, in [0, 1]. Each has twice the frequency and half the weight of the one
+/// before.
 inline double fractal_noise(glm::dvec2 p, int octaves, std::uint64_t seed) {
   double sum = 0, weight = 0.5, total = 0;
   for (int i = 0; i < octaves; ++i, p = 2.0 * p, weight *= 0.5) {

@@ -14,10 +14,11 @@ using std::numbers::pi;
 
 const glm::dvec3 green_dark(0.028, 0.085, 0.022), green_light(0.16, 0.27, 0.06);
 
-/// 1 inside (distance < 0), 0 outside, over a border that is `soft` wide on either side.
+/// 1 inside (distance < 0), 0 outside, with a border of width `soft` on either side.
 double inside(double distance, double soft) { return 1 - glm::smoothstep(-soft, soft, distance); }
 
-/// How far the point is inside a leaf outline of this length and half width (about).
+/// The approximate distance to the outline of a leaf with this length and half width; positive
+/// inside.
 double leaf_inside(double across, double along, double length, double half_width) {
   const double t = std::clamp(along / length, 0.0, 1.0);
   const double bulge = std::pow(std::sin(pi * std::pow(t, 0.8)), 0.85) * (1 - 0.25 * t) * 1.12;
@@ -34,7 +35,7 @@ Paint wood(glm::dvec3 p) {
   const auto seed = static_cast<std::uint64_t>(static_cast<std::int64_t>(row) + 1000);
   Random random(seed);
   const double tone = random.uniform(0.82, 1.12), shift = random.uniform(0, 50);
-  // Rings of a trunk cut lengthwise: long in x, and bent by a slower noise.
+  // Rings of a trunk cut lengthwise: long in x, distorted by low-frequency noise.
   const double bend = fractal_noise({p.x * 0.55 + shift, p.z * 1.3}, 2, seed);
   const double ring = 0.5 + 0.5 * std::sin((p.z * 2.2 + 2.4 * bend + shift) * 9.0);
   const double fibre = fractal_noise({p.x * 1.4 + shift, p.z * 13.0}, 1, seed + 77);
@@ -49,7 +50,7 @@ Paint lace(glm::dvec2 uv, Turned measure) {
   const double each = measure.circumference / scallops;
   const double x = wrapped(uv.x * scallops) * each;
   const double y = (uv.y - 1) * measure.length;  // 0 at the outermost line, negative inwards
-  // The border: discs side by side over a straight band.
+  // The border: a row of discs above a straight band.
   const double centre = -0.085;
   const double scallop = 0.085 - 0.012 - std::hypot(x, y - centre);
   double outside = std::max(scallop, centre - y);
@@ -75,7 +76,7 @@ Paint lemon_flesh(glm::dvec2 p) {
   constexpr int segments = 9;
   const double r = glm::length(p), angle = std::atan2(p.y, p.x) / (2 * pi);
   const double side = (0.5 - std::abs(wrapped(angle * segments))) / segments * 2 * pi * r;
-  // A segment ends at its neighbours' skins, before the pith, and short of the middle.
+  // A segment ends before its neighbours' skins, the pith and the middle.
   const double within = std::min({side - 0.028, 0.83 - r, (r - 0.09) * 0.8});
   const double vesicle = fractal_noise({angle * 95, r * 5.5}, 2, 3);
   const glm::dvec3 pith(0.86, 0.80, 0.52), skin(0.80, 0.50, 0.02);

@@ -1,4 +1,4 @@
-// Numbered pieces of work, shared among threads: whoever is free takes the next.
+// Runs numbered pieces of work on several threads. A free thread takes the next piece.
 #pragma once
 
 #include <atomic>
@@ -9,8 +9,8 @@
 
 namespace tureen::example {
 
-/// Calls body(i) for every i in [0, count) from up to `threads` threads. Rethrows the first
-/// exception after all have ended; the pieces that were not begun by then are left out.
+/// Calls body(i) for every i in [0, count) on up to `threads` threads. After an exception no
+/// further piece begins; the first exception is rethrown when all threads have ended.
 template <class Body>
 void in_parallel(int count, int threads, Body body) {
   std::atomic<int> next = 0;

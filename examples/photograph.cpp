@@ -15,8 +15,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Glaze that is laid on by hand mirrors within a cone of this half angle, in radians. Sharper
-// reflections would show the facets.
+// Half angle of the cone of reflected directions, in radians, as for glaze applied by hand. Sharper
+// reflections would make the facets visible.
 constexpr double blur = 0.10;
 
 /// A direction within the cone around `axis`.
@@ -46,7 +46,7 @@ std::optional<glm::dvec3> Studio::seen(glm::dvec3 eye, glm::dvec3 direction, Ran
   const Paint paint = model_.paint(at, surface);
   const glm::dvec3 diffuse = paint.albedo * light_map_.falling(surface, hit->uv);
   if (paint.gloss == 0) return displayed(diffuse);
-  // Leaves have two sides.
+  // Leaves are visible from both sides.
   if (glm::dot(at.normal, direction) > 0) at.normal = -at.normal;
   const glm::dvec3 mirror = glm::reflect(direction, at.normal);
   return glazed(diffuse, paint.gloss, -glm::dot(at.normal, direction),
@@ -81,7 +81,7 @@ Image8 Studio::photograph(const Camera& camera, int strata) const {
 }
 
 std::vector<Camera> example_cameras(int count, int size, double turn) {
-  // From a little below the table's top, where its rim is seen, to nearly above.
+  // From slightly below the table top, where its rim is visible, to nearly above.
   const double lowest = std::sin(-4 * pi / 180), highest = std::sin(86 * pi / 180);
   const double distance = 8.6, fov = 35 * pi / 180;
   const glm::dvec3 target(0, 0.55, 0);

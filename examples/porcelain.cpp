@@ -11,16 +11,16 @@ namespace tureen::example {
 namespace {
 
 using std::numbers::pi;
-constexpr double soft = 0.017;  // about a pixel of an image of 400 pixels a side
+constexpr double soft = 0.017;  // about a pixel in an image with 400 pixels a side
 constexpr double gloss = 0.6;
 
 const glm::dvec3 white(0.80, 0.79, 0.755), cobalt_deep(0.012, 0.035, 0.20),
     cobalt_thin(0.075, 0.16, 0.47), gold(0.80, 0.54, 0.17);
 
-/// A brush on white: strokes lie over each other, the strongest shows.
+/// A brush on white. Where strokes overlap, the strongest is visible.
 class Brush {
  public:
-  /// `distance` < 0 is inside; a filled form is darker near its outline, where the paint dries.
+  /// `distance` < 0 is inside. A filled form is darker near its outline, like dried paint.
   void fill(double distance, double strength = 0.62) {
     const double cover = 1 - glm::smoothstep(-soft, soft, distance);
     const double rim = glm::smoothstep(-0.050, -0.010, distance);
@@ -31,7 +31,7 @@ class Brush {
         1 - glm::smoothstep(half_width - soft, half_width + soft, std::abs(distance));
     ink_ = std::max(ink_, cover);
   }
-  /// Wipes what lies inside.
+  /// Removes the paint inside.
   void spare(double distance) { ink_ *= glm::smoothstep(-soft, soft, distance); }
 
   void gild(double distance, double half_width) {
@@ -58,7 +58,7 @@ void rosette(Brush& brush, glm::dvec2 p, double radius, int petals) {
   brush.fill(r - 0.2 * radius, 1);
 }
 
-/// A leaf from `root` in direction `angle`.
+/// A leaf from `root` in the direction `angle`.
 void sprig(Brush& brush, glm::dvec2 p, glm::dvec2 root, double angle, double length) {
   const glm::dvec2 d = p - root, axis(std::cos(angle), std::sin(angle));
   const double along = glm::dot(d, axis) / length;
@@ -85,14 +85,14 @@ void dots(Brush& brush, double u, double y, int count, double circumference, dou
   brush.fill(std::hypot(wrapped(u * count) * circumference / count, y) - radius, 1);
 }
 
-/// A vine around the vessel: its stem waves, a flower sits in every bend.
+/// A vine around the vessel: a wavy stem with a flower in every bend.
 void vine(Brush& brush, double u, double y, int waves, double circumference, double height) {
   const double wave = circumference / waves;
   const double x = wrapped(u * waves) * wave;
   const double phase = 2 * pi * x / wave;
   const double slope = height * 2 * pi / wave * std::cos(phase);
   brush.line((y - height * std::sin(phase)) / std::hypot(1.0, slope), 0.012);
-  // A pattern that wraps is drawn from the neighbouring waves too.
+  // Leaves and flowers extend into the neighbouring waves.
   for (const double shift : {-wave, 0.0, wave}) {
     const glm::dvec2 p(x + shift, y);
     const double quarter = wave / 4;
@@ -182,7 +182,7 @@ Paint tureen_handle(glm::dvec2 uv) {
 
 Paint platter(glm::dvec2 uv, Turned m) {
   Brush brush;
-  // The rim lies in the middle of the profile; the inside follows.
+  // y is 0 at the rim, in the middle of the profile, and positive inside.
   const double y = (uv.y - 0.5) * m.length;
   brush.gild(y, 0.030);
   brush.line(y - 0.075, 0.012);

@@ -19,7 +19,7 @@ struct Meeting {
   double distance, b1, b2;
 };
 
-/// Möller and Trumbore, both sides.
+/// The algorithm of Möller and Trumbore, for both sides.
 std::optional<Meeting> meet(const Face& face, glm::dvec3 origin, glm::dvec3 direction) {
   const glm::dvec3 e1 = face.corners[1] - face.corners[0], e2 = face.corners[2] - face.corners[0];
   const glm::dvec3 p = glm::cross(direction, e2);
@@ -78,7 +78,7 @@ std::optional<Hit> RayCaster::first_hit(glm::dvec3 origin, glm::dvec3 direction,
     const double to = std::min({out.x, out.y, out.z, best});
     return from <= to ? from : std::numeric_limits<double>::infinity();
   };
-  std::array<std::uint32_t, 64> stack;  // median splits: the depth is log2 of the faces
+  std::array<std::uint32_t, 64> stack;  // with median splits, the depth is log2 of the faces
   int top = 0;
   stack[top++] = 0;
   while (top > 0) {

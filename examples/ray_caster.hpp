@@ -1,4 +1,4 @@
-// The nearest face that a ray meets, through a hierarchy of boxes; holes let it pass.
+// Finds the nearest face on a ray with a hierarchy of boxes. Rays pass through holes.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -17,17 +17,17 @@ struct Hit {
 
 class RayCaster {
  public:
-  /// The model must outlive it.
+  /// The model must outlive this.
   explicit RayCaster(const Model& model);
 
-  /// Hits nearer than `nearest` do not count. Safe to call from several threads.
+  /// Ignores hits nearer than `nearest`. Safe to call from several threads.
   std::optional<Hit> first_hit(glm::dvec3 origin, glm::dvec3 direction, double nearest) const;
 
  private:
   struct Node {
     glm::dvec3 low, high;
-    std::uint32_t first = 0;  // of faces_ for a leaf, else of the two children
-    std::uint32_t count = 0;  // faces; 0 for an inner node
+    std::uint32_t first = 0;  // index into faces_ for a leaf, else of the first child
+    std::uint32_t count = 0;  // number of faces; 0 for an inner node
   };
   void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
 

@@ -25,7 +25,7 @@ Shape turned(Curve profile, Placement placement) {
 Shape tube(Curve centre_line, std::function<double(double)> radius) {
   return [line = std::move(centre_line), radius = std::move(radius)](glm::dvec2 uv) {
     const glm::dvec3 t = line.tangent(uv.y);
-    // No curve of ours runs along this axis.
+    // No curve of the still life is parallel to this axis.
     const glm::dvec3 n = glm::normalize(glm::cross(t, glm::dvec3(0.12, 0.31, 0.943)));
     const glm::dvec3 b = glm::cross(t, n);
     const double a = 2 * pi * uv.x;
@@ -60,7 +60,7 @@ Shape disc(double radius, Placement placement) {
 
 Shape ring(double inner, double outer, Placement placement) {
   return [inner, outer, placement](glm::dvec2 uv) {
-    // u runs the other way than in turned(), so that the outside is up.
+    // u has the opposite direction of turned(), so that the outside is up.
     return placement.centre + placement.frame * around(-uv.x, inner + (outer - inner) * uv.y, 0);
   };
 }

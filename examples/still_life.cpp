@@ -12,9 +12,9 @@ namespace tureen::example {
 namespace {
 
 using std::numbers::pi;
-constexpr int segments = 96;  // around everything that is turned, but small things
+constexpr int segments = 96;  // around surfaces of revolution, except small ones
 
-/// Oval porcelain: wider from handle to handle.
+/// Makes porcelain oval: wider from handle to handle.
 const glm::dmat3 oval(1.14, 0, 0, 0, 1, 0, 0, 0, 1);
 
 Curve profile(std::initializer_list<glm::dvec2> points) {
@@ -24,7 +24,7 @@ Curve profile(std::initializer_list<glm::dvec2> points) {
 }
 
 struct Vessel {
-  double widest;  // radius where the pattern is
+  double widest;  // radius at the pattern
   int rows;
   int columns = segments;
 };
@@ -45,7 +45,7 @@ void add_table(Model& model) {
              .paint = [](const SurfacePoint& at) { return wood(at.position); },
              .columns = segments / 4,
              .rows = segments / 4});
-  // The rim starts a hair below the top, so that the two overlap without a crack.
+  // The rim begins slightly below the top, so that the two overlap without a gap.
   model.add({.position = turned(profile({{r - 0.14, -0.17},
                                          {r - 0.06, -0.165},
                                          {r - 0.005, -0.125},
@@ -62,7 +62,7 @@ void add_table(Model& model) {
              .columns = segments,
              .rows = 3,
              .closed = true});
-  // Seen by nobody but whoever looks from below.
+  // Visible only from below.
   model.add({.position = turned(profile({{0.0, -0.17}, {r - 0.139, -0.17}}), {}),
              .paint = [](const SurfacePoint& at) { return wood(at.position); },
              .columns = segments,
@@ -73,7 +73,7 @@ void add_table(Model& model) {
 void add_doily(Model& model) {
   const double inner = 1.15, outer = 1.66;
   const Turned measure{outer - inner, 2 * pi * outer * 1.07};
-  // High enough above the wood for a depth buffer, too low to see.
+  // The height above the wood is sufficient for a depth buffer, but not visible.
   model.add({.position = ring(inner, outer, {.centre = {0, 0.012, 0}, .frame = oval}),
              .paint = [=](const SurfacePoint& at) { return lace(at.uv, measure); },
              .columns = 48,
@@ -131,7 +131,7 @@ void add_tureen(Model& model) {
                          {0.0, 2.098}}),
                 {.widest = 0.18, .rows = 9, .columns = 18}, tureen_knob);
   for (const double side : {-1.0, 1.0}) {
-    // An ear: out from the shoulder, up, and back into the belly.
+    // A handle: out from the body, up, and back into it.
     const Curve ear({glm::dvec3(side * 1.02, 0.70, 0), glm::dvec3(side * 1.24, 0.71, 0),
                      glm::dvec3(side * 1.47, 0.86, 0), glm::dvec3(side * 1.50, 1.08, 0),
                      glm::dvec3(side * 1.34, 1.20, 0), glm::dvec3(side * 1.17, 1.13, 0),
@@ -165,7 +165,7 @@ void add_lemon(Model& model, glm::dvec3 centre, glm::dvec3 axis) {
              .closed = true});
 }
 
-/// `axis` points out of the cut.
+/// `axis` is the normal of the cut, pointing outwards.
 void add_half_lemon(Model& model, glm::dvec3 centre, glm::dvec3 axis) {
   const Placement placement{centre, frame_along(axis)};
   constexpr double radius = 0.262;
@@ -214,7 +214,7 @@ void add_blossom(Model& model, glm::dvec3 centre, double radius, double turn) {
     const double angle = turn + 2 * pi * i / 5;
     const glm::dvec3 out(std::cos(angle), 0, std::sin(angle));
     const glm::dvec2 size(0.78 * radius, radius);
-    // Petals lie over each other like tiles: each a little higher than its neighbour.
+    // Petals overlap: each is slightly higher than its neighbour.
     const glm::dvec3 root = centre + out * 0.008 + glm::dvec3(0, 0.004 * i, 0);
     const Curve middle({root, root + out * (0.45 * radius) + glm::dvec3(0, 0.30 * radius, 0),
                         root + out * radius + glm::dvec3(0, 0.34 * radius, 0)});
@@ -233,7 +233,7 @@ void add_blossom(Model& model, glm::dvec3 centre, double radius, double turn) {
              .closed = true});
 }
 
-/// A twig along `points` with leaves to both sides, larger in the middle, and one at its end.
+/// A twig along `points` with leaves on both sides, larger in the middle, and one at its end.
 void add_branch(Model& model, std::vector<glm::dvec3> points, int leaves, std::uint64_t seed) {
   const Curve twig(std::move(points));
   Random random(seed);

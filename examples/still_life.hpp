@@ -1,11 +1,12 @@
-// The composition: a tureen on its platter and a lace doily, lemons, a branch, on a round table.
+// The arrangement: a tureen on a platter and a lace doily, lemons and branches on a round table.
 #pragma once
 
 #include "examples/surface.hpp"
 
 namespace tureen::example {
 
-/// y is up, the table's top is y = 0, its radius table_radius; the tureen stands in the middle.
+/// y is up. The table top has the height 0 and the radius table_radius. The tureen is at the
+/// origin.
 Model still_life();
 
 inline constexpr double table_radius = 2.35;

@@ -12,7 +12,7 @@ void Model::add(Surface added) {
     return glm::dvec2(double(column) / surface.columns, double(row) / surface.rows);
   };
   const auto corner = [&](int column, int row) {
-    // The seam's two sides must be the same vertices to the last bit, or light shines through.
+    // Both sides of the seam must have bit-identical vertices; otherwise rays pass between them.
     if (surface.closed) column %= surface.columns;
     return surface.position(uv(column, row));
   };
@@ -24,7 +24,7 @@ void Model::add(Surface added) {
     }
     const double area = glm::length(
         glm::cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]));
-    if (area < 1e-9) return;  // at a pole: the thinnest real face of the scene has 1e-5
+    if (area < 1e-9) return;  // at a pole; the smallest real face of the scene has 1e-5
     faces.push_back(face);
   };
   for (int row = 0; row < surface.rows; ++row)
@@ -45,7 +45,7 @@ void Model::add(Surface added) {
 SurfacePoint Model::point(std::uint32_t index, glm::dvec2 uv) const {
   const Surface& surface = surfaces[index];
   constexpr double h = 1e-4;
-  // At a pole d/du vanishes; the normal a little way off is the same to the eye.
+  // At a pole d/du vanishes, so the normal is taken nearby. The difference is not visible.
   const glm::dvec2 inner = glm::clamp(uv, glm::dvec2(2 * h), glm::dvec2(1 - 2 * h));
   const glm::dvec2 near(surface.closed ? uv.x : inner.x, inner.y);
   const glm::dvec3 du =

@@ -1,5 +1,5 @@
-// Painted parametric surfaces, and the triangles that rays meet in their place. What a ray then
-// sees is computed on the true surface, so the facets look round.
+// Painted parametric surfaces, and triangles for ray casting. Shading uses the true surface at the
+// hit, so facets look round.
 #pragma once
 
 #include <array>
@@ -11,11 +11,11 @@
 
 namespace tureen::example {
 
-/// What a surface is made of at one point.
+/// The material of a surface at one point.
 struct Paint {
   glm::dvec3 albedo{0.5};  // linear
-  double gloss = 0;        // [0, 1]: how much of Fresnel's mirror shows, see glazed()
-  bool hole = false;       // only where the surface says that it is cut_out
+  double gloss = 0;        // [0, 1]: strength of the Fresnel mirror, see glazed()
+  bool hole = false;       // only on surfaces with cut_out
 };
 
 struct SurfacePoint {
@@ -29,9 +29,9 @@ struct Surface {
   std::function<Paint(const SurfacePoint&)> paint;
   int columns = 1;          // along u
   int rows = 1;             // along v
-  bool closed = false;      // u = 1 is u = 0
-  bool cut_out = false;     // the paint has holes: rays ask it
-  double translucency = 0;  // how much of the light on the back shows, [0, 1]
+  bool closed = false;      // whether u = 1 is u = 0
+  bool cut_out = false;     // whether the paint has holes; rays evaluate it
+  double translucency = 0;  // weight of the light from the back, [0, 1]
 };
 
 struct Face {
@@ -44,7 +44,7 @@ struct Model {
   std::vector<Surface> surfaces;
   std::vector<Face> faces;
 
-  /// Two faces a cell of the grid, less those that vanish at a pole.
+  /// Adds two faces per cell of the grid, without those that vanish at a pole.
   void add(Surface surface);
 
   SurfacePoint point(std::uint32_t surface, glm::dvec2 uv) const;

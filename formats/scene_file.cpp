@@ -1,4 +1,4 @@
-// The table of formats, and the two functions that go through it. Adding a format is one entry.
+// The table of formats, and the functions that search it. A new format needs one entry.
 #include "formats/scene_file.hpp"
 
 #include <algorithm>
@@ -19,14 +19,14 @@ namespace tureen {
 
 namespace {
 
-/// What is known of a path before any reader is chosen.
+/// A path before a reader is chosen.
 struct Candidate {
   std::filesystem::path path;
   bool is_folder = false;
-  std::span<const std::byte> head;  // the first bytes of a file, as many as there are
+  std::span<const std::byte> head;  // the first head_size bytes of a file, or all
 };
 
-/// Enough for the longest signature and for some comments before the first word of an OFF.
+/// In bytes: enough for the longest signature, and for comments before the header word of an OFF.
 constexpr std::size_t head_size = 4096;
 
 struct Format {
@@ -35,50 +35,51 @@ struct Format {
   std::vector<const char*> read_extensions{}, written_extensions{};  // lower case
   bool is_folder = false;
   bool (*recognises)(const Candidate&) = nullptr;
-  Scene (*read)(const std::filesystem::path&, const ReadOptions&) = nullptr;  // null: only written
+  Scene (*read)(const std::filesystem::path&, const ReadOptions&) = nullptr;  // null: write only
   std::vector<std::string> (*write)(const Scene&, const std::filesystem::path&) = nullptr;
 };
 
-/// In the order in which they are asked whether they recognise a file.
+/// In the order of recognition: the first format that recognises a file reads it.
 const std::vector<Format>& formats() {
   using Path = std::filesystem::path;
   static const std::vector<Format> table{
       {.name = "GLB",
-       .description = "our own file, exact and streamable; any glTF viewer shows its mean colours",
+       .description =
+           "Tureen's own format, exact and streamable; any glTF viewer shows its mean colours",
        .read_extensions = {".glb", ".gltf"},
        .written_extensions = {".glb"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_gltf(c.head); },
        .read = read_gltf_or_glb,
        .write = write_tureen_glb},
       {.name = "OFF",
-       .description = "triangles with a colour a face or a vertex, as text (OFF, COFF)",
+       .description = "triangles with one colour per face or vertex, as text (OFF, COFF)",
        .read_extensions = {".off", ".coff"},
        .written_extensions = {".off", ".coff"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_off(c.head); },
        .read = [](const Path& path, const ReadOptions& o) { return read_off(path, o); },
        .write = write_off},
       {.name = "PLY",
-       .description = "triangles with a colour a face or a vertex, ascii or binary",
+       .description = "triangles with one colour per face or vertex, ascii or binary",
        .read_extensions = {".ply"},
        .written_extensions = {".ply"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_ply(c.head); },
        .read = [](const Path& path, const ReadOptions& o) { return read_ply(path, o); },
        .write = write_ply},
       {.name = "DiffSoup export",
-       .description = "what DiffSoup writes for the web: lattice textures and a color MLP",
+       .description = "DiffSoup's export for the web: lattice textures and a color MLP",
        .is_folder = true,
        .recognises = [](const Candidate& c) { return c.is_folder && is_diffsoup_export(c.path); },
        .read = read_diffsoup_export,
        .write = write_diffsoup_export},
-#ifndef __EMSCRIPTEN__  // its sources are left out there, see CMakeLists.txt
+#ifndef __EMSCRIPTEN__  // its sources are omitted there, see CMakeLists.txt
       {.name = "checkpoint",
-       .description = "of torch: DiffSoup, Triangle Splatting, Triangle Splatting+, MeshSplatting",
+       .description = "Torch: DiffSoup, Triangle Splatting, Triangle Splatting+, MeshSplatting",
        .read_extensions = {".pt"},
        .recognises = [](const Candidate& c) { return !c.is_folder && is_checkpoint(c.head); },
        .read = [](const Path& path, const ReadOptions& o) { return read_checkpoint(path, o); }},
 #endif
       {.name = "MobileNeRF",
-       .description = "a folder of shapes with feature textures and a color MLP, or a file of it",
+       .description = "a folder of shapes with feature textures and a color MLP, or a file in it",
        .read_extensions = {".obj"},
        .is_folder = true,
        .recognises = [](const Candidate& c) { return is_mobilenerf(c.path); },
@@ -93,7 +94,7 @@ bool contains(const std::vector<const char*>& extensions, const std::string& ext
 
 enum class Direction { read, written };
 
-/// "OFF (.off), PLY (.ply) and DiffSoup export (folder)", of what can be read or written.
+/// The formats of one direction: "OFF (.off), PLY (.ply) and DiffSoup export (folder)".
 std::string listed(Direction direction) {
   std::vector<std::string> names;
   for (const Format& format : formats()) {
@@ -110,9 +111,9 @@ std::string listed(Direction direction) {
   return text;
 }
 
-/// Its first bytes lie in `head`.
+/// `head` receives the file's first bytes and must outlive the candidate.
 Candidate candidate_at(const std::filesystem::path& path, std::vector<std::byte>& head) {
-  std::error_code ignored;  // what is wrong with the path, Input::open says
+  std::error_code ignored;  // Input::open reports an invalid path
   Candidate candidate{path, std::filesystem::is_directory(path, ignored), {}};
   if (candidate.is_folder) return candidate;
   Input input = Input::open(path);
@@ -121,8 +122,8 @@ Candidate candidate_at(const std::filesystem::path& path, std::vector<std::byte>
   return candidate;
 }
 
-/// By content first; by name where no format recognises the content, so that the reader that the
-/// name promises says what is wrong with it.
+/// The format by content. If no format recognises the content, the format by extension, so that its
+/// reader reports the fault.
 const Format& format_to_read(const Candidate& candidate) {
   for (const Format& format : formats())
     if (format.read && format.recognises(candidate)) return format;
@@ -134,21 +135,21 @@ const Format& format_to_read(const Candidate& candidate) {
       return format;
   throw InputError({candidate.path.string(), {}, {}},
                    std::string("not a ") + (candidate.is_folder ? "folder" : "file") +
-                       " of a kind that we read: " + listed(Direction::read));
+                       " in a supported format: " + listed(Direction::read));
 }
 
-/// By name.
+/// The format by extension.
 const Format& format_to_write(const std::filesystem::path& path) {
   const std::string extension = extension_of(path);
-  // Its bytes would lie in a second file, which is what a GLB is there to avoid.
+  // A .gltf would store its bytes in a second file.
   if (extension == ".gltf") throw UsageError("glTF is written as .glb only");
   for (const Format& format : formats())
     if (format.write &&
         (extension.empty() ? format.is_folder : contains(format.written_extensions, extension)))
       return format;
-  throw UsageError((extension.empty() ? "no extension tells which format to write"
-                                      : "no format that we write ends in " + extension),
-                   "written are " + listed(Direction::written));
+  throw UsageError((extension.empty() ? "the output name has no extension, so its format is unknown"
+                                      : "no output format has the extension " + extension),
+                   "supported output formats: " + listed(Direction::written));
 }
 
 }  // namespace

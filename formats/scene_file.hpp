@@ -10,9 +10,9 @@
 
 namespace tureen {
 
-/// The colour space of COLOR_0 in a foreign glTF. The specification says linear, but common Python
-/// tools write display-referred values. `automatic` decides by the file's generator and adds a
-/// remark.
+/// The colour space of COLOR_0 in a foreign glTF. The specification requires linear values, but
+/// common Python tools write display-referred ones. `automatic` decides by the file's generator and
+/// adds a remark.
 enum class VertexColorSpace { automatic, srgb, linear };
 
 struct ReadOptions {

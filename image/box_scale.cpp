@@ -9,7 +9,7 @@ namespace tureen {
 
 namespace {
 
-/// Which source pixels an output pixel covers along one axis, and how much of each.
+/// The source pixels that an output pixel covers along one axis, with their weights.
 struct Cover {
   int first = 0;
   std::vector<float> weights;  // they sum to one
@@ -29,7 +29,8 @@ std::vector<Cover> covers(int source, int target) {
   return result;
 }
 
-/// One row of the source, narrowed: colour times alpha, and alpha, both in bytes.
+/// Scales one row to the target's width: sums of colour times alpha, and of alpha, both with bytes
+/// as units.
 void narrow(const glm::u8vec4* row, const std::vector<Cover>& columns,
             std::vector<glm::vec4>& result) {
   for (std::size_t x = 0; x < columns.size(); ++x) {
@@ -46,7 +47,7 @@ void narrow(const glm::u8vec4* row, const std::vector<Cover>& columns,
 
 glm::u8vec4 to_pixel(glm::vec4 sum) {
   if (!(sum.a > 0.0f)) return glm::u8vec4(0);
-  // A mean of bytes is at most 255 but for the last digit of the sums.
+  // A mean of bytes exceeds 255 only by rounding errors.
   const auto byte = [](float value) { return std::uint8_t(std::min(value, 255.0f) + 0.5f); };
   return {byte(sum.r / sum.a), byte(sum.g / sum.a), byte(sum.b / sum.a), byte(sum.a)};
 }
@@ -60,7 +61,7 @@ Image8 box_scaled(const Image8& image, int width, int height) {
   const std::vector<Cover> rows = covers(image.height, height);
   Image8 result(width, height);
   std::vector<glm::vec4> narrowed(static_cast<std::size_t>(width)), sums(narrowed.size());
-  int held = -1;  // the source row that is in `narrowed`: neighbours share the one at their border
+  int held = -1;  // the source row in `narrowed`; two output rows may share one source row
   for (int y = 0; y < height; ++y) {
     std::fill(sums.begin(), sums.end(), glm::vec4(0.0f));
     int row = rows[std::size_t(y)].first;

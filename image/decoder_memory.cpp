@@ -10,7 +10,7 @@ namespace {
 
 thread_local Scope* current = nullptr;
 
-/// Before each block: how long it is. As large as any alignment that malloc promises.
+/// The size of the block after it, in bytes. The alignment keeps that of malloc.
 struct alignas(std::max_align_t) Header {
   std::size_t size;
 };
@@ -63,7 +63,7 @@ void* allocate(std::size_t size) {
 void* reallocate(void* old, std::size_t size) {
   if (!old) return allocate(size);
   const std::size_t before = header_of(old)->size;
-  // The old block stands beside the new one while it is copied.
+  // Both blocks exist while realloc copies.
   if (!current || is_too_large(size) || !current->take(size)) return nullptr;
   auto* header = static_cast<Header*>(std::realloc(header_of(old), sizeof(Header) + size));
   current->give_back(header ? before : size);

@@ -26,8 +26,8 @@ double linear_from_srgb(double v) {
   return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
 
-/// Images that were read from 8 bits hold 256 values, and a power for each channel of each pixel
-/// would be a good part of the whole time: those values come from a table.
+/// linear_from_srgb with a table for the 256 values of 8-bit images. A power per channel would be a
+/// large part of the total time.
 class Linearise {
  public:
   Linearise() {
@@ -44,9 +44,9 @@ class Linearise {
   std::array<double, 256> table_;
 };
 
-/// XYZ / white from linear sRGB: the CIE matrix of sRGB's primaries under D65 from their
-/// chromaticities (x, y) with each row divided by its sum, so that white is (1, 1, 1).
-/// The authors' program rounds the matrix in the fifth digit, which moves a mean by about 1e-6.
+/// XYZ / white from linear sRGB: the CIE matrix for sRGB's primaries and D65, from their
+/// chromaticities (x, y). Each row is divided by its sum, so white is (1, 1, 1). The authors'
+/// program rounds the matrix in the fifth digit, which changes a mean by about 1e-6.
 glm::dmat3 relative_xyz_from_rgb() {
   const auto column = [](double x, double y) { return glm::dvec3(x / y, 1.0, (1 - x - y) / y); };
   const glm::dmat3 primaries(column(0.64, 0.33), column(0.30, 0.60), column(0.15, 0.06));
@@ -57,7 +57,7 @@ glm::dmat3 relative_xyz_from_rgb() {
   return matrix;
 }
 
-/// The linear cousin of L*a*b* in which the paper filters (section 4.1): Y, Cx, Cz.
+/// YCxCz, a linearised L*a*b* in which the paper filters (section 4.1).
 glm::dvec3 ycxcz_from_relative_xyz(const glm::dvec3& r) {
   return {116 * r.y - 16, 500 * (r.x - r.y), 200 * (r.y - r.z)};
 }
@@ -67,8 +67,8 @@ glm::dvec3 relative_xyz_from_ycxcz(const glm::dvec3& c) {
   return {y + c.y / 500, y, y - c.z / 200};
 }
 
-/// L*a*b* (CIE 15:2004) with a* and b* scaled by L*/100: the Hunt effect, by which colours look
-/// more colourful the lighter they are (section 4.1).
+/// L*a*b* (CIE 15:2004) with a* and b* scaled by L*/100 for the Hunt effect: lighter colours look
+/// more colourful (section 4.1).
 glm::dvec3 hunt_lab(const glm::dvec3& r) {
   constexpr double delta = 6.0 / 29.0;
   const auto f = [](double t) {
@@ -88,8 +88,8 @@ double hyab(const glm::dvec3& a, const glm::dvec3& b) {
 
 constexpr double color_exponent = 0.7;  // q_c
 
-/// Differences above color_knee of the largest possible are squeezed into the last
-/// 1 - color_knee_value of the range.
+/// Differences above color_knee times the largest one are compressed into the range from
+/// color_knee_value to 1.
 constexpr double color_knee = 0.4;         // p_c
 constexpr double color_knee_value = 0.95;  // p_t
 
@@ -102,11 +102,11 @@ constexpr std::array<Sensitivity, 1> achromatic{{{1.0, 0.0047}}};
 constexpr std::array<Sensitivity, 1> red_green{{{1.0, 0.0053}}};
 constexpr std::array<Sensitivity, 2> blue_yellow{{{34.1, 0.04}, {13.5, 0.025}}};
 
-/// The plane as contrast sensitivity lets it through. The sum of two Gaussians is no product of a
-/// row and a column filter, so each is applied by itself; their weights sum to 1 together.
+/// Filters the plane by contrast sensitivity. A sum of two Gaussians is not separable, so each is
+/// applied alone. The weights of all terms sum to 1.
 Plane csf_filtered(const Plane& plane, std::span<const Sensitivity> terms,
                    double pixels_per_degree) {
-  // Three standard deviations of the widest Gaussian of all, for every channel.
+  // Three standard deviations of the widest Gaussian, for every channel.
   const int radius = int(std::ceil(3 * std::sqrt(0.04 / (2 * pi * pi)) * pixels_per_degree));
   Plane result(plane.width, plane.height);
   double total = 0;
@@ -142,7 +142,7 @@ Prepared prepared(const ImageF& image, const Linearise& linearise, const glm::dm
   return result;
 }
 
-/// What is seen of each pixel's colour, ready for hyab().
+/// The perceived colour of each pixel, as an argument of hyab().
 std::vector<glm::dvec3> perceived(const Prepared& image, const glm::dmat3& xyz_from_rgb,
                                   double pixels_per_degree) {
   const Plane y = csf_filtered(image.ycxcz[0], achromatic, pixels_per_degree);
@@ -153,7 +153,7 @@ std::vector<glm::dvec3> perceived(const Prepared& image, const glm::dmat3& xyz_f
   for (std::size_t i = 0; i < result.size(); ++i) {
     const glm::dvec3 rgb =
         rgb_from_xyz * relative_xyz_from_ycxcz({y.values[i], cx.values[i], cz.values[i]});
-    // Each channel was filtered differently: the result may lie outside what a screen can show.
+    // Each channel has its own filter, so the result may lie outside the sRGB gamut.
     result[i] = hunt_lab(xyz_from_rgb * glm::clamp(rgb, glm::dvec3(0.0), glm::dvec3(1.0)));
   }
   return result;
@@ -161,11 +161,11 @@ std::vector<glm::dvec3> perceived(const Prepared& image, const glm::dmat3& xyz_f
 
 // --- The feature pipeline (section 4.2) -----------------------------------------------------
 
-constexpr double feature_width_degrees = 0.082;  // w, of an edge as the eye sees it
+constexpr double feature_width_degrees = 0.082;  // w, the perceived width of an edge
 constexpr double feature_exponent = 0.5;         // q_f
 
-/// Scales positive weights to sum 1 and negative ones to sum -1, so that a step or a line of
-/// full contrast answers with 1.
+/// Scales positive weights to sum 1 and negative ones to sum -1, so that the response to a step or
+/// a line of full contrast is 1.
 void balance(std::vector<double>& weights) {
   double positive = 0, negative = 0;
   for (const double weight : weights) (weight > 0 ? positive : negative) += weight;
@@ -186,7 +186,7 @@ EdgesAndPoints features_of(const Plane& luminance, double pixels_per_degree) {
     edge[i] = -x * smooth[i];
     point[i] = (x * x / (sigma * sigma) - 1) * smooth[i];
   }
-  // The sign of a weight depends on one coordinate alone: balancing that axis balances the product.
+  // The sign of a weight depends on one coordinate, so balancing that axis balances the product.
   balance(edge);
   balance(point);
   const double sum = std::accumulate(smooth.begin(), smooth.end(), 0.0);
@@ -225,7 +225,7 @@ FlipResult flip(const ImageF& reference, const ImageF& test, const FlipOptions& 
   const std::vector<glm::dvec3> seen_b = perceived(b, xyz_from_rgb, ppd);
   const EdgesAndPoints features_a = features_of(a, ppd), features_b = features_of(b, ppd);
 
-  // The largest difference two colours of the screen can have is that of green and blue.
+  // Green and blue have the largest difference of all sRGB colours.
   const double largest = std::pow(hyab(hunt_lab(xyz_from_rgb * glm::dvec3(0, 1, 0)),
                                        hunt_lab(xyz_from_rgb * glm::dvec3(0, 0, 1))),
                                   color_exponent);
@@ -242,7 +242,7 @@ FlipResult flip(const ImageF& reference, const ImageF& test, const FlipOptions& 
     const double stronger = std::max(std::abs(features_a.edges[i] - features_b.edges[i]),
                                      std::abs(features_a.points[i] - features_b.points[i]));
     const double feature = std::pow(stronger / std::sqrt(2.0), feature_exponent);
-    // Rounding alone can take either factor past its range by an ulp.
+    // Rounding may move either factor one ulp outside its range.
     const double error = std::pow(std::min(color, 1.0), 1.0 - std::min(feature, 1.0));
     result.map[i] = float(error);
     sum += error;

@@ -10,7 +10,7 @@
 namespace tureen {
 
 glm::vec3 heat_ramp(float t) {
-  // shaders/heat_ramp.glsl has the same.
+  // Same values as in shaders/debug_views/heat_ramp.glsl.
   constexpr std::array<glm::vec3, 5> stops{{{0.18f, 0.05f, 0.38f},
                                             {0.58f, 0.10f, 0.42f},
                                             {0.90f, 0.28f, 0.20f},
@@ -23,7 +23,7 @@ glm::vec3 heat_ramp(float t) {
 
 glm::u8vec4 heat(float difference) {
   constexpr float smallest = 1.0f / 255.0f;
-  // Half a step: what rounds to no difference in 8 bits shows as none.
+  // Below half an 8-bit step, a difference counts as none.
   if (!(difference > 0.5f * smallest)) return {0, 0, 0, 255};
   const glm::vec3 color = heat_ramp(1.0f - std::log(difference) / std::log(smallest));
   return glm::u8vec4(glm::vec4(color, 1.0f) * 255.0f + 0.5f);

@@ -11,33 +11,34 @@ class Segments {
   explicit Segments(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
   std::optional<OversizedTable> oversized() const {
-    std::size_t begin = 0;  // any number of 0xff may stand before what makes them a marker
+    std::size_t begin = 0;  // any number of 0xff bytes may precede a marker code
     while (byte(begin) == 0xff && byte(begin + 1) == 0xff) ++begin;
     if (byte(begin) != 0xff || byte(begin + 1) != soi) return std::nullopt;
-    // Up to the first scan decoders go from segment to segment by their lengths, and what looks
-    // like a table within one, as in the thumbnail of a photograph, is none. Behind it, in damaged
-    // data, anything may be taken for the next marker.
+    // Before the first scan, decoders skip segments by their lengths. A table inside a segment, as
+    // in an embedded thumbnail, is therefore not read. After the first scan, a decoder may take any
+    // damaged bytes for the next marker.
     bool in_header = true;
     for (std::size_t at = begin + 2; at + 1 < bytes_.size(); ++at) {
       const unsigned marker = byte(at + 1);
       if (byte(at) != 0xff || marker == 0xff || marker == 0) continue;
       if (marker == dht && is_oversized(at + 2)) return OversizedTable{at, in_header};
       if (marker == sos) in_header = false;
-      if (in_header) at += 1 + length(at + 2);  // one less than to what follows: the loop adds it
+      if (in_header) at += 1 + length(at + 2);  // to the last byte of the segment
     }
     return std::nullopt;
   }
 
  private:
-  /// 0 beyond the end, as stb has it.
+  /// 0 beyond the end, as in stb.
   unsigned byte(std::size_t at) const {
     return at < bytes_.size() ? std::to_integer<unsigned>(bytes_[at]) : 0;
   }
   std::size_t length(std::size_t at) const { return byte(at) << 8 | byte(at + 1); }
 
-  /// Whether one of the tables of the segment whose length is at `at` has too many codes.
+  /// Whether a table in a segment has more than 256 codes. `at` is the position of the segment's
+  /// length.
   bool is_oversized(std::size_t at) const {
-    // The last table may reach beyond the segment; decoders differ in when they notice.
+    // The last table may extend past the segment. Not all decoders check this before reading it.
     const std::size_t end = at + length(at);
     for (at += 2; at < end;) {
       std::size_t codes = 0;

@@ -37,7 +37,7 @@ void require_comparable(const ImageF& a, const ImageF& b) {
   if (a.pixels.empty()) throw UsageError("the images are empty");
 }
 
-/// The smallest value that at least 99.9 % of all are not above (nearest rank).
+/// The 99.9th percentile by nearest rank.
 double percentile_999(std::vector<float> values) {
   const std::size_t rank = (values.size() * 999 + 999) / 1000;  // rounded up, at least 1
   const auto nth = values.begin() + std::ptrdiff_t(rank - 1);

@@ -15,12 +15,12 @@
 
 namespace {
 
-/// zlib instead of stb's own compressor: docs/decisions/png-by-stb.md has the figures. Only a
-/// browser build, which has no zlib, does without. The memory is stb's to free().
+/// zlib replaces stb's compressor (figures: docs/decisions/png-by-stb.md), except in browser
+/// builds, which have no zlib. stb releases the result with free().
 unsigned char* compress_for_stb(unsigned char* data, int size, int* packed_size, int) {
   uLongf bound = compressBound(static_cast<uLong>(size));
   auto* packed = static_cast<unsigned char*>(std::malloc(bound));
-  // Level 4 takes half of the time of the default 6 and some 3 % more bytes.
+  // Level 4 takes half the time of the default, 6, and about 3 % more bytes.
   if (!packed || compress2(packed, &bound, data, static_cast<uLong>(size), 4) != Z_OK ||
       bound > uLongf(INT_MAX)) {
     std::free(packed);
@@ -55,13 +55,13 @@ namespace tureen {
 
 namespace {
 
-/// For tables, and for the state of a decoder, which stb takes for granted.
+/// Memory for tables and for the decoder's state, in bytes. stb does not check this allocation.
 constexpr std::uint64_t decoder_tables = std::uint64_t(1) << 20;
 
-/// What stb holds at most for an honest image, in bytes: the file in a buffer that doubles as it
-/// grows; 8 a pixel, at 16 bits, of inflated rows in another, or 12 of a JPEG's coefficients; 8 and
-/// 4 of the image before and after it is converted. Sides are rounded up to the blocks of at most
-/// 32 pixels that JPEG has. Deflated data that go on beyond this are a bomb.
+/// The maximum memory of stb for a valid image, in bytes. The file takes a buffer that doubles as
+/// it grows. A pixel takes 8 bytes of inflated rows (16 bits per channel) or 12 of JPEG
+/// coefficients, and 8 and 4 bytes before and after conversion. Sides are rounded up to JPEG
+/// blocks, at most 32 pixels. Deflated data that need more are a decompression bomb.
 std::uint64_t decoder_limit(std::size_t file, int width, int height) {
   const auto padded = [](int side) { return std::uint64_t(side) + 32; };
   return 4 * std::uint64_t(file) + 28 * padded(width) * padded(height) + decoder_tables;
@@ -69,14 +69,14 @@ std::uint64_t decoder_limit(std::size_t file, int width, int height) {
 
 std::string beyond(std::int64_t width, std::int64_t height) {
   return "an image of " + std::to_string(width) + " x " + std::to_string(height) +
-         " pixels is beyond what we read: " + std::to_string(max_image_side) +
-         " pixels a side and " + std::to_string(max_image_pixels) + " in all";
+         " pixels exceeds the limits: " + std::to_string(max_image_side) + " pixels per side and " +
+         std::to_string(max_image_pixels) + " pixels in total";
 }
 
-/// Of a chunk that it does not know stb says the name, which may be any four bytes.
+/// stb's reason. For an unknown chunk stb returns its name, which may be any four bytes.
 std::string reason_of_stb() {
   const std::string reason = stbi_failure_reason();
-  return reason.size() > 4 ? reason : "a chunk that nobody knows";
+  return reason.size() > 4 ? reason : "it has an unknown chunk";
 }
 
 void refuse_damaged(std::span<const std::byte> bytes, const std::string& name) {
@@ -92,12 +92,12 @@ Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
   const auto fail = [&](const std::string& reason, const std::string& hint = {}) -> void {
     throw InputError({name, {}, {}}, reason, hint);
   };
-  if (bytes.size() > std::size_t(INT_MAX)) fail("an image of over 2 GiB");
+  if (bytes.size() > std::size_t(INT_MAX)) fail("the image file exceeds 2 GiB");
   if (const auto table = oversized_huffman_table(bytes)) {
     if (table->in_header)
       throw InputError({name, table->byte, {}},
-                       "the image is damaged: a Huffman table of more than 256 codes");
-    // Damage, or not the image's any more: its decoder need not see that far.
+                       "the image is damaged: a Huffman table has more than 256 codes");
+    // The table is damage, or data after the image. The decoder gets only the bytes before it.
     bytes = bytes.first(static_cast<std::size_t>(table->byte));
   }
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
@@ -106,7 +106,7 @@ Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
   {
     const decoder_memory::Scope tables(MemoryBudget(decoder_tables), decoder_tables);
     if (!stbi_info_from_memory(data, size, &width, &height, &channels)) {
-      // Of a PNG that it could not hold stb does not tell the size, which stands in the header.
+      // stb does not return the size of a PNG beyond its limits, so it is read from the header.
       const auto side = [&](std::size_t at) {
         return std::uint32_t(data[at]) << 24 | data[at + 1] << 16 | data[at + 2] << 8 |
                data[at + 3];
@@ -132,7 +132,7 @@ Image8 decode_image(std::span<const std::byte> bytes, const std::string& name,
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
       stbi_load_from_memory(data, size, &width, &height, &channels, 4), &stbi_image_free);
   if (scope.beyond_budget()) fail(budget.refusal(what), max_memory_hint);
-  if (scope.beyond_limit()) fail("the image is damaged: it unfolds to more than its pixels");
+  if (scope.beyond_limit()) fail("the image is damaged: it decompresses to more than its pixels");
   if (!pixels) fail("the image is damaged: " + reason_of_stb());
   Image8 image(width, height);
   std::memcpy(image.pixels.data(), pixels.get(), image.pixels.size() * 4);

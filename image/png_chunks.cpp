@@ -18,7 +18,8 @@ std::uint32_t big_endian(std::span<const std::byte> bytes) {
 }  // namespace
 
 std::optional<PngDamage> png_damage(std::span<const std::byte> bytes) {
-  constexpr std::size_t signature = 8, head = 8, around = 12;  // length and type; and a checksum
+  // head: length and type; around: length, type and checksum.
+  constexpr std::size_t signature = 8, head = 8, around = 12;
   if (bytes.size() < signature || std::memcmp(bytes.data(), "\x89PNG\r\n\x1a\n", signature) != 0)
     return std::nullopt;
   for (std::size_t at = signature;;) {
@@ -27,13 +28,13 @@ std::optional<PngDamage> png_damage(std::span<const std::byte> bytes) {
     const bool is_last = chunk.size() >= head && is("IEND");
     if (is_last && chunk.size() < around) return std::nullopt;
     if (chunk.size() < around || big_endian(chunk) > chunk.size() - around)
-      return PngDamage{at, "it is cut short"};
+      return PngDamage{at, "it is truncated"};
     const std::size_t length = big_endian(chunk);
-    // A capital begins what no image can do without; stb reads tRNS, too.
+    // The names of critical chunks begin with a capital letter. stb also reads tRNS.
     const bool is_critical = (std::to_integer<unsigned>(chunk[4]) & 0x20) == 0;
     if ((is_critical || is("tRNS")) &&
         crc32_of(chunk.subspan(4, 4 + length)) != big_endian(chunk.subspan(8 + length)))
-      return PngDamage{at, "a chunk's checksum is not that of its bytes"};
+      return PngDamage{at, "a chunk has a wrong checksum"};
     if (is_last) return std::nullopt;
     at += around + length;
   }

@@ -14,15 +14,15 @@ namespace tureen {
 namespace {
 
 constexpr std::size_t pixel_bytes = 4;
-constexpr std::size_t chunk_bytes = 1 << 18;  // of compressed data, at most
+constexpr std::size_t chunk_bytes = 1 << 18;  // maximum of compressed data
 
 std::array<std::uint8_t, 4> big_endian(std::uint32_t value) {
   return {std::uint8_t(value >> 24), std::uint8_t(value >> 16), std::uint8_t(value >> 8),
           std::uint8_t(value)};
 }
 
-/// What PNG's filters 0..4 predict: nothing, the pixel to the left, the one above, their mean, and
-/// Paeth's choice among those two and the one above left.
+/// The prediction by PNG's filters 0..4: zero, left, above, their mean, and Paeth's choice between
+/// left, above and above left.
 template <int filter>
 std::uint8_t predicted(int left, int above, int above_left) {
   if constexpr (filter == 1) return std::uint8_t(left);
@@ -38,8 +38,8 @@ std::uint8_t predicted(int left, int above, int above_left) {
 
 using Row = std::vector<std::uint8_t>;
 
-/// The row's differences to what is predicted, behind the filter's number. Returns the sum of their
-/// magnitudes, by which the specification advises to choose (section 12.7).
+/// Writes the filter's number and the differences between the row and its prediction. Returns the
+/// sum of their magnitudes, the criterion that the specification recommends (section 12.7).
 template <int filter>
 std::uint64_t filter_row(const std::uint8_t* row, const Row& above, Row& out) {
   out[0] = std::uint8_t(filter);
@@ -64,7 +64,7 @@ struct PngRows::Compressor {
   std::vector<std::uint8_t> packed = std::vector<std::uint8_t>(chunk_bytes);
 
   Compressor() {
-    // The level of image/png.cpp.
+    // Same level as in image/png.cpp.
     if (deflateInit(&stream, 4) != Z_OK) throw std::bad_alloc();
   }
   ~Compressor() { deflateEnd(&stream); }
@@ -116,12 +116,12 @@ void PngRows::append_row(const glm::u8vec4* row) {
 void PngRows::compress(const std::vector<std::uint8_t>& bytes, int flush) {
   z_stream& stream = compressor_->stream;
   std::vector<std::uint8_t>& packed = compressor_->packed;
-  // zlib reads through a pointer that is not const, and writes nothing there.
+  // zlib only reads through this pointer, although its type is not const.
   stream.next_in = const_cast<std::uint8_t*>(bytes.data());
   stream.avail_in = uInt(bytes.size());
   int result = Z_OK;
   do {
-    // What does not fill a chunk yet stays for the next rows.
+    // A chunk is written only when it is full; the next rows continue it.
     if (stream.avail_out == 0 || !stream.next_out) {
       if (stream.next_out) write_chunk("IDAT", packed.data(), packed.size());
       stream.next_out = packed.data();

@@ -38,7 +38,7 @@ RenderError RenderErrorMeter::result() const {
   error.coverage_mismatch /= pixels;
   error.psnr_db = psnr_from_mse(error.mse);
 
-  // The smallest step that at least 99.9 % of all channels are not above.
+  // The 99.9th percentile by nearest rank.
   const auto rank = std::uint64_t(std::ceil(0.999 * 3.0 * pixels));
   std::uint64_t below = 0;
   for (std::size_t step = 0; step < histogram_.size(); ++step) {

@@ -20,7 +20,7 @@ Plane filter_rows(const Plane& plane, std::span<const double> weights, Border bo
     std::copy_n(source, plane.width, row.begin() + pad);
     std::fill_n(row.end() - pad, pad, zero ? 0.0 : source[plane.width - 1]);
     double* out = &result.values[std::size_t(y) * result.width];
-    // Tap by tap over the whole row: the inner loop has no dependency and vectorises.
+    // With taps in the outer loop, the inner loop has no dependency and vectorises.
     for (int tap = 0; tap < taps; ++tap)
       for (int x = 0; x < result.width; ++x) out[x] += weights[tap] * row[x + tap];
   }

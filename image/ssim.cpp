@@ -16,7 +16,7 @@ namespace {
 struct Window {
   std::vector<double> weights;  // of one axis, sum 1
   Border border;
-  double variance_scale;  // from the variance of the window to that of its population
+  double variance_scale;  // factor on the window's variance: n / (n - 1) for the sample variance
 };
 
 Window window_of(SsimBorder border) {
@@ -56,7 +56,7 @@ double mean_similarity(const Plane& a, const Plane& b, const Window& window) {
   double sum = 0;
   for (std::size_t i = 0; i < mean_a.values.size(); ++i) {
     const double m = mean_a.values[i], n = mean_b.values[i];
-    // E[x^2] - E[x]^2 cancels where the image is flat and may come out below zero.
+    // In flat areas E[x^2] - E[x]^2 cancels and may be negative.
     const double var_a = window.variance_scale * std::max(aa.values[i] - m * m, 0.0);
     const double var_b = window.variance_scale * std::max(bb.values[i] - n * n, 0.0);
     const double covariance = window.variance_scale * (ab.values[i] - m * n);
@@ -86,7 +86,7 @@ double ssim(const ImageF& a, const ImageF& b, SsimBorder border) {
   if (a.width < side || a.height < side)
     throw UsageError("SSIM with border mode " + std::string(name(border)) +
                      " needs images of at least " + std::to_string(side) + " x " +
-                     std::to_string(side) + " pixels, these are " + std::to_string(a.width) +
+                     std::to_string(side) + " pixels; these have " + std::to_string(a.width) +
                      " x " + std::to_string(a.height));
   double sum = 0;
   for (int c = 0; c < 3; ++c) sum += mean_similarity(channel(a, c), channel(b, c), window);

@@ -20,7 +20,7 @@
 #include "base/extension.hpp"
 #include "base/output_path.hpp"
 
-extern char** environ;  // POSIX has it in no header
+extern char** environ;  // POSIX declares it in no header
 
 namespace tureen {
 
@@ -31,13 +31,13 @@ namespace fs = std::filesystem;
 int even(int side) { return side + side % 2; }
 
 std::string number(double value) {
-  // %g without a locale's comma: the program sets none.
+  // %g prints a decimal point, since the program never sets a locale.
   std::array<char, 32> text;
   std::snprintf(text.data(), text.size(), "%.9g", value);
   return text.data();
 }
 
-/// The coder's settings: a quality at which the coding is hardly seen.
+/// Encoder options with barely visible compression.
 std::vector<std::string> coder(const std::string& extension) {
   if (extension == ".webm")
     return {"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-row-mt", "1", "-f", "webm"};
@@ -53,22 +53,21 @@ std::vector<std::string> arguments(const VideoFile::Format& format, const std::s
       "-pixel_format", "rgb24", "-video_size",
       std::to_string(even(format.width)) + "x" + std::to_string(even(format.height)), "-framerate",
       number(format.frames_per_second), "-i", "pipe:0", "-an",
-      // Our colours are sRGB; players take BT.709 for granted, and ffmpeg would convert with
-      // BT.601.
+      // The frames are sRGB. Players assume BT.709, but ffmpeg would convert with BT.601.
       "-vf", "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p", "-colorspace", "bt709",
       "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range", "tv"};
   for (std::string& word : coder(extension)) result.push_back(std::move(word));
-  // file: keeps a name with a colon or a dash from being taken for something else.
+  // Without "file:", ffmpeg would read a colon as a protocol and a dash as an option.
   result.push_back("file:" + output);
   return result;
 }
 
-/// Ends of a connection that no other program inherits; a socket, because writing to one can do
-/// without the signal that ends programs.
+/// Both ends of a connection that child processes do not inherit. It is a socket, because a write
+/// to a socket can suppress SIGPIPE.
 std::array<int, 2> connection() {
   std::array<int, 2> ends{-1, -1};
   if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()) != 0)
-    throw OutputError({}, "no connection to ffmpeg can be made");
+    throw OutputError({}, "cannot connect to ffmpeg");
   for (const int end : ends) fcntl(end, F_SETFD, FD_CLOEXEC);
 #ifdef SO_NOSIGPIPE
   const int on = 1;
@@ -105,7 +104,7 @@ VideoFile::VideoFile(fs::path path, const Format& format)
     : path_(std::move(path)), format_(format) {
   assert(format.width > 0 && format.height > 0 && format.frames_per_second > 0);
   if (!is_video_name(path_))
-    throw UsageError("'" + path_.string() + "' is no name for a video: it ends in .mp4 or .webm");
+    throw UsageError("'" + path_.string() + "' is not a video name; it must end in .mp4 or .webm");
   if (!have_ffmpeg()) throw UsageError(ffmpeg_missing, ffmpeg_hint);
   target_ = writable_file(path_);
   const fs::path folder = target_.parent_path();
@@ -119,14 +118,15 @@ VideoFile::VideoFile(fs::path path, const Format& format)
 
 void VideoFile::start() {
   complaints_.reset(std::tmpfile());
-  if (!complaints_) throw OutputError({}, "no temporary file can be made for ffmpeg");
+  if (!complaints_) throw OutputError({}, "cannot create a temporary file for ffmpeg");
   const std::array<int, 2> ends = connection();
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, fileno(complaints_.get()), STDERR_FILENO);
-  // In a group of its own: Ctrl-C is ours to answer, and ffmpeg would finish half a video on it.
+  // In a separate process group, ffmpeg does not receive Ctrl-C, on which it would write a
+  // truncated video.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
@@ -157,7 +157,7 @@ VideoFile::~VideoFile() {
   if (!temporary_.empty()) fs::remove(temporary_, ignored);
 }
 
-/// The exit status; 127 where a signal ended it.
+/// The exit status of ffmpeg; 127 if a signal ended it.
 int VideoFile::wait() {
   if (input_ >= 0) close(std::exchange(input_, -1));
   int status = 0;
@@ -183,7 +183,7 @@ void VideoFile::send(const std::vector<std::uint8_t>& bytes) {
     if (count >= 0) {
       sent += std::size_t(count);
     } else if (errno != EINTR) {
-      fail();  // it has ended, and says why
+      fail();  // ffmpeg has ended; its stderr has the reason
     }
   }
 }

@@ -17,8 +17,8 @@ bool is_video_name(const std::filesystem::path& path);
 
 /// The reason and the hint of the error if ffmpeg is missing.
 inline constexpr const char* ffmpeg_missing =
-    "videos are written by ffmpeg, which is not installed (Debian and Ubuntu: ffmpeg)";
-inline constexpr const char* ffmpeg_hint = "-o frame_%04d.png writes frames as images without it";
+    "videos need ffmpeg, which is not installed (package ffmpeg in Debian and Ubuntu)";
+inline constexpr const char* ffmpeg_hint = "-o frame_%04d.png writes the frames as images instead";
 
 /// Whether a folder of PATH contains ffmpeg.
 bool have_ffmpeg();

@@ -6,7 +6,7 @@ namespace tureen::oracle {
 
 namespace {
 
-/// Keeps what has plane . point >= offset (Sutherland and Hodgman, 1974).
+/// The part of a polygon with plane . point >= offset (Sutherland and Hodgman, 1974).
 ClippedPolygon clipped(const ClippedPolygon& polygon, glm::dvec3 plane, double offset) {
   ClippedPolygon result;
   const auto side = [&](const PolygonCorner& c) { return glm::dot(plane, c.point) - offset; };
@@ -16,8 +16,8 @@ ClippedPolygon clipped(const ClippedPolygon& polygon, glm::dvec3 plane, double o
     const double a = side(here), b = side(next);
     if (a >= 0) result.corners[result.count++] = here;
     if ((a >= 0) == (b >= 0)) continue;
-    // Always from the kept corner to the lost one, so that two faces get the same bits where they
-    // share an edge.
+    // Interpolates from the kept corner to the lost one, so that both faces at a shared edge get
+    // the same bits.
     const PolygonCorner& kept = a >= 0 ? here : next;
     const PolygonCorner& lost = a >= 0 ? next : here;
     const double inside = a >= 0 ? a : b, outside = a >= 0 ? b : a;

@@ -16,7 +16,7 @@ namespace {
 /// Rows of one band of visit_pixels.
 constexpr int band_rows = 16;
 
-/// floor(value), held within [low, high] before it becomes an int; NaN becomes low.
+/// floor(value), clamped to [low, high] before the conversion to int; NaN becomes low.
 int clamped_floor(double value, int low, int high) {
   return static_cast<int>(std::min(std::max(double(low), std::floor(value)), double(high)));
 }
@@ -25,7 +25,7 @@ struct Box {
   int first_column, end_column, first_row, end_row;
 };
 
-/// The pixels whose centres can lie in the polygon, with a pixel to spare for rounding.
+/// The pixels whose centres can lie in the polygon, plus a margin of one pixel for rounding.
 Box bounding_box(const ClippedPolygon& polygon, int width, int height) {
   double low_x = width, low_y = height, high_x = 0, high_y = 0;
   for (int i = 0; i < polygon.count; ++i) {
@@ -40,8 +40,8 @@ Box bounding_box(const ClippedPolygon& polygon, int width, int height) {
           clamped_floor(low_y - 1, 0, height), clamped_floor(high_y + 2, 0, height)};
 }
 
-/// a x b with the operands in an order of their own, so that both faces at a shared edge get the
-/// same line with opposite signs, bit for bit, whatever the compiler fuses.
+/// a x b, computed with the operands in lexicographic order. Both faces at a shared edge thus get
+/// the same line with opposite signs, bit for bit, even if the compiler fuses operations.
 glm::dvec3 edge_line(const glm::dvec3& a, const glm::dvec3& b) {
   return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z) ? glm::cross(a, b) : -glm::cross(b, a);
 }
@@ -55,10 +55,10 @@ struct SnappedEdge {
   std::int64_t ax, ay, dx, dy;
   bool owns;
 
-  /// `sign` is that of the triangle's area, so that the inside is positive.
+  /// `sign`: sign of the triangle's area; it makes the inside positive.
   SnappedEdge(SnappedCorner a, SnappedCorner b, int sign)
       : ax(a.x), ay(a.y), dx(sign * (b.x - a.x)), dy(sign * (b.y - a.y)) {
-    // The gradient (-dy, dx) points inside: to the right of a left edge, down from an upper one.
+    // The gradient (-dy, dx) points inside: right from a left edge, down from an upper edge.
     owns = -dy > 0 || (dy == 0 && (snapped_upper_edge_owns ? dx > 0 : dx < 0));
   }
   std::int64_t at(std::int64_t x, std::int64_t y) const { return dx * (y - ay) - dy * (x - ax); }
@@ -66,7 +66,8 @@ struct SnappedEdge {
 };
 
 SnappedCorner snapped(const glm::dvec3& point, std::int64_t subpixels) {
-  // Rounded in GL's window space, where y grows upwards: a half goes up there, so down here.
+  // Rounded in GL's window space, where y points up. A half is rounded up there, so the row is
+  // rounded down here.
   return {std::int64_t(std::floor(point.x / point.z * double(subpixels) + 0.5)),
           std::int64_t(std::ceil(point.y / point.z * double(subpixels) - 0.5))};
 }
@@ -81,7 +82,7 @@ struct Rays::Face {
   ClippedPolygon polygon;
   Box box{};
 
-  /// The plane of the true triangle at a pixel centre.
+  /// The hit on the plane of the unsnapped triangle at a pixel centre.
   Hit hit(double x, double y) const {
     const double e0 = edges[0].x * x + (edges[0].y * y + edges[0].z);
     const double e1 = edges[1].x * x + (edges[1].y * y + edges[1].z);
@@ -107,9 +108,9 @@ bool Rays::project(std::uint32_t index, Face& face) const {
   face.index = index;
   const glm::uvec3& triangle = soup_.triangles[index];
   const glm::dvec3 corner(soup_.positions[triangle[0]]);
-  // Also false for vertices that are not finite. The products of floats' differences are not exact,
-  // but corners that coincide or lie on an axis-parallel line give zero; what rounding leaves of
-  // other needles has no width that a pixel centre could fall into.
+  // Also false for non-finite vertices. Products of float differences are not exact, but corners
+  // that coincide or lie on an axis-parallel line give exactly zero. Other needles with only
+  // rounding as their area are too thin to contain a pixel centre.
   if (!(glm::length(glm::cross(glm::dvec3(soup_.positions[triangle[1]]) - corner,
                                glm::dvec3(soup_.positions[triangle[2]]) - corner)) > 0))
     return false;
@@ -153,7 +154,7 @@ void Rays::visit_exact(const Face& face, int first_row, int end_row,
       }
       if (!inside) continue;
       const Hit hit = face.hit(x, y);
-      // Rounding can leave a centre on all three edges of a needle: 0 / 0 and 1 / 0 are no hits.
+      // Rounding can leave a centre on all three edges of a needle: 0 / 0 and 1 / 0 are not hits.
       if (!(hit.depth >= range_.near && std::isfinite(hit.depth))) continue;
       visit(column, row, hit);
     }
@@ -182,8 +183,8 @@ void Rays::visit_snapped(const Face& face, int first_row, int end_row,
         for (int k = 0; k < 3 && inside; ++k) inside = edges[k].covers(e[k] = edges[k].at(x, y));
         if (!inside) continue;
         Hit hit = face.hit(column + 0.5, row + 0.5);
-        // A plane seen so edge-on that the true triangle ends before this centre has no depth
-        // there; the rounded corners have.
+        // A nearly edge-on triangle can end before this centre. Its own plane then has no positive
+        // depth there, but the plane of the rounded corners has.
         if (options_.attributes == Attributes::snapped || !(hit.depth > 0)) {
           glm::dvec3 weights(0.0);
           double inverse_depth = 0;

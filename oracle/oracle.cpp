@@ -37,7 +37,7 @@ OracleImage render_oracle(const TriangleSoup& soup, glm::dvec3 origin, const Cam
   for (int first = 0; first < fine.height; first += band_rows) {
     const int end = std::min(first + band_rows, fine.height);
     nearest.assign(stride * (end - first), {OracleImage::no_face, 0, 0, infinity});
-    // Faces come in rising order, so that the strict comparison leaves ties to the lower one.
+    // Faces come in increasing order, so the strict comparison resolves ties to the lower index.
     rays.visit_faces(first, end, [&](int column, int row, const oracle::Hit& hit) {
       oracle::Hit& best = nearest[(row - first) * stride + column];
       if (hit.depth < best.depth && oracle::is_visible(soup, {hit.face, hit.b0, hit.b1}))

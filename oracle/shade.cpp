@@ -13,7 +13,7 @@ namespace tureen::oracle {
 
 namespace {
 
-/// Linear over the face, in the form that returns a constant exactly.
+/// Linear interpolation over the face, in a form that reproduces constants exactly.
 template <class T>
 T interpolated(const std::array<T, 3>& at_vertices, const SurfacePoint& p) {
   return at_vertices[2] + p.b0 * (at_vertices[0] - at_vertices[2]) +
@@ -34,7 +34,7 @@ glm::dvec4 interpolated_rgba(const TriangleSoup& soup, const std::vector<glm::ve
 // -- lattices ----------------------------------------------------------------------------------
 
 lattice::Footprint<double> footprint_at(const LatticePatch& patch, const SurfacePoint& p) {
-  // As simplex.glsl has it.
+  // As in simplex.glsl.
   const double b0 = std::max(p.b0, 0.0), b1 = std::max(p.b1, 0.0), sum = std::max(b0 + b1, 1.0);
   return lattice::footprint(int(patch.level), b0 / sum, b1 / sum);
 }
@@ -69,7 +69,7 @@ glm::dvec3 harmonics_color(const Harmonics& sh, std::size_t element, glm::dvec3 
   return glm::clamp(sum, 0.0, 1.0);
 }
 
-// -- the two questions, an appearance each -----------------------------------------------------
+// -- visibility and colour of each appearance --------------------------------------------------
 
 struct IsVisible {
   const TriangleSoup& soup;
@@ -153,7 +153,7 @@ bool is_visible(const TriangleSoup& soup, const SurfacePoint& point) {
 glm::dvec3 color(const TriangleSoup& soup, const SurfacePoint& point, glm::dvec3 to_eye,
                  glm::dvec3 eye) {
   glm::dvec3 value = std::visit(ColorOf{soup, point, to_eye, eye}, soup.appearance);
-  // The order of the arguments makes NaN come out as 0.
+  // This order of the arguments turns NaN into 0.
   for (int c = 0; c < 3; ++c) value[c] = std::min(std::max(0.0, value[c]), 1.0);
   return value;
 }

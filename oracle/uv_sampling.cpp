@@ -7,7 +7,7 @@ namespace tureen::oracle {
 
 namespace {
 
-/// The same point of the wrapped image within a few periods of 0, so that it fits an int.
+/// An equivalent coordinate in [0, 2], so that texel indices fit an int.
 double reduced(double coordinate, UvMaterial::Wrap wrap) {
   if (!std::isfinite(coordinate)) return 0.0;
   switch (wrap) {
@@ -21,7 +21,7 @@ double reduced(double coordinate, UvMaterial::Wrap wrap) {
   return 0.0;
 }
 
-/// The texel of an index that may lie a period or so outside [0, size).
+/// The texel index in [0, size) for an index that may be outside.
 int wrapped(int index, int size, UvMaterial::Wrap wrap) {
   switch (wrap) {
     case UvMaterial::Wrap::repeat:

@@ -15,15 +15,15 @@ namespace tureen {
 
 namespace {
 
-/// Adds up the stores that runtime/passes/appearance_source.cpp makes, appearance by appearance; a
-/// test holds the sum against what it really makes.
+/// Sums the stores that runtime/passes/appearance_source.cpp creates for each appearance. A test
+/// compares the sum with the created stores.
 class Forecaster {
  public:
   Forecaster(const TriangleSoup& soup, const RenderPlan& plan) : soup_(soup), plan_(plan) {}
 
   DeviceForecast run() {
     result_.bytes = slots() * 3 * sizeof(glm::vec3);
-    if (plan_.drops_small_triangles) result_.bytes *= 2;  // CoveredFaces keeps them, too
+    if (plan_.drops_small_triangles) result_.bytes *= 2;  // CoveredFaces keeps a copy
     std::visit([this](const auto& appearance) { count(appearance); }, soup_.appearance);
     return std::move(result_);
   }
@@ -41,7 +41,7 @@ class Forecaster {
     result_.largest_store = what;
   }
 
-  /// Four bytes a colour where that loses nothing, as the upload decides.
+  /// Four bytes a colour if that is lossless, otherwise 16, as in the upload.
   void add_colors(const char* what, std::uint64_t texels,
                   const std::function<glm::vec4(std::uint64_t)>& color) {
     const auto is_byte = [](float value) {
@@ -90,8 +90,7 @@ class Forecaster {
     if (plan_.lattice.uniform_level < 0) add("lattice patches", slots(), 16);
   }
 
-  /// Four alphas a cell; faces that share texels share cells where texels stay as the soup has
-  /// them.
+  /// Four alphas a cell. Faces that share texels share cells if the texels are uploaded unchanged.
   std::uint64_t alpha_cells(const LatticeTexture& texture) const {
     const LatticePlan& lattice = plan_.lattice;
     const bool repacked = lattice.uniform_level >= 0 || !lattice.levels.empty();

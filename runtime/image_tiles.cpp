@@ -9,10 +9,10 @@ namespace tureen {
 
 namespace {
 
-/// Devices shade 2x2 pixels together, and software rasterisers blocks of up to 64x64.
+/// Pixels a side. GPUs shade 2x2 pixels together, software rasterisers up to 64x64.
 constexpr int block = 64;
 
-/// Whole blocks where there is room for one.
+/// Rounded down to whole blocks if at least one fits.
 int in_blocks(int pixels) { return pixels < block ? pixels : pixels / block * block; }
 
 int tile_height(const Camera& camera, const ImageTiles& tiles) {
@@ -51,7 +51,8 @@ Camera cut_out_of(const Camera& camera, glm::ivec2 corner, glm::ivec2 size) {
 void draw_in_bands(const Camera& camera, const ImageTiles& tiles, const BandSink& sink) {
   assert(camera.width > 0 && camera.height > 0 && tiles.side > 0);
   const int width = in_blocks(tiles.side), height = tile_height(camera, tiles);
-  // Counted from the lower border, where devices count from: the uppermost band is what is left.
+  // Bands are aligned with the lower border, as on devices. The uppermost band has the remaining
+  // rows.
   for (int row = 0; row < camera.height;) {
     const int rows = (camera.height - row - 1) % height + 1;
     Image8 band(camera.width, rows);
@@ -80,8 +81,9 @@ Image8 draw_in_tiles(const Camera& camera, const ImageTiles& tiles) {
 ImageTiles tiles_of(Renderer& renderer, const gl::Capabilities& capabilities) {
   if (renderer.plan().quality.resolution_scale < 1)
     throw UsageError(
-        "an image that is drawn in tiles has no resolution scale: coarser tiles would not meet");
-  // 2^26 samples at once: the gibibyte of targets that images drawn whole may have.
+        "an image drawn in tiles cannot have a resolution scale: the borders of its tiles would "
+        "not match");
+  // 2^26 samples: 1 GiB of targets, the limit for images drawn whole.
   constexpr int max_samples = 8192;
   return tiles_drawn_by(renderer, std::min(capabilities.max_image_side, max_samples) /
                                       renderer.plan().quality.supersampling);

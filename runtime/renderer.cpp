@@ -99,7 +99,7 @@ void Renderer::draw(const Camera& camera) {
   assert(camera.width > 0 && camera.height > 0);
   require_drawable(camera.width, camera.height, state_->max_side);
   if (camera.width != state_->width || camera.height != state_->height) {
-    state_->width = state_->height = 0;  // should it throw, the next frame starts anew
+    state_->width = state_->height = 0;  // if resize() throws, the next frame repeats it
     state_->pipeline->resize(camera.width, camera.height);
     state_->width = camera.width;
     state_->height = camera.height;
@@ -112,7 +112,7 @@ void Renderer::draw(const Camera& camera) {
 }
 
 void Renderer::finish() const {
-  // Without a frame there is nothing to wait for but uploads.
+  // Without a frame, only uploads can be pending.
   gl::wait_for_device(state_->width > 0 ? state_->pipeline->color_framebuffer() : 0);
 }
 

@@ -20,7 +20,7 @@ Camera look_at(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 up, double fov_y, i
   const double distance = glm::length(backward);
   backward = distance > 0 ? backward / distance : glm::dvec3(0, 0, 1);
   glm::dvec3 right = glm::cross(up, backward);
-  // A sine of 1e-6 still gives a right axis good to ten digits; below it the axis is noise.
+  // At a sine of 1e-6 the right axis still has ten correct digits; below, rounding dominates.
   if (!(glm::length(right) > 1e-6 * glm::length(up)))
     right = glm::cross(std::abs(backward.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0),
                        backward);
@@ -52,7 +52,7 @@ Camera resized(const Camera& camera, int width, int height) {
 }
 
 Camera resampled(const Camera& camera, int width, int height) {
-  // (cx, cy) is measured from the image's corner, not from a pixel's centre: it scales as it is.
+  // (cx, cy) is measured from the image corner, not from a pixel centre, so it scales directly.
   const double x = double(width) / camera.width, y = double(height) / camera.height;
   Camera result = camera;
   result.width = width;
@@ -73,7 +73,7 @@ bool in_image(const Camera& camera, glm::dvec3 point) {
 
 namespace {
 
-/// The rows that both projections share: x and y of NDC from the pinhole equation.
+/// The part common to both projections: x and y of NDC from the pinhole equation.
 glm::dmat4 pinhole_rows(const Camera& camera) {
   glm::dmat4 clip(0.0);
   clip[0][0] = 2.0 * camera.fx / camera.width;

@@ -20,7 +20,7 @@ std::optional<std::string> defect(const ColorMlp& mlp, int available_features) {
         layer.outputs > ColorMlp::max_width)
       return name + " has a width outside 1.." + std::to_string(ColorMlp::max_width);
     if (layer.inputs != inputs)
-      return name + " takes " + std::to_string(layer.inputs) + " inputs, not " +
+      return name + " has " + std::to_string(layer.inputs) + " inputs, expected " +
              std::to_string(inputs);
     const auto weights = static_cast<std::size_t>(layer.inputs) * layer.outputs;
     if (layer.weights.size() != weights || layer.biases.size() != std::size_t(layer.outputs))
@@ -32,8 +32,8 @@ std::optional<std::string> defect(const ColorMlp& mlp, int available_features) {
   }
   if (inputs != 3) return "the color MLP has " + std::to_string(inputs) + " outputs, not 3";
   if (mlp.feature_count() < 0 || mlp.feature_count() > available_features)
-    return "the color MLP wants " + std::to_string(mlp.feature_count()) + " features of " +
-           std::to_string(available_features);
+    return "the color MLP needs " + std::to_string(mlp.feature_count()) +
+           " features, available: " + std::to_string(available_features);
   if (mlp.blend_channel && (*mlp.blend_channel < 0 || *mlp.blend_channel >= available_features ||
                             available_features < 3))
     return "the color MLP's blend channel is not one of the features";

@@ -12,7 +12,7 @@ std::string describe(const Quality& quality) {
 }
 
 std::optional<std::string> defect(const Quality& quality) {
-  // Written so that NaN is refused, too.
+  // Negated, so that NaN is rejected too.
   if (!(quality.resolution_scale >= 0.25 && quality.resolution_scale <= 1))
     return "the resolution scale is " + short_decimal(quality.resolution_scale, 4) +
            ", not 0.25 to 1";

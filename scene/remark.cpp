@@ -10,7 +10,7 @@ namespace {
 
 using Kind = Remark::Kind;
 
-/// In the order of Remark::Kind.
+/// In the order of the enumerators.
 constexpr std::array<const char*, Remark::kinds> kind_names{
     "up_unknown_to_format",
     "up_unknown_to_trimesh",
@@ -92,36 +92,37 @@ std::string describe(const Remark& remark) {
   const auto& [kind, counts, values, names] = remark;
   switch (kind) {
     case Kind::up_unknown_to_format:
-      return names[0] + " knows no up axis: z is assumed";
+      return names[0] + " stores no up axis: z is assumed";
     case Kind::up_unknown_to_trimesh:
-      return "written by trimesh, which keeps no up axis: z is assumed";
+      return "trimesh, which wrote the file, stores no up axis: z is assumed";
     case Kind::up_unknown_to_checkpoint:
-      return "the checkpoint does not say which way is up: -y is assumed, as in COLMAP's axes; "
-             "scenes trained on Blender images have +z";
+      return "the checkpoint stores no up axis: -y is assumed, as in COLMAP; scenes trained on "
+             "Blender images have +z";
     case Kind::up_of_colmap_scene:
-      return "the checkpoint has a flip_z: taken for a COLMAP scene, up is -y, background black";
+      return "the checkpoint has flip_z: a COLMAP scene is assumed, with up -y and a black "
+             "background";
     case Kind::up_of_synthetic_scene:
-      return "the checkpoint has no flip_z: taken for a synthetic scene, up is +z, background "
-             "white";
+      return "the checkpoint has no flip_z: a synthetic scene is assumed, with up +z and a white "
+             "background";
     case Kind::up_of_transforms:
-      return "z is taken to be up, as in the scenes of NeRF and instant-ngp.";
+      return "The up axis is assumed to be z, as in the scenes of NeRF and instant-ngp.";
     case Kind::up_of_cameras:
-      return "The mean of the cameras' up axes is taken to be up.";
+      return "The up axis is assumed to be the mean of the cameras' up axes.";
     case Kind::up_of_no_camera:
-      return "The cameras do not agree on what is up; -y is taken.";
+      return "The cameras' up axes disagree; -y is assumed.";
     case Kind::polygons_split:
       return counted(counts[0], "polygon", "polygons") +
-             " of more than three corners became fans of triangles.";
+             " with more than three corners split into triangles.";
     case Kind::small_faces_dropped:
-      return counted(counts[0], "face", "faces") + " of fewer than three corners left out.";
+      return counted(counts[0], "face", "faces") + " with fewer than three corners skipped.";
     case Kind::corners_dropped:
       return names[0] + ": " + std::to_string(counts[0]) +
-             " corners are no whole number of triangles; the rest is dropped";
+             " corners are not a multiple of three; the incomplete triangle is skipped";
     case Kind::coordinates_rounded:
       return "Coordinates of type double were rounded to float.";
     case Kind::soft_triangles_opaque:
-      return "soft triangles are drawn opaque: a soft triangle covers " +
-             fixed_decimal(100 * values[0], 0) + "% of its area in the mean (opacity " +
+      return "soft triangles are drawn opaque: on average, a soft triangle covers " +
+             fixed_decimal(100 * values[0], 0) + "% of its area (opacity " +
              fixed_decimal(values[1], 2) + "), the opaque face covers all of it";
     case Kind::soft_triangles_dropped:
       return std::to_string(counts[0]) + " of " + std::to_string(counts[1]) +
@@ -129,37 +130,37 @@ std::string describe(const Remark& remark) {
     case Kind::color_components_clamped:
       return counted(counts[0], "colour component", "colour components") + " outside 0..1 clamped.";
     case Kind::face_colors_dropped:
-      return "The file colours vertices and faces; the face colours are left out.";
+      return "The file has vertex and face colours; the face colours are ignored.";
     case Kind::colors_missing:
-      return "The file holds no colours; everything is drawn grey (0.8).";
+      return "The file has no colours; everything is drawn grey (0.8).";
     case Kind::face_colors_missing:
       return counted(counts[0], "triangle has no colour and is",
                      "triangles have no colour and are") +
              " drawn grey (0.8).";
     case Kind::face_colors_mapped:
       return "The colours of " + counted(counts[0], "face", "faces") +
-             " are numbers of a colour map, which OFF does not hold.";
+             " are indices of a colour map, which OFF does not store.";
     case Kind::vertex_colors_srgb:
-      return "vertex colours are taken as sRGB, as asked for";
+      return "vertex colours are read as sRGB, as requested";
     case Kind::vertex_colors_linear:
-      return "vertex colours are taken as linear, as asked for";
+      return "vertex colours are read as linear, as requested";
     case Kind::vertex_colors_srgb_by_generator:
-      return "vertex colours are taken as sRGB, as its generator stores them";
+      return "vertex colours are read as sRGB, because the file's generator stores them so";
     case Kind::vertex_colors_linear_by_gltf:
-      return "vertex colours are taken as linear, as glTF says";
+      return "vertex colours are read as linear, as glTF specifies";
     case Kind::colors_multiplied:
-      return "texture, factor and vertex colour are multiplied as display-referred values, which "
-             "comes near to the product in linear light that glTF asks for, but is not the same";
+      return "texture, factor and vertex colour are multiplied as display-referred values; this "
+             "approximates the product in linear light that glTF specifies";
     case Kind::materials_unlit:
       return "lit materials are drawn unlit, by their base colour";
     case Kind::blending_cut_out:
       return "blended materials are drawn as cut-outs at an alpha of 0.5";
     case Kind::alpha_half_restored:
       return std::to_string(counts[0]) + " of " + std::to_string(counts[1]) +
-             " texels have an alpha byte of 127, and hardly any 126 or 128: taken for a truncated "
-             "1/2 and made 128, so that they are drawn as in training";
+             " texels have an alpha byte of 127, and hardly any have 126 or 128: 127 is assumed to "
+             "be a truncated 1/2 and becomes 128, so that they are drawn as in training";
     case Kind::mean_colors_shown:
-      return names[0] + " is read from .glb alone: mean colours are shown";
+      return names[0] + " is read only from .glb: mean colours are drawn";
     case Kind::animations_dropped:
       return "animations are not played";
     case Kind::skins_dropped:
@@ -171,21 +172,21 @@ std::string describe(const Remark& remark) {
     case Kind::primitives_without_positions_dropped:
       return "primitives without POSITION are not drawn";
     case Kind::other_projections_dropped:
-      return "cameras that are not perspective are left out";
+      return "cameras that are not perspective are skipped";
     case Kind::blind_cameras_dropped:
-      return "cameras that see nothing are left out";
+      return "cameras that see nothing are skipped";
     case Kind::window_parameters_dropped:
-      return "vertex weights and sigma are not kept: trained to the end, every triangle is opaque";
+      return "vertex weights and sigma are ignored: after full training every triangle is opaque";
     case Kind::screen_interpolation_dropped:
-      return "colours are interpolated in perspective, its own renderer interpolates them on the "
-             "screen: large triangles near the camera differ";
+      return "colours are interpolated in perspective, but in screen space by the original "
+             "renderer: large triangles near the camera differ";
     case Kind::shapes_missing:
-      return shapes(counts) + "missing: the rest is drawn";
+      return shapes(counts) + "missing: the others are drawn";
     case Kind::shapes_untextured:
-      return shapes(counts) + "without feature images: the rest is drawn";
+      return shapes(counts) + "without feature images: the others are drawn";
     case Kind::preset_dropped:
-      return "the preset chooses among soft triangles, some of which are not drawn: it is left "
-             "out";
+      return "the preset selects soft triangles, but some of them are not drawn: the preset is "
+             "ignored";
     case Kind::preset_applied:
       return "the file's preset was applied to the data: " + listed(names);
     case Kind::preset_keys_ignored:
@@ -200,18 +201,18 @@ std::string describe(const Remark& remark) {
     case Kind::meta_missing:
       return "meta.json is missing: level 5, up -y and a black background are assumed";
     case Kind::level_missing:
-      return "meta.json names no level: 5 is assumed";
+      return "meta.json has no level: 5 is assumed";
     case Kind::image_size_missing:
-      return "the file names no image size; " + std::to_string(counts[0]) + " x " +
+      return "the file has no image size; " + std::to_string(counts[0]) + " x " +
              std::to_string(counts[1]) + " is assumed";
     case Kind::lens_dropped:
-      return "the lens distortion of the file is left out: images are those of a pinhole";
+      return "the file's lens distortion is ignored: cameras are pinholes";
     case Kind::lens_undone:
-      return "Lens distortion was undone by resampling" +
+      return "Lens distortion was removed by resampling" +
              (counts[0] + counts[1] == 0
                   ? std::string()
                   : "; up to " + std::to_string(counts[0]) + " columns and " +
-                        std::to_string(counts[1]) + " rows without a source were cut off") +
+                        std::to_string(counts[1]) + " rows without source pixels were cropped") +
              ".";
   }
   return "";

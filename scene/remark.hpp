@@ -28,7 +28,7 @@ struct Remark {
     corners_dropped,         // counts: corners. names: the primitive
     coordinates_rounded,     // from double to float
     soft_triangles_opaque,   // values: mean solidity, mean opacity
-    soft_triangles_dropped,  // counts: dropped, all. values: the least opacity kept
+    soft_triangles_dropped,  // counts: dropped, all. values: the smallest kept opacity
     // Colours.
     color_components_clamped,  // counts: components
     face_colors_dropped,       // the file has vertex colours as well
@@ -43,7 +43,7 @@ struct Remark {
     materials_unlit,
     blending_cut_out,
     alpha_half_restored,  // counts: texels changed, all
-    mean_colors_shown,    // names: the extension that is read from .glb alone
+    mean_colors_shown,    // names: the glTF extension, which is read only from .glb
     // Parts that are not drawn.
     animations_dropped,
     skins_dropped,

@@ -17,7 +17,7 @@ OpaqueResult to_opaque(SoftTriangles soft, float minimum_opacity) {
   double mean_solidity = 0, mean_opacity = 0;
   std::size_t kept = 0;
   for (std::size_t t = 0; t < count; ++t) {
-    // Negated so that a NaN opacity is dropped too.
+    // Negated, so that a NaN opacity is dropped too.
     if (!(soft.opacity[t] >= minimum_opacity)) continue;
     mean_solidity += solidity(soft.opacity[t], soft.sigma[t]);
     mean_opacity += soft.opacity[t];

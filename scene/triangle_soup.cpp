@@ -57,7 +57,7 @@ struct FindDefect {
       if (patch.level > std::uint32_t(lattice::max_level))
         return "a lattice level of " + std::to_string(patch.level) + " is outside 0..7";
       if (patch.first_texel + std::size_t(lattice::texel_count(int(patch.level))) > texels)
-        return "a lattice patch reaches past the last of " + std::to_string(texels) + " texels";
+        return "a lattice patch extends past the last of " + std::to_string(texels) + " texels";
     }
     if (texture.mlp) return tureen::defect(*texture.mlp, LatticeTexture::features);
     return {};
@@ -76,11 +76,11 @@ struct FindDefect {
     for (const Image8& image : textures.images)
       if (image.width < 1 || image.height < 1 ||
           image.pixels.size() != std::size_t(image.width) * image.height)
-        return std::string("a texture image is empty or of the wrong size");
+        return std::string("a texture image is empty or has a wrong size");
     for (const UvMaterial& material : textures.materials)
       if (Defect found = defect_of(material, textures)) return found;
     if (textures.mlp && !textures.vertex_rgba.empty())
-      return std::string("vertex colours beside a color MLP mean nothing");
+      return std::string("vertex colours cannot be combined with a color MLP");
     if (textures.mlp) return tureen::defect(*textures.mlp, 8);
     return {};
   }

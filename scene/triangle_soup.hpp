@@ -56,7 +56,7 @@ struct LatticeTexture {
   static constexpr int channels = features + 1;  // f0 .. f6, alpha
 
   std::vector<LatticePatch> patches;  // one a face; faces may share texels
-  /// `channels` values a texel, in [0, 1]: bytes stand for byte / 255.
+  /// `channels` values a texel, in [0, 1]; a byte has the value byte / 255.
   std::variant<std::vector<std::uint8_t>, std::vector<float>> texels;
   std::optional<ColorMlp> mlp;
 

@@ -6,14 +6,13 @@
 #include "texel_store.glsl"
 
 uniform sampler2DArray coefficients;  // HARMONICS_COUNT texels an element
-uniform sampler2DArray anchors;       // the point of an element that d is taken at
+uniform sampler2DArray anchors;       // the point of an element from which d points to the eye
 
 vec3 element_color(uint element) {
   vec3 anchor = texelFetch(anchors, texel_position(element), 0).xyz;
   vec3 to_eye = -((anchor - eye_high) - eye_low);
   float distance = length(to_eye);
-  // At the eye itself there is no direction: any will do, as long as it is not NaN
-  // (docs/numerics.md, V5).
+  // At the eye the direction is undefined; any finite one is valid (docs/numerics.md, V5).
   vec3 d = distance > 0.0 ? VIEW_SIGN * to_eye / distance : vec3(0.0, 0.0, 1.0);
   float basis[HARMONICS_COUNT];
   harmonics_basis(d, basis);

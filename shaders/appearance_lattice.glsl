@@ -1,5 +1,5 @@
-// A lattice of seven features and alpha a face. LATTICE_LEVEL >= 0 means that every face has that
-// level and its texels follow each other in face order; -1 means that `patches` says where.
+// A lattice of seven features and alpha a face. LATTICE_LEVEL >= 0: every face has that level, and
+// texels are stored in face order. -1: `patches` locates the texels of each face.
 #include "lattice.glsl"
 #include "texel_store.glsl"
 
@@ -8,11 +8,12 @@ uniform sampler2DArray features0;  // f0..f3
 uniform sampler2DArray features1;  // f4..f6
 #endif
 // Alpha at the four corners of each lattice cell: (x+1, y), (x, y+1), (x, y), (x+1, y+1). The cells
-// of a face follow each other as the texels of a lattice one row smaller do. A cut-out costs one read.
+// of a face are ordered like the texels of a lattice with one row less. The alpha test needs one
+// read.
 #if ALPHA_BY_CELL
 uniform sampler2DArray alpha_cells;
 #else
-uniform sampler2DArray alpha_texels;  // or of each texel, where memory is short: three reads
+uniform sampler2DArray alpha_texels;  // alpha of each texel: less memory, three reads
 #endif
 #if LATTICE_LEVEL < 0
 uniform usampler2DArray patches;  // first texel, level, first cell
@@ -51,7 +52,7 @@ float fragment_alpha(uint face, vec2 b) {
                     texelFetch(alpha_texels, texel_position(texels.y), 0).r);
   float third = texelFetch(alpha_texels, texel_position(texels.z), 0).r;
 #endif
-  // In the form that returns a constant exactly: an alpha of 1/2 throughout has no holes.
+  // This form reproduces constants exactly: a constant alpha of 1/2 has no holes.
   return third + weights.x * (alpha.x - third) + weights.y * (alpha.y - third);
 }
 

@@ -1,5 +1,5 @@
-// Conventional textures: a material is a rectangle of texels within one linear store, sampled by
-// hand so that no driver's filtering stands between us and the oracle.
+// Conventional textures: a material is a rectangle of texels within one linear store, sampled in
+// the shader, so that drivers' filtering does not differ from the oracle's.
 #include "texel_store.glsl"
 
 uniform sampler2DArray texels0;  // colour, or the first four features
@@ -42,7 +42,7 @@ Material material_of(uint face) {
   return material;
 }
 
-// GLSL leaves % undefined where an operand is negative, and llvmpipe takes it at its word.
+// % is undefined in GLSL for negative operands, and unreliable on llvmpipe.
 int modulo(int i, int n) {
   int remainder = abs(i) % n;
   return i < 0 && remainder > 0 ? n - remainder : remainder;

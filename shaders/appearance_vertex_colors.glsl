@@ -4,7 +4,7 @@
 uniform sampler2DArray colors;  // three texels a face
 
 vec4 interpolated_color(uint face, vec2 b) {
-  // In the form that returns a constant exactly: an alpha of 1/2 throughout has no holes.
+  // This form reproduces constants exactly: a constant alpha of 1/2 has no holes.
   vec4 third = texelFetch(colors, texel_position(3u * face + 2u), 0);
   return third + b.x * (texelFetch(colors, texel_position(3u * face), 0) - third) +
          b.y * (texelFetch(colors, texel_position(3u * face + 1u), 0) - third);

@@ -1,5 +1,5 @@
-// The published DiffSoup viewer's first pass (a likeness, for comparison): samples all eight
-// channels of every fragment, tests alpha, and stores features in two 8-bit targets.
+// First pass of the baseline, a reimplementation of the published DiffSoup viewer: samples all
+// eight channels of every fragment, tests alpha, and stores features in two 8-bit targets.
 #include "lattice.glsl"
 
 uniform sampler2D lut0;  // f0..f3

@@ -1,6 +1,6 @@
-// The published DiffSoup viewer's second pass (a likeness, for comparison): the network on every
-// pixel of the window, its weights in mat4 uniforms, the view direction by unprojecting the near and
-// the far plane.
+// Second pass of the baseline, a reimplementation of the published DiffSoup viewer: evaluates the
+// network on every pixel of the window, with weights in mat4 uniforms and the view direction from
+// unprojecting the near and the far plane.
 uniform sampler2D target0;
 uniform sampler2D target1;
 uniform mat4 world_from_clip;

@@ -1,4 +1,4 @@
-// Each pixel from the same pixel of another image: the least that a pass over all pixels can do.
+// Copies each pixel of another image: the minimum work of a pass over all pixels.
 uniform highp sampler2D image;
 
 layout(location = 0) out vec4 color;

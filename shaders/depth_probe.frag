@@ -1,5 +1,4 @@
-// The stored depth of one pixel, bit by bit: the common way to read depth where only colours can be
-// read.
+// The stored depth of one pixel as bits. OpenGL ES can read back only colours.
 uniform highp sampler2D depth;
 uniform ivec2 pixel;
 

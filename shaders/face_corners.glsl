@@ -1,5 +1,5 @@
-// The three corners of a face as the camera sees them, and what follows from them for a pixel:
-// normal, depth, and how far its edges are.
+// The three corners of a face relative to the eye, and from them a pixel's normal, depth and
+// distance to the edges.
 #include "eye.glsl"
 #include "texel_store.glsl"
 
@@ -19,15 +19,15 @@ mat3 corners_from_eye(uint face) {
 
 float largest_component(vec3 v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
 
-// Across both edges. Those of a needle may have a product of 0 in floats, which says nothing of
-// where its face looks: any number is better than none.
+// The unit vector orthogonal to both edges. A needle's edges may have a cross product of 0 in
+// floats; any direction is then better than NaN.
 vec3 unit_normal(vec3 u, vec3 v) {
   vec3 across = cross(u, v);
   return dot(across, across) > 0.0 ? normalize(across) : vec3(0.0, 0.0, 1.0);
 }
 
-// Of unit length, whatever the size of the face: the edges are scaled before they are multiplied.
-// Taken from the stored corners, whose differences are exact to a rounding.
+// The unit normal of a face of any size: the edges are scaled before the product. It uses the
+// stored corners, because their differences have only one rounding.
 vec3 face_normal(uint face) {
   vec3 a = texelFetch(corners, texel_position(3u * face), 0).xyz;
   vec3 u = texelFetch(corners, texel_position(3u * face + 1u), 0).xyz - a;
@@ -35,8 +35,8 @@ vec3 face_normal(uint face) {
   return unit_normal(u / largest_component(u), v / largest_component(v));
 }
 
-// Where the ray, whose depth along the viewing axis is 1, meets the face's plane. Seen edge-on the
-// plane says little: no fragment lies beyond the corners.
+// The depth at which the ray, of depth 1 along the viewing axis, meets the face's plane. It is
+// clamped to the corners' depths, because an edge-on plane is imprecise.
 float depth_on(uint face, vec3 normal, vec3 ray) {
   mat3 from_eye = corners_from_eye(face);
   vec3 depths = view_axis * from_eye;
@@ -45,8 +45,8 @@ float depth_on(uint face, vec3 normal, vec3 ray) {
   return clamp(dot(normal, from_eye[0]) / dot(normal, ray), low, high);
 }
 
-// Pixels to the nearest edge of the face, in the image. In homogeneous coordinates around the
-// pixel's centre the line through two corners is their cross product, also where one of them lies
+// Distance to the nearest edge of the face, in pixels of the image. In homogeneous coordinates
+// around the pixel's centre, the line through two corners is their cross product, even if one is
 // behind the eye.
 float pixels_to_edge(uint face, vec2 pixel) {
   mat3 from_eye = corners_from_eye(face);

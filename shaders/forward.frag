@@ -1,4 +1,4 @@
-// Colour at once, for appearances so cheap that a second pass would cost more.
+// Colour in the only pass, for appearances that cost less than a second pass.
 #include "appearance.glsl"
 #include "simplex.glsl"
 #include "view_direction.glsl"

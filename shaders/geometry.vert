@@ -1,5 +1,5 @@
 // Unshared triangles: gl_VertexID / 3 is the face. Works in camera-relative coordinates, so that a
-// scene far from the origin loses nothing (docs/numerics.md, G3).
+// scene far from the origin loses no precision (docs/numerics.md, G3).
 layout(location = 0) in vec3 position;  // relative to the soup's origin
 
 uniform vec3 eye_high, eye_low;  // their sum is the eye; position - eye_high is exact when close

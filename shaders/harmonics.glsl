@@ -1,5 +1,5 @@
-// Real spherical harmonics up to HARMONICS_DEGREE (0..4) in the order of scene/spherical_harmonics.hpp;
-// a test holds the two equal. `d` is of unit length.
+// Real spherical harmonics up to HARMONICS_DEGREE (0..4) in the order of
+// scene/spherical_harmonics.hpp; a test compares the two. `d` is of unit length.
 #define HARMONICS_COUNT ((HARMONICS_DEGREE + 1) * (HARMONICS_DEGREE + 1))
 
 void harmonics_basis(vec3 d, out float basis[HARMONICS_COUNT]) {

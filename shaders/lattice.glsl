@@ -1,4 +1,5 @@
-// The triangular lattice of one face; scene/lattice.hpp states the same rule, a test holds them equal.
+// The triangular lattice of one face; scene/lattice.hpp has the same definition, and a test
+// compares the two.
 struct LatticeFootprint {
   uvec3 texels;
   vec3 weights;
@@ -9,7 +10,7 @@ uint lattice_texel_index(int x, int y) {
   return uint(diagonal * (diagonal + 1) / 2 + y);
 }
 
-// The cell that a point lies in, and where in it: (0, 0) at its corner (x, y), 1 a texel further.
+// The cell of a point, and the position in it in texels: (0, 0) at its corner (x, y).
 struct LatticeCell {
   int x, y;
   vec2 p;
@@ -34,7 +35,7 @@ LatticeFootprint lattice_footprint(int level, vec2 b) {
   LatticeCell cell = lattice_cell(level, b);
   bool upper;
   vec3 weights = lattice_weights(cell.p, upper);
-  // On the last diagonal the fourth corner lies outside the lattice: the border texel stands in.
+  // On the last diagonal the fourth corner lies outside the lattice: the border texel replaces it.
   int corner_y = min(cell.y + 1, (1 << level) - (cell.x + 1));
   uint third = upper ? lattice_texel_index(cell.x + 1, corner_y) : lattice_texel_index(cell.x, cell.y);
   return LatticeFootprint(uvec3(lattice_texel_index(cell.x + 1, cell.y),

@@ -1,2 +1,2 @@
-// Nothing: what triangles cost a device before anybody looks at a fragment.
+// An empty shader, to measure the cost of triangles without shading.
 void main() {}

@@ -5,7 +5,7 @@
 
 namespace tureen::shaders {
 
-/// The text of a file by its name, such as "shading.frag"; empty when there is no such file.
+/// The text of a file by its name, such as "shading.frag"; empty if there is no such file.
 std::string_view text(std::string_view name);
 
 }  // namespace tureen::shaders

@@ -1,5 +1,6 @@
-// shading.frag as a compute shader: an invocation a pixel, in square groups. Needs GLSL 4.30 or
-// ES 3.10; nothing else does. Where DEPTH_REJECTS_BACKGROUND is set the background's colour is there already.
+// shading.frag as a compute shader: one invocation a pixel, in square groups. It is the only shader
+// that needs GLSL 4.30 or ES 3.10. With DEPTH_REJECTS_BACKGROUND, the target already has the
+// background's colour.
 #include "visible_color.glsl"
 
 layout(local_size_x = GROUP_SIDE, local_size_y = GROUP_SIDE) in;

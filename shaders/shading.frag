@@ -1,4 +1,4 @@
-// Colours the pixels that the visibility pass has named.
+// Colours the covered pixels of the visibility pass.
 #include "visible_color.glsl"
 
 #if !DEPTH_REJECTS_BACKGROUND

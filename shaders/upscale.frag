@@ -1,12 +1,12 @@
-// Linear interpolation between the centres of coarser samples, by hand: a sampler's own weights may
-// have no more than 8 bits, and know nothing of alpha.
+// Linear interpolation between the centres of coarser samples, computed in the shader: a sampler's
+// weights may have only 8 bits, and ignore alpha.
 uniform sampler2D samples;
 uniform vec2 samples_per_pixel;
 
 layout(location = 0) out vec4 color;
 
 void main() {
-  // Beyond the outermost centres the border's samples are repeated.
+  // Pixels beyond the outermost centres repeat the border's samples.
   vec2 last = vec2(textureSize(samples, 0) - 1);
   vec2 at = clamp(gl_FragCoord.xy * samples_per_pixel - 0.5, vec2(0.0), last);
   ivec2 low = ivec2(at);
@@ -17,7 +17,7 @@ void main() {
   vec4 weights = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
   vec4 alphas = weights * vec4(a.a, b.a, c.a, d.a);
   float alpha = alphas.x + alphas.y + alphas.z + alphas.w;
-  // Where nothing is opaque the colours count as they are.
+  // If all alphas are 0, the colours are not weighted by alpha.
   if (alpha > 0.0) weights = alphas / alpha;
   color = vec4(weights.x * a.rgb + weights.y * b.rgb + weights.z * c.rgb + weights.w * d.rgb, alpha);
 }

@@ -1,5 +1,5 @@
-// Names the winning fragment of each pixel instead of storing its features: the face, and two
-// barycentrics of 16 bits (1/65535 of a face is 1/512 of a texel at level 7).
+// Stores the visible fragment of each pixel instead of its features: the face, and two barycentrics
+// of 16 bits (1/65535 of a face is 1/512 of a texel at level 7).
 #include "appearance.glsl"
 #include "simplex.glsl"
 

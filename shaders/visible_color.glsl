@@ -1,5 +1,5 @@
-// The colour of a fragment that the visibility pass has named: the one shading function of
-// shading.frag and shading.comp.
+// The colour of a fragment from the visibility pass: the shading function of shading.frag and
+// shading.comp.
 #include "appearance.glsl"
 #include "stored_fragment.glsl"
 #include "view_direction.glsl"

@@ -1,4 +1,4 @@
-// The camera path that is being made: its keyframes, where it plays, and how it will be written.
+// The camera path of the session: keyframes, playback and output settings.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -11,10 +11,10 @@ namespace tureen::viewer {
 struct Animation {
   CameraPath path;
   bool plays = false;
-  bool scrubbed = false;  // the slider is held: the image follows
-  double seconds = 0;     // where it plays, from the first keyframe
+  bool scrubbed = false;  // the slider is held, and the image follows it
+  double seconds = 0;     // playback time from the first keyframe
   int selected = -1;      // keyframe
-  std::string file;       // of the JSON
+  std::string file;       // path of the JSON file
   double turn_seconds = 8;
 
   enum class Output { frames, mp4, webm };
@@ -22,11 +22,11 @@ struct Animation {
   double frames_per_second = 30;
   glm::ivec2 size{1280, 720};
 
-  /// Plays, from the beginning where it is at its end; or stops.
+  /// Starts playback, from the beginning if it is at the end; or stops it.
   void toggle();
-  /// Time goes on; a path that ends stops there.
+  /// Advances playback by seconds. A path without a loop stops at its end.
   void advance(double by);
-  /// The camera of this moment. Asserts keyframes.
+  /// The camera at the playback time. Asserts keyframes.
   Camera camera(glm::ivec2 pixels) const;
 };
 

@@ -19,21 +19,20 @@ namespace tureen::viewer {
 
 namespace {
 
-/// Dear ImGui reacts to an event in the frame after it, and windows that size themselves take
-/// another.
+/// Dear ImGui reacts to an event in the next frame, and self-sizing windows need one more.
 constexpr int frames_after_event = 3;
 
-/// The time constant of gliding, as CameraControls has it at first.
+/// The time constant of smooth motion, in seconds: the default of CameraControls.
 const double gliding_seconds = CameraControls().smoothing();
 
-/// A new scale of the screen is worth new fonts, and panels that forget what was open; what
-/// rounding makes of a window that is being resized is not.
+/// Relative change of the screen's scale from which the interface is recreated, with new fonts and
+/// closed panels. Rounding while the window is resized changes the scale by less.
 constexpr double min_rescaling = 0.05;
 
-/// How long the window sleeps when nothing happens: what it looks at by itself are files.
+/// Wait without events, in seconds. Then the window only checks files for changes.
 constexpr double idle_seconds = 0.5;
 
-/// After a pause (the window was idle, the machine asleep) no more than this is flown at once.
+/// Largest time step of a frame, in seconds, after a pause (idle window, sleeping machine).
 constexpr double longest_step = 0.1;
 
 WindowOptions window_options(const ApplicationOptions& options, const Settings& settings) {
@@ -47,8 +46,8 @@ Settings settings_of(const ApplicationOptions& options) {
   return options.settings ? read_settings(*options.settings) : Settings{};
 }
 
-/// The events of a frame: no button or key changes twice within one, or whoever only looks at
-/// states once a frame would miss a click.
+/// Takes the events of one frame. No button or key changes twice in a frame: Dear ImGui reads
+/// states once a frame and would miss a click.
 std::vector<Event> take_frame(std::vector<Event>& pending) {
   std::bitset<key_count> keys;
   std::bitset<3> buttons;
@@ -73,14 +72,14 @@ std::vector<Event> take_frame(std::vector<Event>& pending) {
   return result;
 }
 
-/// What the layout is scaled by: where points are larger than pixels, they are that already.
+/// Scale of the layout. Points that are larger than pixels already include a part of it.
 double layout_scale(const Window& window) {
   if (window.pixels().x < 1 || window.size().x < 1) return window.content_scale();  // minimised
   const double pixels_per_point = double(window.pixels().x) / window.size().x;
   return window.content_scale() / std::max(pixels_per_point, 1.0);
 }
 
-/// Throws OutputError with both names.
+/// Throws OutputError with both paths.
 void replace_file(const FileReplaced& files) {
   std::error_code failed;
   std::filesystem::copy_file(files.from, files.to,
@@ -101,7 +100,7 @@ Application::Application(ApplicationOptions options)
   if (options_.replay) replay_.emplace(*options_.replay);
   state_.settings = settings_of(options_);
   if (!options_.record.empty()) recorder_.emplace(window_.size());
-  // A replay waits for nobody's screen.
+  // A replay does not wait for the screen.
   vsync_ = state_.settings.vsync && !replay_;
   window_.set_vsync(vsync_);
   if (!options_.scene.empty()) state_.ask(OpenPath{options_.scene});
@@ -123,7 +122,7 @@ void Application::run() {
   try {
     while (!quit_ && !(options_.interrupted && options_.interrupted())) frame();
   } catch (...) {
-    // A lost device, most likely. What cannot be written then adds nothing to what is told of that.
+    // Most likely a lost device. Further write errors add nothing to its message.
     for (const auto keep : {&Application::keep_session, &Application::keep_settings}) {
       try {
         (this->*keep)();
@@ -174,7 +173,8 @@ std::vector<Event> Application::gather_live() {
 std::vector<Event> Application::gather() {
   if (!replay_) return gather_live();
   for (const Event& event : window_.events(0))
-    if (std::holds_alternative<CloseAsked>(event)) quit_ = true;  // all else is the session's
+    if (std::holds_alternative<CloseAsked>(event))
+      quit_ = true;  // other events come from the session
   if (pending_.empty()) {
     if (replay_->finished()) quit_ = true;
     pending_ = replay_->next(at_rest()).events;
@@ -196,11 +196,11 @@ void Application::frame() {
     worker_.collect();
     writer_.collect();
   } catch (const std::exception& error) {
-    state_.messages.error("That did not work", error.what(), now);
+    state_.messages.error("The operation failed", error.what(), now);
   }
   state_.busy = worker_.status();
   state_.writing = writer_.status();
-  // Whoever replays this on a slower machine waits as long as it takes there.
+  // A replay on a slower machine then waits until loading has finished there.
   if (recorder_ && was_loading && !state_.busy)
     recorder_->add(now, std::vector<Event>{AwaitRest{}});
   if (state_.busy || state_.writing || was_busy) frames_wanted_ = std::max(frames_wanted_, 1);
@@ -272,7 +272,7 @@ void Application::move(double seconds) {
   if (animation.path.empty()) animation.plays = animation.scrubbed = false;
   if (!animation.plays && !animation.scrubbed) return;
   animation.advance(seconds);
-  animation.scrubbed = false;  // the panel says so again where it is
+  animation.scrubbed = false;  // the panel sets it again while the slider is held
   state_.controls.adopt(animation.camera(state_.pixels));
   state_.controls.arrive();
 }
@@ -297,14 +297,14 @@ void Application::draw(const std::vector<Event>& events, double busy_seconds) {
 
 void Application::draw_image() {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  gl::use_plain_rasterisation(1, 1);  // clearing heeds masks and scissors, not the viewport
+  gl::use_plain_rasterisation(1, 1);  // clearing depends on masks and scissor, not on the viewport
   const float empty[4] = {0.06f, 0.06f, 0.07f, 1.0f};
   glClearBufferfv(GL_COLOR, 0, empty);
   if (!state_.stage) return;
   try {
     draw_scene();
   } catch (const DeviceLimitError& error) {
-    // A window too large for so many samples a pixel, most likely.
+    // Most likely the window is too large for this number of samples a pixel.
     state_.messages.error("The image cannot be drawn", error.reason(), state_.now);
     image_is_current_ = false;
     DrawingChoice choice = state_.stage->choice;

@@ -1,5 +1,5 @@
-// The window's life: events in, state changed, requests carried out, a frame drawn; and nothing at
-// all while nothing moves.
+// The main loop: reads events, changes the state, carries out requests and draws a frame. It sleeps
+// while nothing moves.
 #pragma once
 
 #include <chrono>
@@ -22,23 +22,22 @@
 namespace tureen::viewer {
 
 struct ApplicationOptions {
-  std::filesystem::path scene;    // empty: none at first
-  std::filesystem::path dataset;  // likewise
+  std::filesystem::path scene;    // empty: none
+  std::filesystem::path dataset;  // empty: none
   DrawingChoice drawing = {};
   gl::Api api = gl::Api::desktop;
-  std::optional<glm::ivec2> window = {};          // in points; the last run's otherwise
-  std::optional<std::filesystem::path> settings;  // where they are kept; nothing: nowhere
-  std::optional<Session> replay;                  // done instead of what a person does
-  std::filesystem::path record;                   // where the session is written; empty: nowhere
-  std::function<bool()> interrupted = {};         // asked twice a second: end as if closed
-  std::filesystem::path images;                   // folder for images; empty: as the settings say
+  std::optional<glm::ivec2> window = {};          // in points; default: of the last run
+  std::optional<std::filesystem::path> settings;  // file; nullopt: not stored
+  std::optional<Session> replay;                  // replaces the user's events
+  std::filesystem::path record;                   // file for the session; empty: none
+  std::function<bool()> interrupted = {};         // called twice a second; true closes the window
+  std::filesystem::path images;                   // folder for images; empty: that of the settings
 };
 
-/// What a run tells of itself.
+/// Measurements of a run.
 struct RunReport {
-  double first_image_seconds = -1;  // from the start, before the window was opened; -1: none
-  /// The longest that a frame kept the main thread outside of drawing, over frames in which
-  /// something was being loaded.
+  double first_image_seconds = -1;  // since before the window opened; -1: no image
+  /// Longest time of a frame on the main thread without drawing, over frames during loading.
   double longest_busy_ms = 0;
 };
 
@@ -48,13 +47,13 @@ class Application {
   explicit Application(ApplicationOptions options);
   ~Application();
 
-  /// Until the window is closed, or the session is at its end; then writes the session and the
-  /// settings. Throws OutputError where they cannot be written, and ContextError where the device
-  /// was lost: they are written, then, too.
+  /// Runs until the window is closed or the session ends, then writes the session and the settings.
+  /// Throws OutputError if they cannot be written. Throws ContextError if the device is lost, after
+  /// writing them too.
   void run();
 
   const RunReport& report() const { return report_; }
-  /// What a replayed session ended with: the error messages that are still shown.
+  /// The error messages shown at the end of a session.
   std::vector<std::string> errors() const;
 
  private:
@@ -114,13 +113,13 @@ class Application {
   ApplicationOptions options_;
   std::optional<Replay> replay_;
   Window window_;
-  State state_;  // what it holds of GL goes before the window
+  State state_;  // its GL objects are destroyed before the window
   std::unique_ptr<Gui> gui_;
   double gui_scale_ = 1;
   FrameClock frame_clock_;
   NavigationInput navigation_;
   std::optional<Recorder> recorder_;
-  std::vector<std::filesystem::path> promised_;  // names of images that are being written
+  std::vector<std::filesystem::path> promised_;  // paths of images that are being written
   std::vector<Event> pending_;
   FileWatch watch_;
   double watched_ = 0, last_ = 0;

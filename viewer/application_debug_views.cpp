@@ -1,5 +1,4 @@
-// What is looked at beside the colours, prepared when it is first asked for: debug views, and the
-// comparison with a photograph.
+// Debug views and the comparison with a photograph. Both are prepared on first use.
 #include "base/error.hpp"
 #include "image/heat_map.hpp"
 #include "viewer/application.hpp"
@@ -32,7 +31,7 @@ void Application::prepare_debug_view_when_needed() {
                      [this](const std::string& reason) {
                        state_.debug_view.what = DebugView::color;
                        debug_renderer_asked_ = false;
-                       state_.messages.error("It cannot be looked into", reason, state_.now);
+                       state_.messages.error("The debug view cannot be shown", reason, state_.now);
                      }});
 }
 
@@ -52,13 +51,13 @@ void Application::compare_when_needed() {
     renderer.draw(photograph->camera);
   } catch (const DeviceLimitError& error) {
     comparison.show = Comparison::Show::off;
-    image_is_current_ = false;  // the window's went with its targets
+    image_is_current_ = false;  // the targets of the window's image are gone
     state_.messages.error("The photograph cannot be compared", error.reason(), state_.now);
     return;
   }
   const int ticket = comparison.ticket;
   auto drawn = std::make_shared<Image8>(renderer.read_color());
-  image_is_current_ = false;  // the window's comes next
+  image_is_current_ = false;  // the renderer now has the photograph's view
   auto held = std::make_shared<Image8>(photograph->image);
   const glm::vec3 background = state_.stage->scene->info.background;
   worker_.start({.kind = JobKind::comparison,
@@ -70,7 +69,7 @@ void Application::compare_when_needed() {
                        const Metrics metrics = compare(ours, theirs, {.with_flip = false});
                        auto map = std::make_shared<Image8>(difference(ours, theirs));
                        return Worker::Completion([this, metrics, map, ticket] {
-                         if (state_.comparison.ticket != ticket) return;  // the view has moved on
+                         if (state_.comparison.ticket != ticket) return;  // the view has changed
                          state_.comparison.result = Comparison::Result{metrics, ImageTexture(*map)};
                        });
                      },

@@ -1,4 +1,4 @@
-// Requests for images, animations, camera paths and the command line, carried out.
+// Carries out requests for images, animations, camera paths and the command line.
 #include <algorithm>
 #include <span>
 
@@ -13,9 +13,9 @@ namespace tureen::viewer {
 
 namespace fs = std::filesystem;
 
-/// Says so where there is none.
+/// Shows a note if there is no scene.
 bool Application::has_scene() {
-  if (!state_.stage) state_.messages.note("There is no scene yet: open one first", state_.now);
+  if (!state_.stage) state_.messages.note("There is no scene: open one first", state_.now);
   return state_.stage != nullptr;
 }
 
@@ -24,7 +24,7 @@ fs::path Application::folder_of_images() const {
   return state_.settings.images.empty() ? images_folder() : fs::path(state_.settings.images);
 }
 
-/// A name that nothing has, and that nothing which waits to be written will have.
+/// A path that no file has, and no image waiting to be written.
 fs::path Application::image_path(const std::string& extension) {
   const fs::path folder = folder_of_images();
   make_folder(folder);
@@ -92,7 +92,7 @@ void Application::carry_out(const StopWriting&) {
 void Application::carry_out(const AddKeyframe&) {
   if (!has_scene()) return;
   Animation& animation = state_.animation;
-  // A second and a half between views until somebody says otherwise.
+  // Default time between views, in seconds.
   constexpr double apart = 1.5;
   const auto& keyframes = animation.path.data().keyframes;
   const double at = keyframes.empty() ? 0 : keyframes.back().seconds + apart;
@@ -140,7 +140,7 @@ void Application::carry_out(const CopyCommand&) {
   }
   window_.set_clipboard(
       render_command(*state_.stage, state_.stage->choice, state_.debug_view, camera, file));
-  state_.messages.note("The command that draws this image is in the clipboard", state_.now);
+  state_.messages.note("Copied the command for this image to the clipboard", state_.now);
 }
 
 }  // namespace tureen::viewer

@@ -1,4 +1,4 @@
-// What may be asked of the window, carried out: scenes, datasets and how they are drawn.
+// Carries out requests for scenes, datasets and the method of drawing.
 #include <algorithm>
 #include <iterator>
 
@@ -12,10 +12,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// How often the file is looked at.
+/// Seconds between checks of the scene's file.
 constexpr double watch_seconds = 1.0;
 
-/// Whether read_dataset is the door to knock at. Scenes that are folders have no photographs.
+/// Whether read_dataset() reads this path. Scenes in folders have no photographs.
 bool looks_like_photographs(const fs::path& path) {
   std::error_code ignored;
   if (!fs::is_directory(path, ignored)) return path.filename() == "transforms.json";
@@ -33,7 +33,7 @@ void Application::carry_out() {
     try {
       std::visit([this](const auto& each) { carry_out(each); }, request);
     } catch (const std::exception& error) {
-      state_.messages.error("That cannot be done", error.what(), state_.now);
+      state_.messages.error("The request failed", error.what(), state_.now);
     }
     frames_wanted_ = std::max(frames_wanted_, 2);
   }
@@ -82,7 +82,7 @@ void Application::show(std::unique_ptr<Stage> stage, bool keep_view) {
   debug_renderer_asked_ = false;
   state_.comparison.forget();
   frame_clock_.clear();
-  if (same_scene) return;  // only drawn by another choice
+  if (same_scene) return;  // only the method of drawing changed
   state_.debug_view.features = {};
   if (why_not(state_.debug_view.what, state_.stage->soup()))
     state_.debug_view.what = DebugView::color;
@@ -93,8 +93,8 @@ void Application::show(std::unique_ptr<Stage> stage, bool keep_view) {
     state_.controls.set_box(subject.low, subject.high);
   } else {
     state_.controls = CameraControls(subject);
-    lay_out(window_.size(), window_.pixels());  // with the panels that a scene brings
-    state_.controls.home();                     // of this viewport
+    lay_out(window_.size(), window_.pixels());  // with the panels of a scene
+    state_.controls.home();                     // for this viewport
     state_.controls.arrive();
     state_.recorded = -1;
     if (!state_.stage->scene->cameras.empty()) {
@@ -129,10 +129,9 @@ void Application::carry_out(const OpenPhotographs& request) {
                state_.photographs = std::move(photographs);
                state_.recorded = -1;
                state_.comparison = {};
-               state_.messages.note(
-                   std::to_string(state_.photographs->list.size()) +
-                       " photographs: [ and ] go through their cameras, C compares",
-                   state_.now);
+               state_.messages.note(std::to_string(state_.photographs->list.size()) +
+                                        " photographs: [ and ] select their cameras, C compares",
+                                    state_.now);
              });
            },
        .failed =
@@ -153,11 +152,11 @@ void Application::carry_out(const ReloadScene&) {
 }
 
 void Application::watch_file() {
-  // Not while another scene is on its way: reading this one again would take its place.
+  // Not while another scene is loading: a reload of this one would replace it.
   if (!state_.stage || state_.busy || state_.now - watched_ < watch_seconds) return;
   watched_ = state_.now;
   if (!watch_.changed()) return;
-  state_.messages.note(short_name(state_.stage->path) + " has changed and is read again",
+  state_.messages.note(short_name(state_.stage->path) + " has changed: reading it again",
                        state_.now);
   state_.ask(ReloadScene{});
 }
@@ -165,7 +164,7 @@ void Application::watch_file() {
 void Application::carry_out(const ChooseDrawing& request) {
   if (!state_.stage) return;
   state_.wanted = request.choice;
-  // The scene stays alive for the job whatever becomes of the stage meanwhile.
+  // The job keeps the scene alive, even if the stage changes meanwhile.
   auto from = std::make_shared<StageSource>(state_.stage->source());
   worker_.start({.kind = JobKind::drawing,
                  .what = "preparing " + short_name(state_.stage->path),
@@ -174,7 +173,7 @@ void Application::carry_out(const ChooseDrawing& request) {
                        std::shared_ptr<Stage> stage =
                            prepare_stage(*from, {window_.context(), choice, progress});
                        return Worker::Completion([this, stage]() mutable {
-                         // Another scene may have come meanwhile.
+                         // Another scene may have been loaded meanwhile.
                          if (!state_.stage || state_.stage->scene != stage->scene) return;
                          show(std::make_unique<Stage>(std::move(*stage)), true);
                        });
@@ -182,7 +181,8 @@ void Application::carry_out(const ChooseDrawing& request) {
                  .failed =
                      [this](const std::string& reason) {
                        if (state_.stage) state_.wanted = state_.stage->choice;
-                       state_.messages.error("It cannot be drawn so", reason, state_.now);
+                       state_.messages.error("The drawing options cannot be applied", reason,
+                                             state_.now);
                      }});
 }
 

@@ -1,4 +1,4 @@
-// The axes that can be up, and angles as people read them.
+// The axes that can be up, and the conversion of angles to degrees.
 #pragma once
 
 #include <array>
@@ -7,12 +7,12 @@
 
 namespace tureen::viewer {
 
-/// In the order in which the key goes through them: the likelier first. Of unit length.
+/// Unit vectors in the order of the key U: the likelier first.
 inline const std::array<glm::dvec3, 6> up_axes = {
     {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {-1, 0, 0}}};
 
-/// Whether a unit vector is that axis, to 2.6 degrees: an up that was taken from cameras is off by
-/// a little, and no two of the axes are nearer than 90.
+/// Whether a unit vector is that axis, to within 2.6 degrees. An up axis from cameras deviates
+/// slightly, and the axes are at least 90 degrees apart.
 inline bool is_axis(const glm::dvec3& direction, const glm::dvec3& axis) {
   return glm::dot(direction, axis) > 0.999;
 }

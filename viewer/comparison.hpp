@@ -1,5 +1,5 @@
-// The image held against the photograph of the camera that it is drawn from: side by side, as a
-// map of differences, and in numbers.
+// The comparison of the image with the photograph of the same camera: split, as a map of
+// differences, and as metrics.
 #pragma once
 
 #include <optional>
@@ -11,31 +11,31 @@
 
 namespace tureen::viewer {
 
-/// Where a photograph lies in the window, in points: its corners may lie outside.
+/// The rectangle of a photograph in the window, in points. Its corners may lie outside.
 struct PlacedPhotograph {
   glm::dvec2 low{0.0}, high{0.0};
 };
 
-/// The place at which each ray of the photograph's camera meets the same ray of the view's, which
-/// has the same pose: both are pinholes, so it is a rectangle. `points_per_pixel` is the window's.
+/// The rectangle in which the rays of the photograph's camera match those of the view. Both cameras
+/// are pinholes with the same pose. `points_per_pixel`: of the window.
 PlacedPhotograph place(const Camera& photograph, const Camera& view, double points_per_pixel);
 
 struct Comparison {
   enum class Show { off, split, photograph, difference };
   Show show = Show::off;
-  double divider = 0.5;  // of the image's width; left of it is the photograph
+  double divider = 0.5;  // fraction of the image's width; the photograph is on its left
 
-  int photograph = -1;  // the index of the one that `texture` shows
+  int photograph = -1;  // index of the one in `texture`; -1: none
   ImageTexture texture;
 
-  /// Of the scene as it is drawn now against that photograph, at the photograph's size.
+  /// The current rendering compared with that photograph, at the photograph's size.
   struct Result {
     Metrics metrics;
     ImageTexture difference;
   };
   std::optional<Result> result;
-  bool asked = false;  // a result is being made
-  int ticket = 0;      // grows when what was asked for is no longer wanted
+  bool asked = false;  // a result is being computed
+  int ticket = 0;      // incremented when the requested result becomes obsolete
 
   void forget() {
     result.reset();

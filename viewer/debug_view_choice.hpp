@@ -1,4 +1,4 @@
-// What of the soup the window shows.
+// The debug view shown by the window.
 #pragma once
 
 #include "runtime/debug_views/debug_view.hpp"

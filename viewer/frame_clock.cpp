@@ -14,7 +14,7 @@ constexpr std::size_t frames_in_flight = 4;
 FrameClock::FrameClock(const gl::Context& context, std::function<double()> clock)
     : clock_(std::move(clock)), why_no_passes_(gl::timers_mislead(context.capabilities())) {
   if (!why_no_passes_ && !context.capabilities().timer_queries)
-    why_no_passes_ = "this device has no timers";
+    why_no_passes_ = "this device has no timer queries";
   if (!why_no_passes_)
     for (std::size_t i = 0; i < frames_in_flight; ++i)
       timers_.push_back(std::make_unique<gl::PassTimer>(context));

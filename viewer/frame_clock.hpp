@@ -1,6 +1,6 @@
-// How long the last frames took, in parts: what the processor does to ask for a frame, and what the
-// device does to draw it. The device's own clock is read some frames late, so that nothing waits
-// for it; where it misleads (software GL), the frame is waited for and the wall clock tells both.
+// Times of the last frames: of the processor to submit a frame, and of the device to draw it. The
+// device's clock is read some frames late, so that nothing waits for it. If it is misleading
+// (software GL), the clock waits for each frame and measures both parts by wall time.
 #pragma once
 
 #include <array>
@@ -25,17 +25,17 @@ class FrameClock {
  public:
   static constexpr std::size_t frames_kept = 240;
 
-  /// `clock` tells seconds; a replayed session's stands still within a frame.
+  /// `clock` returns seconds; in a replayed session it stands still within a frame.
   FrameClock(const gl::Context& context, std::function<double()> clock);
 
-  /// Draws a frame of the renderer's and notes its parts.
+  /// Draws a frame with the renderer and records its times.
   void draw(Renderer& renderer, const Camera& camera);
 
-  /// The oldest first.
+  /// Oldest first, at most frames_kept.
   const std::vector<FrameParts>& frames() const { return frames_; }
-  /// (pass, ms) of the last frame whose passes are known.
+  /// The passes of the last frame with known pass times.
   const std::vector<gl::PassTimer::PassTime>& passes() const { return passes_; }
-  /// Why the passes are not known, a sentence; nothing where they are.
+  /// The reason why pass times are unknown, as a sentence, or nullopt.
   const std::optional<std::string>& why_no_passes() const { return why_no_passes_; }
   void clear();
 
@@ -44,7 +44,7 @@ class FrameClock {
 
   std::function<double()> clock_;
   std::optional<std::string> why_no_passes_;
-  /// Taken in turn: the oldest is read when its turn comes again, and is long done then.
+  /// Used in rotation: each is read before its next use, when its frame is long finished.
   std::vector<std::unique_ptr<gl::PassTimer>> timers_;
   std::size_t turn_ = 0;
   std::vector<FrameParts> frames_;

@@ -14,7 +14,7 @@ namespace tureen::viewer {
 
 namespace {
 
-// Held in turn: text fields ask for the clipboard without saying of which window.
+// Static, because Dear ImGui needs a pointer that stays valid until the next call.
 const char* read_clipboard(void* window) {
   static std::string text;
   text = static_cast<const Window*>(window)->clipboard();
@@ -50,7 +50,7 @@ void map_keys(ImGuiIO& io) {
   map(ImGuiKey_Z, Key::z);
 }
 
-/// Sans-serif fonts that desktops have, the likelier first.
+/// Common sans-serif fonts of desktops, the likelier first.
 std::optional<std::string> machine_font() {
   for (const char* path :
        {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
@@ -64,7 +64,7 @@ std::optional<std::string> machine_font() {
 
 void load_font(ImGuiIO& io, const GuiOptions& options) {
   const auto scale = static_cast<float>(std::clamp(options.scale, 1.0, 4.0));
-  // 15 points of a proportional font read like the 13 of the built-in one.
+  // 15 points of a proportional font are as readable as 13 points of the built-in font.
   const auto path = options.machine_font ? machine_font() : std::nullopt;
   if (path && io.Fonts->AddFontFromFileTTF(path->c_str(), 15.0f * scale)) return;
   ImFontConfig config;
@@ -72,7 +72,7 @@ void load_font(ImGuiIO& io, const GuiOptions& options) {
   io.Fonts->AddFontDefault(&config);
 }
 
-/// Quiet greys, so that the image is what has colour.
+/// Grey styles, so that only the image has colour.
 void dress(double scale) {
   ImGui::StyleColorsDark();
   ImGuiStyle& style = ImGui::GetStyle();
@@ -90,7 +90,7 @@ void dress(double scale) {
   style.ScaleAllSizes(static_cast<float>(std::clamp(scale, 1.0, 4.0)));
 }
 
-/// Each kind of event to Dear ImGui.
+/// Passes each kind of event to Dear ImGui.
 struct Feeder {
   ImGuiIO& io;
 
@@ -115,7 +115,7 @@ struct Feeder {
   void operator()(const FocusChanged& event) const {
     io.AddFocusEvent(event.focused);
     if (event.focused) return;
-    // Keys let go of elsewhere are never reported.
+    // Keys released in another window are never reported.
     std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
     io.KeyCtrl = io.KeyShift = io.KeyAlt = io.KeySuper = false;
   }
@@ -129,7 +129,7 @@ void Gui::Destroy::operator()(ImGuiContext* context) const { ImGui::DestroyConte
 
 Gui::Gui(Window& window, const GuiOptions& options) : context_(ImGui::CreateContext()) {
   ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;  // settings are ours (viewer/files/settings.hpp)
+  io.IniFilename = nullptr;  // viewer/files/settings.hpp stores the settings
   io.LogFilename = nullptr;
   io.BackendFlags |= ImGuiBackendFlags_HasMouseCursors;
   io.GetClipboardTextFn = read_clipboard;

@@ -1,5 +1,6 @@
-// Dear ImGui behind our own events and our own drawing: fed from events, so that a replayed session
-// is a person's, and drawn by the runtime's GL, so that it works on OpenGL ES and under any loader.
+// Dear ImGui with our own events and drawing. It is fed from events, so that a replayed session
+// behaves like the recorded one. The runtime's GL draws it, so that it works on OpenGL ES and with
+// any loader.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -17,10 +18,10 @@ namespace tureen::viewer {
 class GuiDrawing;
 
 struct GuiOptions {
-  /// Larger text for screens with many pixels to the inch.
+  /// Scale of texts and spacing, 1..4, for high-DPI screens.
   double scale = 1;
-  /// A font of the machine's where there is one; without it that of Dear ImGui, which looks the
-  /// same everywhere: for goldens.
+  /// Whether to use a font of the machine, if there is one. Dear ImGui's own font is identical
+  /// everywhere, for golden images.
   bool machine_font = true;
 };
 
@@ -33,7 +34,7 @@ class Gui {
   Gui& operator=(const Gui&) = delete;
 
   void feed(const Event& event);
-  /// Whether the pointer or the keyboard is the interface's: such events are not the scene's.
+  /// Whether the interface uses the pointer or the keyboard; the scene then ignores their events.
   bool takes_pointer() const;
   bool takes_keys() const;
 
@@ -42,10 +43,10 @@ class Gui {
     double seconds;             // since the last frame
   };
   void begin(const Frame& frame);
-  /// Ends what begin() began and draws it over what the window's framebuffer holds.
+  /// Ends the frame of begin() and draws it over the window's framebuffer.
   void draw();
 
-  /// The shape that the pointer should have.
+  /// The requested shape of the pointer.
   Window::Pointer pointer() const;
 
  private:

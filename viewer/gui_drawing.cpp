@@ -29,7 +29,7 @@ GuiDrawing::GuiDrawing(gl::Api api)
                             std::size_t offset) {
     glEnableVertexAttribArray(location);
     glVertexAttribPointer(location, count, type, normalised, sizeof(ImDrawVert),
-                          // An offset, as GL wants it. NOLINTNEXTLINE(performance-no-int-to-ptr)
+                          // An offset, as GL needs it. NOLINTNEXTLINE(performance-no-int-to-ptr)
                           reinterpret_cast<const void*>(offset));
   };
   attribute(0, 2, GL_FLOAT, GL_FALSE, offsetof(ImDrawVert, pos));
@@ -46,7 +46,7 @@ GuiDrawing::GuiDrawing(gl::Api api)
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
-  // A name, as Dear ImGui takes it. NOLINTNEXTLINE(performance-no-int-to-ptr)
+  // A GL name in Dear ImGui's type. NOLINTNEXTLINE(performance-no-int-to-ptr)
   atlas.SetTexID(reinterpret_cast<ImTextureID>(std::uintptr_t(font_.id())));
   gl::check("GuiDrawing");
 }
@@ -90,7 +90,7 @@ void GuiDrawing::draw_list(const ImDrawList& list, const ImDrawData& data) {
                          (command.ClipRect.z - data.DisplayPos.x) * scale.x,
                          (command.ClipRect.w - data.DisplayPos.y) * scale.y);
     if (clip.z <= clip.x || clip.w <= clip.y) continue;
-    // GL counts rows from below.
+    // GL counts rows from the bottom.
     glScissor(static_cast<int>(std::max(clip.x, 0.0f)), static_cast<int>(height - clip.w),
               static_cast<int>(clip.z - std::max(clip.x, 0.0f)), static_cast<int>(clip.w - clip.y));
     glBindTexture(GL_TEXTURE_2D,

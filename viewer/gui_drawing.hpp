@@ -1,5 +1,5 @@
-// Draws what Dear ImGui has laid out, with the runtime's GL objects: textured triangles in window
-// coordinates, blended, cut to rectangles. Internal to viewer/gui.
+// Draws the output of Dear ImGui with the runtime's GL objects: textured triangles in window
+// coordinates, blended and clipped to rectangles. Internal to viewer/gui.
 #pragma once
 
 #include "runtime/gl/context.hpp"
@@ -16,7 +16,7 @@ class GuiDrawing {
   /// Uploads the font atlas of the current Dear ImGui context.
   explicit GuiDrawing(gl::Api api);
 
-  /// Over the window's framebuffer. A draw command's texture id is a GL name.
+  /// Draws over the window's framebuffer. The texture id of a draw command is a GL name.
   void draw(const ImDrawData& data);
 
  private:

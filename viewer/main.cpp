@@ -92,7 +92,7 @@ int run(const Arguments& arguments) {
   if (arguments.pipeline != "auto") options.drawing.pipeline = PipelineKind::baseline;
   options.drawing.plan.specialise = !arguments.no_specialise;
   if (!arguments.replay.empty()) options.replay = read_session(arguments.replay);
-  // A session must not depend on what somebody did before.
+  // A session must not depend on stored settings.
   if (!arguments.no_settings && arguments.replay.empty()) options.settings = settings_file();
   options.interrupted = [] { return was_interrupted != 0; };
   Application application(std::move(options));
@@ -113,7 +113,7 @@ int run(const Arguments& arguments) {
 
 }  // namespace tureen::viewer
 
-// NOLINTNEXTLINE(bugprone-exception-escape): without memory for a message there is none
+// NOLINTNEXTLINE(bugprone-exception-escape): without memory there is no message
 int main(int argc, char** argv) {
   using namespace tureen::viewer;
   CLI::App program("Shows trained triangle soups in a window.", "tureen view");

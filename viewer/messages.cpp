@@ -16,13 +16,13 @@ void Messages::error(const std::string& title, const std::string& reason, double
 }
 
 void Messages::add(Message message) {
-  // The same again only renews what is there.
+  // A repeated message replaces the old one.
   std::erase_if(list_, [&](const Message& other) {
     return other.kind == message.kind && other.title == message.title && other.text == message.text;
   });
   list_.push_back(std::move(message));
   if (list_.size() <= most) return;
-  // Errors stay as long as there is a note to drop.
+  // Drops the oldest note first, otherwise the oldest error.
   const auto note = std::find_if(list_.begin(), list_.end(), [](const Message& each) {
     return each.kind == Message::Kind::note;
   });

@@ -1,5 +1,5 @@
-// What the window has to say: things done, and things that went wrong. Notes fade after a while,
-// errors stay until they are dismissed.
+// The messages of the window: notes and errors. Notes disappear after note_seconds, errors stay
+// until dismissed.
 #pragma once
 
 #include <string>
@@ -17,18 +17,18 @@ struct Message {
 
 class Messages {
  public:
-  /// How long a note stays.
+  /// Seconds that a note stays.
   static constexpr double note_seconds = 6;
-  static constexpr std::size_t most = 5;  // of which the newest stay
+  static constexpr std::size_t most = 5;  // messages; drops the oldest note first
 
-  /// Texts may come from files: shown_line (base/shown_text.hpp).
+  /// Both pass texts, which may come from files, through shown_line (base/shown_text.hpp).
   void note(const std::string& text, double now);
   void error(const std::string& title, const std::string& reason, double now);
   void dismiss(std::size_t index);
-  /// Takes away the notes that have been seen.
+  /// Removes notes older than note_seconds.
   void age(double now);
   const std::vector<Message>& list() const { return list_; }
-  bool fading() const;  // whether age() will have something to do
+  bool fading() const;  // whether there are notes that age() will remove
 
  private:
   void add(Message message);

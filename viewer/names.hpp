@@ -1,4 +1,4 @@
-// How paths are called in the window.
+// Short names of paths for the window.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace tureen::viewer {
 
-/// "soup.glb"; the folder's name where the path ends with a slash.
+/// "soup.glb"; the folder's name if the path ends with a slash.
 inline std::string short_name(const std::filesystem::path& path) {
   return (path.has_filename() ? path : path.parent_path()).filename().string();
 }

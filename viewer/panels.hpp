@@ -1,5 +1,5 @@
-// The panels around the image. Each is a file in panels/ that reads the state, changes settings
-// in it and asks for what must be done (viewer/state.hpp).
+// The panels around the image. Each is a file in panels/ that reads the state, changes settings in
+// it and adds requests to it (viewer/state.hpp).
 #pragma once
 
 #include "viewer/frame_clock.hpp"
@@ -7,16 +7,17 @@
 
 namespace tureen::viewer {
 
-/// How much of the window's width the panels take, in points; 0 where they are hidden.
+/// Width of the panels, in points; 0 if they are hidden.
 double panels_width(const State& state, double window_width);
 
-/// The column at the right with everything in it.
+/// The column of panels on the right.
 void draw_panels(State& state, const FrameClock& clock);
 
-/// What lies over the image with or without the panels: photographs, progress, messages, keys.
+/// The overlays on the image: photographs, progress, messages, keys. Drawn with or without the
+/// panels.
 void draw_overlays(State& state);
 
-// The parts of both, in their order. They are drawn between ImGui::Begin and End.
+// The parts of both, in their order. Panels are drawn between ImGui::Begin and End.
 void scene_panel(State& state);
 void view_panel(State& state);
 void debug_view_panel(State& state);

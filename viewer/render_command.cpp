@@ -13,7 +13,7 @@ namespace tureen::viewer {
 
 namespace {
 
-/// The shortest text that reads back as the same double.
+/// The shortest texts that read back as the same doubles.
 std::string list_of(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 
 void add_choice(std::string& command, const DrawingChoice& choice, const Scene& scene) {
@@ -57,8 +57,8 @@ std::string quoted(const std::string& text) {
 }
 
 bool needs_camera_file(const Camera& camera) {
-  // What look_at makes: one focal length, the principal point in the middle. Half a thousandth of a
-  // pixel is far below the 1/256 that vertices snap to.
+  // A camera of look_at has one focal length and its principal point in the middle. Half a
+  // thousandth of a pixel is far below the 1/256 that vertices snap to.
   constexpr double pixels = 0.0005;
   return std::abs(camera.cx - 0.5 * camera.width) > pixels ||
          std::abs(camera.cy - 0.5 * camera.height) > pixels ||
@@ -74,7 +74,8 @@ std::string render_command(const StageSource& scene, const DrawingChoice& choice
   } else {
     const glm::dmat3 axes = camera.world_from_view_rotation();
     const glm::dvec3 eye = camera.eye();
-    // A target that far away that its digits say the direction as well as the eye's say the place.
+    // Distance of the target, far enough that its digits give the direction as precisely as the
+    // eye's digits give the position.
     const double reach = std::max(1.0, glm::length(eye));
     const double fov = 2 * std::atan2(0.5 * camera.height, camera.fy) * degrees_per_radian;
     command += " --eye " + list_of(eye) + " --target " + list_of(eye - reach * axes[2]) + " --up " +

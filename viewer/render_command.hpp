@@ -10,17 +10,17 @@
 
 namespace tureen::viewer {
 
-/// "tureen render ..." with as many digits as it takes to name the same camera. A camera that
-/// --eye,
-/// --target and --fov cannot say (a shifted principal point, two focal lengths) is asked for from
-/// `camera_file`, which the caller writes; what is needed is told by needs_camera_file().
+/// "tureen render ..." with enough digits to give the same camera. --eye, --target and --fov cannot
+/// describe a shifted principal point or two focal lengths. needs_camera_file() detects these
+/// cameras; for them the command reads `camera_file`, which the caller writes.
 std::string render_command(const StageSource& scene, const DrawingChoice& choice,
                            const DebugViewChoice& debug_view, const Camera& camera,
                            const std::filesystem::path& camera_file);
 
 bool needs_camera_file(const Camera& camera);
 
-/// For a POSIX shell: as it is where it is plain, in single quotes otherwise.
+/// The text for a POSIX shell: unchanged if it has only plain characters, otherwise in single
+/// quotes.
 std::string quoted(const std::string& text);
 
 }  // namespace tureen::viewer

@@ -19,7 +19,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Reading is most of the work; preparing shows as the last tenth.
+/// Fraction of the progress bar for reading; the rest is for preparation.
 constexpr double reading_share = 0.9;
 
 }  // namespace

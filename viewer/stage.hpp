@@ -1,5 +1,5 @@
-// A scene that stands ready to be drawn: read, planned and on the device. Made by the worker, used
-// by the main thread.
+// A scene that is ready to draw: read, planned and on the device. The worker creates it, the main
+// thread uses it.
 #pragma once
 
 #include <filesystem>
@@ -16,40 +16,39 @@
 
 namespace tureen::viewer {
 
-/// A person's choice of how to draw: the pipeline, the specialisations that a plan may apply, and
-/// the quality.
+/// The user's drawing options: the pipeline, the preferences of the plan, and the quality.
 struct DrawingChoice {
   PipelineKind pipeline = PipelineKind::tureen;
   PlanPreferences plan = {};
-  std::optional<Quality> quality = {};  // the scene's own unless it is chosen
+  std::optional<Quality> quality = {};  // default: the scene's own
 };
 
 Quality quality_of(const DrawingChoice& choice, const Scene& scene);
 
-/// The choice as the runtime takes it.
+/// The choice as options of the runtime.
 RenderOptions render_options(const DrawingChoice& choice, const Scene& scene);
 
-/// What was read.
+/// A scene that was read.
 struct StageSource {
   std::filesystem::path path;
   std::shared_ptr<const Scene> scene;  // its primitives are a TriangleSoup
   Subject subject;                     // with the guessed up axis
   UpGuess up;
-  FileWatch watch;  // since before it was read
+  FileWatch watch;  // created before it was read
   double read_seconds = 0;
 
   const TriangleSoup& soup() const { return std::get<TriangleSoup>(scene->primitives); }
 };
 
 struct Stage : StageSource {
-  DrawingChoice choice;  // what `renderer` was made with
+  DrawingChoice choice;  // the options of `renderer`
   Renderer renderer;
   double prepare_seconds = 0;
 
   const StageSource& source() const { return *this; }
 };
 
-/// What takes part in preparing; `context` describes the device, and one that shares with it is
+/// The inputs of preparation. `context` describes the device; a context that shares with it must be
 /// current.
 struct StageRequest {
   const gl::Context& context;
@@ -57,15 +56,15 @@ struct StageRequest {
   std::function<void(double)> progress;  // 0..1; may throw to abandon
 };
 
-/// What draws a scene by a choice, in the context that is current. Throws DeviceLimitError,
+/// A renderer of the scene by the choice, in the current context. Throws DeviceLimitError and
 /// UsageError.
 Renderer prepare_renderer(const StageSource& scene, const StageRequest& request);
 
-/// Reads a scene and prepares it. What was prepared has left the context: the thread that draws
-/// takes over. Throws InputError, DeviceLimitError, UsageError.
+/// Reads a scene and prepares it. The renderer has left the context, so that the drawing thread can
+/// use it. Throws InputError, DeviceLimitError and UsageError.
 std::unique_ptr<Stage> read_stage(const std::filesystem::path& path, const StageRequest& request);
 
-/// Prepares what was read, likewise.
+/// Prepares a scene that was read, likewise.
 std::unique_ptr<Stage> prepare_stage(const StageSource& source, const StageRequest& request);
 
 }  // namespace tureen::viewer

@@ -19,7 +19,7 @@ const Photograph* State::photograph() const {
   if (!photographs || recorded < 0 || recorded >= static_cast<int>(photographs->list.size()))
     return nullptr;
   const Photograph& photograph = photographs->list[static_cast<std::size_t>(recorded)];
-  // What is adopted and unmoved may be another camera: a keyframe's, the first view.
+  // The adopted view may be another camera: that of a keyframe, or the first view.
   const Camera shown = controls.camera(photograph.camera.width, photograph.camera.height);
   const bool same = controls.shows_adopted() &&
                     shown.view_from_world == photograph.camera.view_from_world &&

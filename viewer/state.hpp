@@ -1,5 +1,5 @@
-// All that the window knows, and what may be asked of it. Panels read the state, change what is
-// plainly a setting, and ask for the rest; viewer/application carries it out between frames.
+// The state of the window, and its requests. Panels read the state, change settings directly, and
+// add requests for everything else. viewer/application carries out the requests between frames.
 #pragma once
 
 #include <deque>
@@ -25,7 +25,7 @@
 
 namespace tureen::viewer {
 
-/// A scene, photographs or a camera path: told by what it holds.
+/// A scene, photographs or a camera path, detected from its name and contents.
 struct OpenPath {
   std::filesystem::path path;
 };
@@ -34,11 +34,11 @@ struct OpenPhotographs {
 };
 struct CloseDataset {};
 struct ReloadScene {};
-/// Draw the scene by this choice.
+/// Draw the scene with these options.
 struct ChooseDrawing {
   DrawingChoice choice;
 };
-/// Look through the recorded camera of this index.
+/// Show the view of the recorded camera of this index.
 struct ShowRecorded {
   int index = 0;
 };
@@ -46,7 +46,7 @@ struct TakeImage {
   glm::ivec2 size{0};  // (0, 0): the window's
   bool transparent = false;
 };
-/// The command that draws this image without a window goes to the clipboard.
+/// Copies the command that draws this image without a window to the clipboard.
 struct CopyCommand {};
 struct ToggleFullscreen {};
 struct AddKeyframe {};
@@ -61,7 +61,7 @@ struct LoadPath {
   std::filesystem::path file;
 };
 struct WriteAnimation {};
-/// Of images and animations.
+/// Stops writing images and animations.
 struct StopWriting {};
 struct Quit {};
 
@@ -70,7 +70,7 @@ using Request =
                  TakeImage, CopyCommand, ToggleFullscreen, AddKeyframe, ShowKeyframe, MakeTurntable,
                  SavePath, LoadPath, WriteAnimation, StopWriting, Quit>;
 
-/// The photographs at hand; those to train on first.
+/// The photographs of the dataset, training ones first.
 struct Photographs {
   std::filesystem::path path;
   std::vector<Photograph> list;
@@ -87,13 +87,13 @@ struct ImageWish {
 
 struct State {
   Settings settings;
-  std::unique_ptr<Stage> stage;  // nothing before the first scene
-  DrawingChoice wanted;          // what the stage is, or is being prepared to be, drawn by
+  std::unique_ptr<Stage> stage;  // null before the first scene
+  DrawingChoice wanted;          // of the stage, or of the one in preparation
   DebugViewChoice debug_view;
-  std::unique_ptr<DebugViewRenderer> debug_renderer;  // of the stage, once something was looked at
+  std::unique_ptr<DebugViewRenderer> debug_renderer;  // of the stage, after the first use
   std::optional<Photographs> photographs;
   CameraControls controls;
-  int recorded = -1;  // the recorded camera that was last gone to
+  int recorded = -1;  // the last selected recorded camera; -1: none
   Comparison comparison;
   Animation animation;
   Messages messages;
@@ -101,18 +101,18 @@ struct State {
   bool show_interface = true;
   bool show_keys = false;
   FileList files;
-  bool show_files = false;  // the window to pick a file in
+  bool show_files = false;  // the window that opens files
   bool draw_continuously = false;
   std::optional<Worker::Status> busy, writing;
-  /// Of the image, which leaves room for the panels at its right.
+  /// Size of the image, without the panels on its right.
   glm::ivec2 points{1, 1}, pixels{1, 1};
   double now = 0;  // seconds of the window's clock
 
-  /// Those of the photographs, or else of the scene.
+  /// The cameras of the photographs if there are any, otherwise of the scene.
   std::vector<const Camera*> recorded_cameras() const;
-  /// The view as a keyframe of the animation.
+  /// The current view as a keyframe at this time.
   CameraKeyframe keyframe_of_now(double seconds) const;
-  /// The photograph whose camera the view is, unmoved.
+  /// The photograph of the selected camera, if the view has not moved; otherwise null.
   const Photograph* photograph() const;
 
   template <class Wish>

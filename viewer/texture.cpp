@@ -19,7 +19,7 @@ ImageTexture::ImageTexture(const Image8& image)
 }
 
 void* ImageTexture::id() const {
-  // NOLINTNEXTLINE(performance-no-int-to-ptr): the interface hands names on as pointers
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): Dear ImGui stores GL names as pointers
   return reinterpret_cast<void*>(static_cast<std::uintptr_t>(texture_.id()));
 }
 

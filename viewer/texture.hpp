@@ -1,4 +1,4 @@
-// An image on the device for the interface to show: a photograph, a heat map.
+// An image on the device for the interface, such as a photograph or a heat map.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -11,13 +11,12 @@ namespace tureen::viewer {
 class ImageTexture {
  public:
   ImageTexture() = default;
-  /// Filtered linearly. Images wider or higher than the device's textures are refused by GL and
-  /// show black.
+  /// Linear filtering. GL rejects images above the device's texture size; they appear black.
   explicit ImageTexture(const Image8& image);
 
   explicit operator bool() const { return static_cast<bool>(texture_); }
   glm::ivec2 size() const { return size_; }
-  /// As Dear ImGui takes it.
+  /// The texture id for Dear ImGui.
   void* id() const;
 
  private:

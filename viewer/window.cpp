@@ -16,17 +16,17 @@ namespace {
 std::string last_reason() {
   const char* text = nullptr;
   glfwGetError(&text);
-  return text ? text : "no reason given";
+  return text ? text : "no reason reported";
 }
 
 [[noreturn]] void fail(const std::string& what) {
   throw ContextError(what + " (" + last_reason() +
                          "): tureen-view needs a display and OpenGL 3.3 or OpenGL ES 3.0",
                      "without a display, tureen render draws images: tureen render SCENE -o "
-                     "picture.png");
+                     "image.png");
 }
 
-/// GLFW itself, for as long as there is a window.
+/// Initialises GLFW for the lifetime of the window.
 class Library {
  public:
   Library() {
@@ -35,8 +35,8 @@ class Library {
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
   ~Library() {
-    // Ends with unloading the driver. Where leaks are looked for it stays: what drivers leak would
-    // have no name then, and could not be told from ours.
+    // This unloads the driver. Under the address sanitizer it stays loaded: leaks of an unloaded
+    // driver have no symbols and look like ours.
 #ifndef __SANITIZE_ADDRESS__
     glfwTerminate();
 #endif
@@ -103,11 +103,11 @@ void want_context(gl::Api api) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, desktop ? 3 : 0);
   if (desktop) {
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);  // macOS has no other
-    // To be told of resets (throw_if_lost). For OpenGL ES, GLFW asks in a way that Mesa refuses.
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);  // macOS supports only these
+    // Requests reset notification for throw_if_lost(). For OpenGL ES, Mesa rejects GLFW's request.
     glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
   }
-  // The runtime draws into targets of its own: the window needs colour alone.
+  // The runtime draws to its own targets, so the window needs only colour.
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
 }
@@ -192,7 +192,7 @@ Window::Window(const WindowOptions& options) : handles_(std::make_unique<Handles
   for (int i = 0; i < worker_contexts; ++i) {
     handles_->workers.emplace_back(glfwCreateWindow(16, 16, "Tureen (background)", nullptr, window),
                                    &glfwDestroyWindow);
-    if (!handles_->workers.back()) fail("no second OpenGL context can be had");
+    if (!handles_->workers.back()) fail("no second OpenGL context can be created");
   }
 
   glfwMakeContextCurrent(window);

@@ -1,5 +1,5 @@
-// The window and its OpenGL contexts: the visible one draws, hidden ones that share its buffers and
-// textures serve threads in the background. GLFW, behind one file.
+// The window and its OpenGL contexts, by GLFW. The visible context draws. Hidden ones for
+// background threads share its buffers and textures.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -20,9 +20,9 @@ struct WindowOptions {
 
 class Window {
  public:
-  /// Opens the window with a context of OpenGL 3.3 core or ES 3.0 (or what compatible newer one the
-  /// driver gives) and makes it current. Throws ContextError with advice where there is no display.
-  /// One at a time, on the main thread.
+  /// Opens the window with a context of OpenGL 3.3 core, ES 3.0 or a compatible newer version, and
+  /// makes it current. Throws ContextError with advice if there is no display. Only one window at a
+  /// time, on the main thread.
   explicit Window(const WindowOptions& options);
   ~Window();
   Window(const Window&) = delete;
@@ -30,25 +30,24 @@ class Window {
 
   const gl::Context& context() const { return *context_; }
 
-  /// Hidden contexts, one a thread.
+  /// Number of hidden contexts, one a thread.
   static constexpr int worker_contexts = 2;
   /// Makes one current on the calling thread. Vertex arrays and framebuffers are not shared.
   void make_worker_context_current(int which) const;
   void release_worker_context() const;
 
-  /// What happened since the last time; waits for something for up to `seconds`, which wake() cuts
-  /// short.
+  /// The events since the last call. Waits up to `seconds` for one; wake() ends the wait.
   std::vector<Event> events(double seconds);
-  /// From any thread.
+  /// Ends a wait in events(). May be called from any thread.
   static void wake();
 
   glm::ivec2 size() const;         // in points
   glm::ivec2 pixels() const;       // of the framebuffer
-  double content_scale() const;    // how much larger text must be than on an ordinary screen
-  void resize(glm::ivec2 points);  // asks for it
+  double content_scale() const;    // scale of text, 1 on an ordinary screen
+  void resize(glm::ivec2 points);  // a request to the system
   void set_title(const std::string& title);
   void set_vsync(bool on);
-  /// Covers the monitor that holds most of the window, or goes back to where it was.
+  /// Covers the monitor with the largest part of the window, or restores its old position.
   void set_fullscreen(bool on);
   bool fullscreen() const { return restored_.has_value(); }
   void present();

@@ -9,7 +9,7 @@ namespace tureen::viewer {
 
 namespace {
 
-/// Ends a job that nobody wants any more.
+/// Ends an abandoned job.
 struct Abandoned {};
 
 }  // namespace
@@ -95,7 +95,7 @@ void Worker::run(Job& job) {
   } catch (const Abandoned&) {
     return;
   } catch (const std::bad_alloc&) {
-    completion = [failed = job.failed] { failed("there is not enough memory for it"); };
+    completion = [failed = job.failed] { failed("there is not enough memory"); };
   } catch (const std::exception& error) {
     completion = [failed = job.failed, reason = std::string(error.what())] { failed(reason); };
   }
@@ -108,7 +108,7 @@ void Worker::report(double fraction) {
   {
     const std::lock_guard lock(mutex_);
     if (abandoned_) throw Abandoned{};
-    // A window that waits for events redraws its progress bar by whole percents.
+    // The waiting window redraws its progress bar only for whole percents.
     shown = static_cast<int>(running_->fraction * 100) == static_cast<int>(fraction * 100);
     running_->fraction = std::clamp(fraction, 0.0, 1.0);
   }

@@ -1,6 +1,5 @@
-// A thread in the background that loads, prepares or writes, with an OpenGL context of its own, so
-// that the window never waits. Jobs run one after another; what comes of them is handed over on the
-// main thread, when it asks.
+// A background thread with its own OpenGL context that loads, prepares or writes, so that the
+// window never waits. Jobs run one after another. The main thread collects their results.
 #pragma once
 
 #include <condition_variable>
@@ -15,33 +14,33 @@
 
 namespace tureen::viewer {
 
-/// Of each kind the newest counts: a job replaces the waiting one of its kind and abandons that
-/// which runs. Only what is to be written waits its turn.
+/// A new job replaces the waiting job of its kind and abandons the running one. Writing jobs
+/// are queued instead.
 enum class JobKind { scene, dataset, drawing, debug_view, comparison, writing };
 
 class Worker {
  public:
   /// Runs on the main thread, when collect() is called.
   using Completion = std::function<void()>;
-  /// Says how far the job is, 0..1. Throws what ends the job where it was abandoned.
+  /// Reports the progress of the job, 0..1. Throws to end an abandoned job.
   using Progress = std::function<void(double)>;
   struct Job {
     JobKind kind;
     std::string what;                                 // for the progress bar: "reading soup.glb"
     std::function<Completion(const Progress&)> work;  // runs in the background; may throw
-    std::function<void(const std::string& reason)> failed;  // what work threw; on the main thread
+    std::function<void(const std::string& reason)> failed;  // on the main thread, if work threw
   };
 
-  /// `window` must outlive it; `context` is which of its hidden ones is this thread's.
+  /// `window` must outlive the worker. `context`: index of the hidden context for this thread.
   Worker(const Window& window, int context);
-  /// Abandons what runs and waits for it.
+  /// Abandons the running job and waits for its end.
   ~Worker();
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
   void start(Job job);
   void abandon(JobKind kind);
-  /// Completes what is done.
+  /// Runs the completions of finished jobs.
   void collect();
 
   struct Status {
@@ -49,9 +48,9 @@ class Worker {
     double fraction = 0;
     JobKind kind = JobKind::scene;
   };
-  /// Of the running job; nothing when idle.
+  /// The status of the running job, or nullopt.
   std::optional<Status> status() const;
-  /// Nothing runs, waits or wants to be collected.
+  /// No job is running, waiting or uncollected.
   bool idle() const;
 
  private:
@@ -66,7 +65,7 @@ class Worker {
   std::condition_variable changed_;
   std::vector<Job> waiting_;
   std::optional<Status> running_;
-  bool abandoned_ = false;  // what runs
+  bool abandoned_ = false;  // the running job
   bool ending_ = false;
   struct Done {
     JobKind kind;

@@ -9,10 +9,10 @@
 #include <optional>
 
 #include "formats/dataset/camera_json.hpp"
-#ifndef __EMSCRIPTEN__  // its sources are left out there, see CMakeLists.txt
+#ifndef __EMSCRIPTEN__  // its sources are omitted there, see CMakeLists.txt
 #include "formats/dataset/colmap.hpp"
 #endif
-#include "base/json_file.hpp"
+#include "base/json/json_file.hpp"
 #include "formats/dataset/gaussian_cameras.hpp"
 #include "formats/dataset/transforms_json.hpp"
 
@@ -24,7 +24,7 @@ using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
 CameraFile from_transforms(const Json& root, const std::string& file) {
-  // NeRF's synthetic scenes, whose files name no size, are of 800 x 800 pixels.
+  // NeRF's synthetic scenes store no image size; their images have 800 x 800 pixels.
   constexpr int assumed_side = 800;
   CameraFile result;
   bool size_assumed = false, distorted = false;
@@ -54,7 +54,7 @@ Camera our_camera(const CameraJson& json) {
   return camera;
 }
 
-/// The cameras of a file of ours, each to be read by our_camera.
+/// The cameras of a file in our own format, as JSON for our_camera.
 std::vector<CameraJson> our_cameras(const Json& root, const std::string& file) {
   const auto version = root.find("tureen_cameras");
   if (version != root.end() && *version != 1)
@@ -74,9 +74,9 @@ CameraFile from_ours(const Json& root, const std::string& file) {
 }
 
 // ---- Paths
-// ---------------------------------------------------------------------------------------
 
-// Eleven days: whoever means more has mistaken the unit, and doubles keep a nanosecond up to here.
+// In seconds, more than eleven days: a larger value is probably in another unit. Doubles resolve a
+// nanosecond up to here.
 constexpr double longest_path = 1e6;
 
 CameraKeyframe our_keyframe(const CameraJson& json) {
@@ -90,7 +90,7 @@ CameraKeyframe our_keyframe(const CameraJson& json) {
   return keyframe;
 }
 
-/// After how many seconds the loop begins anew; 0 for none.
+/// Duration of the loop in seconds; 0 without a loop.
 double our_loop(const Json& root, const std::vector<CameraKeyframe>& keyframes,
                 const std::string& file) {
   const auto fail = [&](const char* reason) { throw InputError({file, {}, {}}, reason); };
@@ -104,7 +104,7 @@ double our_loop(const Json& root, const std::vector<CameraKeyframe>& keyframes,
     const double gaps = double(keyframes.size()) - 1;
     return span > 0 ? span + span / gaps : 1.0;
   }
-  if (!seconds->is_number()) fail("loop_seconds is no number");
+  if (!seconds->is_number()) fail("loop_seconds is not a number");
   const double value = seconds->get<double>();
   if (!(value > 0 && value <= longest_path)) fail("loop_seconds is not above 0, up to 1000000");
   return value;
@@ -112,7 +112,7 @@ double our_loop(const Json& root, const std::vector<CameraKeyframe>& keyframes,
 
 CameraPathData our_path(const Json& root, const std::string& file) {
   if (!root.is_object() || !root.contains("cameras"))
-    throw InputError({file, {}, {}}, "there is no \"cameras\" in it: no camera path of ours");
+    throw InputError({file, {}, {}}, "it has no \"cameras\": not a camera path in our format");
   CameraPathData path;
   for (const CameraJson& json : our_cameras(root, file)) {
     path.keyframes.push_back(our_keyframe(json));
@@ -126,7 +126,7 @@ CameraPathData our_path(const Json& root, const std::string& file) {
 }
 
 #ifndef __EMSCRIPTEN__
-/// The folder of COLMAP's model that `path` names in one of the ways of the header.
+/// The folder of the COLMAP model at `path` (see read_cameras), or nullopt.
 std::optional<fs::path> colmap_model(const fs::path& path) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored))
@@ -179,7 +179,7 @@ CameraFile read_cameras(Input& input) {
   if (root.contains("frames")) return from_transforms(root, file);
   if (root.contains("cameras")) return from_ours(root, file);
   throw InputError({file, {}, {}},
-                   "neither \"cameras\" nor \"frames\" is there: no camera file that we know");
+                   "it has neither \"cameras\" nor \"frames\": not a supported camera file");
 }
 
 CameraFile read_cameras(const std::filesystem::path& path) {
@@ -196,13 +196,12 @@ CameraPathData read_path(const std::filesystem::path& path) {
 }
 
 // ---- Writing
-// -------------------------------------------------------------------------------------
 
 namespace {
 
 using Ordered = nlohmann::ordered_json;
 
-/// Adds what a camera has.
+/// Adds the fields of a camera.
 void put_camera(const Camera& camera, Ordered& json) {
   if (!camera.name.empty()) json["name"] = camera.name;
   json["width"] = camera.width;
@@ -222,7 +221,7 @@ void put_camera(const Camera& camera, Ordered& json) {
 }
 
 std::string text_of(const Ordered& root) {
-  // A name need not be UTF-8: the bytes that are not become U+FFFD instead of an exception.
+  // Names may contain invalid UTF-8. Such bytes become U+FFFD; the default throws an exception.
   return root.dump(2, ' ', false, Ordered::error_handler_t::replace) + "\n";
 }
 

@@ -13,22 +13,23 @@ using nlohmann::json;
 
 namespace {
 
-/// What keeps `matrix` from being a rotation, as the end of a sentence, or null.
+/// The reason why `matrix` is not a rotation, as the end of a sentence, or null.
 const char* rotation_defect(const glm::dmat3& matrix) {
   const glm::dmat3 error = glm::transpose(matrix) * matrix - glm::dmat3(1.0);
-  // Structure from motion prints six digits or more; a scale or a shear shows far above this.
+  // Structure from motion prints six digits or more; any real scale or shear exceeds this tolerance
+  // by far.
   constexpr double tolerance = 1e-3;
   for (int c = 0; c < 3; ++c)
     for (int r = 0; r < 3; ++r)
       if (!(std::abs(error[c][r]) < tolerance))
-        return "is no rotation: its axes are not of unit length or not square";
+        return "is not a rotation: its axes are not of unit length or not perpendicular";
   return glm::determinant(matrix) < 0 ? "mirrors" : nullptr;
 }
 
 }  // namespace
 
 CameraJson::CameraJson(Source source) : source_(std::move(source)) {
-  if (!source_.object.is_object()) fail("it is no object");
+  if (!source_.object.is_object()) fail("it is not an object");
 }
 
 void CameraJson::fail(const std::string& reason) const {
@@ -45,7 +46,7 @@ const json* CameraJson::find(const char* key) const {
 std::optional<double> CameraJson::maybe_number(const char* key) const {
   const json* value = find(key);
   if (!value) return {};
-  if (!value->is_number()) fail(std::string(key) + " is no number");
+  if (!value->is_number()) fail(std::string(key) + " is not a number");
   return value->get<double>();
 }
 
@@ -59,7 +60,7 @@ std::optional<int> CameraJson::maybe_side(const char* key) const {
   const std::optional<double> value = maybe_number(key);
   if (!value) return {};
   if (!(*value >= 1 && *value <= max_image_side) || *value != std::floor(*value))
-    fail(std::string(key) + " is no whole number from 1 to " + std::to_string(max_image_side));
+    fail(std::string(key) + " is not an integer from 1 to " + std::to_string(max_image_side));
   return int(*value);
 }
 
@@ -83,16 +84,17 @@ bool CameraJson::truth(const char* key) const {
 
 const json& CameraJson::list(const char* key) const {
   const auto found = source_.object.find(key);
-  if (found == source_.object.end() || !found->is_array()) fail(std::string(key) + " is no list");
+  if (found == source_.object.end() || !found->is_array())
+    fail(std::string(key) + " is not a list");
   return *found;
 }
 
 double CameraJson::element(const char* key, const json& value) const {
-  if (!value.is_number()) fail(std::string(key) + " holds what is no number");
+  if (!value.is_number()) fail(std::string(key) + " holds a value that is not a number");
   return value.get<double>();
 }
 
-/// All rows of a list of them; numbers past `columns` are 0.
+/// All rows of a matrix; components after `columns` are 0.
 std::vector<glm::dvec4> CameraJson::rows(const char* key, int columns) const {
   std::vector<glm::dvec4> result;
   for (const json& row : list(key)) {
@@ -107,11 +109,11 @@ std::vector<glm::dvec4> CameraJson::rows(const char* key, int columns) const {
 
 glm::dmat4 CameraJson::rigid(const char* key) const {
   if (const std::size_t count = list(key).size(); count != 3 && count != 4)
-    fail(std::string(key) + " has not 3 or 4 rows");
+    fail(std::string(key) + " does not have 3 or 4 rows");
   glm::dmat4 transposed(1.0);
   const std::vector<glm::dvec4> found = rows(key, 4);
   if (found.size() == 4 && found[3] != glm::dvec4(0, 0, 0, 1))
-    fail(std::string(key) + " has another last row than 0 0 0 1");
+    fail(std::string(key) + " has a last row other than 0 0 0 1");
   for (int row = 0; row < 3; ++row) transposed[row] = found[std::size_t(row)];
   const glm::dmat4 result = glm::transpose(transposed);
   if (const char* defect = rotation_defect(glm::dmat3(result)))
@@ -120,7 +122,7 @@ glm::dmat4 CameraJson::rigid(const char* key) const {
 }
 
 glm::dmat3 CameraJson::rotation(const char* key) const {
-  if (list(key).size() != 3) fail(std::string(key) + " has not 3 rows");
+  if (list(key).size() != 3) fail(std::string(key) + " does not have 3 rows");
   const std::vector<glm::dvec4> found = rows(key, 3);
   const glm::dmat3 result =
       glm::transpose(glm::dmat3(glm::dvec3(found[0]), glm::dvec3(found[1]), glm::dvec3(found[2])));
@@ -149,7 +151,7 @@ glm::dmat4 rigid_inverse(const glm::dmat4& pose) {
 const json& json_list(const json& root, const char* key, const std::string& file) {
   const auto found = root.find(key);
   if (found == root.end() || !found->is_array())
-    throw InputError({file, {}, {}}, std::string(key) + " is no list");
+    throw InputError({file, {}, {}}, std::string(key) + " is not a list");
   return *found;
 }
 

@@ -38,7 +38,7 @@ int side(std::uint64_t value) {
   return int(value);
 }
 
-/// The binary file where there is one, else the text; the text's path where there is neither.
+/// The binary file if it exists, otherwise the text file, which may be missing.
 struct ModelFile {
   std::filesystem::path path;
   bool binary = false;
@@ -62,7 +62,7 @@ void require_undoable(const ColmapLensModel& model) {
   for (const ColmapLensModel& other : lens_models)
     if (other.can_be_undone) read += (read.empty() ? "" : ", ") + std::string(other.name);
   throw ColmapRefusal{
-      "the camera model " + std::string(model.name) + " is not among those we read (" + read + ")",
+      "the camera model " + std::string(model.name) + " is not supported (supported: " + read + ")",
       "undistort the images first, with colmap image_undistorter"};
 }
 
@@ -90,9 +90,9 @@ ColmapCamera to_camera(const ColmapCameraRecord& record) {
 glm::dmat4 to_view_from_world(const ColmapPoseRecord& record) {
   const auto& [w, x, y, z] = record.rotation;
   const double length = std::sqrt(w * w + x * x + y * y + z * z);
-  // Normalised before it is written, with 6 digits or more; an infinity or NaN fails as well.
+  // COLMAP writes normalised quaternions with 6 digits or more. An infinity or NaN fails, too.
   if (!(std::abs(length - 1) < 1e-3))
-    throw ColmapRefusal{"the pose is no rotation: its quaternion is not of unit length"};
+    throw ColmapRefusal{"the pose is not a rotation: its quaternion is not of unit length"};
   const auto& [tx, ty, tz] = record.translation;
   if (!all_finite(record.translation)) throw ColmapRefusal{"the pose is not finite"};
   glm::dmat4 camera_from_world =

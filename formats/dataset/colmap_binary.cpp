@@ -11,17 +11,17 @@ static_assert(std::endian::native == std::endian::little);
 
 namespace {
 
-/// A count of records of at least `bytes` bytes each, checked against the bytes that are left.
+/// A count of records of at least `bytes` bytes each, checked against the remaining bytes.
 std::uint64_t read_count(Input& input, std::uint64_t bytes, const char* what) {
   const auto count = input.read_value<std::uint64_t>(what);
   if (count > input.remaining() / bytes)
     input.fail_at(input.position() - 8, "a count of " + std::to_string(count) + " " + what +
-                                            ", which cannot be in the " +
+                                            ", which do not fit in the " +
                                             std::to_string(input.remaining()) + " bytes left");
   return count;
 }
 
-/// Calls `convert`, and names the place of the record that it refuses.
+/// Calls `convert` and adds the place of the record to its error.
 template <class Convert>
 auto convert_at(const Input& input, std::uint64_t begin, Convert&& convert) {
   try {
@@ -42,15 +42,14 @@ const ColmapLensModel& read_lens_model(Input& input) {
   const auto number = input.read_value<std::int32_t>("a camera model");
   const auto models = colmap_lens_models();
   if (number < 0 || std::size_t(number) >= models.size())
-    throw ColmapRefusal{"the camera model number " + std::to_string(number) +
-                        " is none that we know"};
+    throw ColmapRefusal{"the camera model number " + std::to_string(number) + " is unknown"};
   const ColmapLensModel& model = models[std::size_t(number)];
   require_undoable(model);
   return model;
 }
 
 std::string read_name(Input& input) {
-  // Longer than any path that a file system takes.
+  // Longer than any path that file systems support.
   constexpr std::size_t most = 4096;
   std::string name;
   while (const char c = input.read_value<char>("an image's name")) {
@@ -78,7 +77,7 @@ ColmapCameras read_colmap_cameras_binary(Input& input) {
     });
     input.take_memory(1, colmap_camera_bytes, "the cameras");
     if (!cameras.emplace(number, camera).second)
-      input.fail_at(begin, "camera " + std::to_string(number) + " stands here twice");
+      input.fail_at(begin, "camera " + std::to_string(number) + " occurs twice");
   }
   expect_end(input, "cameras");
   return cameras;
@@ -97,7 +96,7 @@ std::vector<ColmapImage> read_colmap_images_binary(Input& input) {
     image.view_from_world = convert_at(input, begin, [&] { return to_view_from_world(pose); });
     image.camera = input.read_value<std::uint32_t>("an image");
     image.name = read_name(input);
-    // Where features were found: x, y, and the point they belong to.
+    // The features: x, y, and the point's number.
     skip(input, 24 * read_count(input, 24, "features"));
     input.take_memory(1, image.name.capacity(), "the images");
     input.make_room_in(images, 1, "the images");
@@ -120,7 +119,7 @@ std::vector<DatasetPoint> read_colmap_points_binary(Input& input) {
     points.push_back(convert_at(input, begin, [&] {
       return to_point({position[0], position[1], position[2]}, {color[0], color[1], color[2]});
     }));
-    // The images that see it: an image's and a feature's number each.
+    // The images that show it: an image number and a feature number each.
     skip(input, 8 * read_count(input, 8, "sightings"));
   }
   expect_end(input, "points");

@@ -34,7 +34,7 @@ struct ColmapCameraRecord {
 
 struct ColmapPoseRecord {
   std::array<double, 4> rotation{};     // from world to camera, a quaternion w x y z
-  std::array<double, 3> translation{};  // likewise
+  std::array<double, 3> translation{};  // from world to camera
 };
 
 /// The reason why a record is rejected; the reader adds the place.

@@ -1,4 +1,4 @@
-// COLMAP's text files: a record a line, two for an image; lines that begin with # are comments.
+// COLMAP's text files: one record a line, two lines an image. Lines that begin with # are comments.
 #include <charconv>
 
 #include "base/text_scanner.hpp"
@@ -9,7 +9,8 @@ namespace tureen {
 
 namespace {
 
-/// Goes to the next line with something on it but a comment; false at the end of the file.
+/// Advances to the next line that is neither blank nor a comment. Returns false at the end of the
+/// file.
 bool next_record(TextScanner& text) {
   while (text.next_content()) {
     if (text.peek(1) != "#") return true;
@@ -32,7 +33,7 @@ std::uint32_t read_number(TextScanner& text, const char* what) {
   return std::uint32_t(text.read_integer(what, 0, 0xffffffffLL));
 }
 
-/// Calls `convert`, and names the line of the record that it refuses.
+/// Calls `convert` and adds the line of the record to its error.
 template <class Convert>
 auto convert_here(const TextScanner& text, Convert&& convert) {
   try {
@@ -48,17 +49,17 @@ const ColmapLensModel& find_lens_model(const std::string& name) {
       require_undoable(model);
       return model;
     }
-  throw ColmapRefusal{"the camera model '" + name.substr(0, 40) + "' is none that we know"};
+  throw ColmapRefusal{"the camera model '" + name.substr(0, 40) + "' is unknown"};
 }
 
-/// The line of features, x, y and a point's number each, which may be empty. Where it is missing it
-/// is the next image that stands there, and that would be lost.
+/// Skips the line of features (x, y and a point's number each), which may be empty. If it is
+/// missing, the next image is in its place and must not be skipped.
 void pass_features(TextScanner& text, const std::string& image) {
   std::size_t words = 0;
   for (; !text.at_line_end(); ++words) text.read_word("a feature");
   if (words % 3 != 0)
     text.fail("the line after image " + image +
-              " holds its features, three numbers each, or nothing; here are " +
+              " must hold its features, three numbers each, or be empty; it has " +
               std::to_string(words) + " words");
   text.next_line();
 }
@@ -82,7 +83,7 @@ ColmapCameras read_colmap_cameras_text(Input& input) {
     text.expect_line_end("the parameters of the camera model");
     input.take_memory(1, colmap_camera_bytes, "the cameras");
     if (!cameras.emplace(number, camera).second)
-      text.fail("camera " + std::to_string(number) + " stands here twice");
+      text.fail("camera " + std::to_string(number) + " occurs twice");
   }
   return cameras;
 }
@@ -99,7 +100,7 @@ std::vector<ColmapImage> read_colmap_images_text(Input& input) {
     image.view_from_world = convert_here(text, [&] { return to_view_from_world(pose); });
     image.camera = read_number(text, "a camera's number");
     image.name = text.read_word("an image's name");
-    // COLMAP does not quote a name with blanks; two in a row would be lost here.
+    // COLMAP does not quote names with blanks. Here two blanks in a row become one.
     while (!text.at_line_end()) image.name += " " + text.read_word("an image's name");
     input.take_memory(1, image.name.capacity(), "the images");
     input.make_room_in(images, 1, "the images");

@@ -22,7 +22,7 @@ using Frames = std::vector<DatasetFrame>;
 
 /// A dataset before its photographs are read.
 struct Outline {
-  std::string file;  // that names the photographs, for messages
+  std::string file;  // the file that lists the photographs, for messages
   Frames train, test;
   Dataset dataset;  // all but the photographs
 };
@@ -63,10 +63,9 @@ Outline file_a_split(const fs::path& folder, const DatasetOptions& options,
     if (!fs::exists(folder / name, ignored))
       throw InputError(
           {(folder / name).string(), {}, {}},
-          "there is no such file, which the other half of the dataset's split goes "
-          "with",
-          "without a split name the one file there is instead of the folder, and every "
-          "n-th photograph is kept to test with");
+          "is missing, but the other half of the dataset's split exists",
+          "to read the other half alone, pass its file instead of the folder; every n-th "
+          "photograph then becomes a test view");
     Frames frames = read_transforms_dataset(folder / name, options.images_folder, budget);
     sort_by_name(frames);
     return frames;
@@ -78,13 +77,13 @@ Outline file_a_split(const fs::path& folder, const DatasetOptions& options,
   return outline;
 }
 
-/// The mean of the cameras' up axes: people hold cameras upright, mostly.
+/// Up is the mean of the cameras' up axes, because most cameras are held upright.
 void take_mean_up(const Frames& frames, Dataset& dataset) {
   glm::dvec3 sum(0);
   for (const DatasetFrame& frame : frames)
     sum += glm::dvec3(frame.view_from_world[0][1], frame.view_from_world[1][1],
                       frame.view_from_world[2][1]);
-  // Of axes that point everywhere little is left; then it is y down, as in the first camera.
+  // The mean of scattered axes is short. In this case y points down, as in the first camera.
   if (glm::length(sum) > 0.1 * double(frames.size())) {
     dataset.up = glm::vec3(glm::normalize(sum));
     dataset.remarks.push_back({Remark::Kind::up_of_cameras});
@@ -134,11 +133,11 @@ Outline make_outline(const fs::path& path, const DatasetOptions& options,
     return one_transforms_file(path / "transforms.json", options, budget);
   if (const auto model = colmap_folder(path)) return colmap_outline(path, *model, options, budget);
   throw InputError({path.string(), {}, {}},
-                   "no dataset that we know: it has neither transforms_train.json nor "
+                   "not a supported dataset: it has neither transforms_train.json nor "
                    "transforms.json, nor COLMAP's cameras in sparse/0, sparse or colmap/sparse/0");
 }
 
-/// Refuses a split that would leave nothing to train on or to test.
+/// Rejects a split without training or test views.
 void require_photographs(const Outline& outline, const DatasetOptions& options) {
   const auto refuse = [&](const Frames& frames, DatasetPart other, const char* what) {
     if (options.part != other && frames.empty())
@@ -180,7 +179,8 @@ std::vector<fs::path> find_images(const std::string& file,
   return images;
 }
 
-/// Says so at once where the dataset tells its sizes, and not after a minute of decoding.
+/// Rejects photographs that exceed the budget before they are decoded, which may take a minute.
+/// Possible only if the dataset stores their sizes.
 void require_budget(const std::string& file, const std::vector<const DatasetFrame*>& frames,
                     const DatasetOptions& options, const MemoryBudget& budget) {
   double pixels = 0;
@@ -188,7 +188,7 @@ void require_budget(const std::string& file, const std::vector<const DatasetFram
     if (frame->size)
       pixels += double(scaled_side(frame->size->x, options.scale / options.images_folder)) *
                 scaled_side(frame->size->y, options.scale / options.images_folder);
-  // Cutting off what has no source takes away from this, by less than half.
+  // Cropping removes less than half of the pixels, so the limit is twice the budget.
   if (pixels * sizeof(glm::u8vec4) > 2.0 * double(budget.left()))
     throw InputError({file, {}, {}}, budget.refusal("the photographs"),
                      std::string(max_memory_hint) + ", --scale makes them smaller");
@@ -223,7 +223,8 @@ Dataset read_dataset(const fs::path& path, const DatasetOptions& options) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (options.progress) options.progress(double(i) / double(frames.size()));
     ReadPhotograph read = read_photograph(*frames[i], images[i], options, budget);
-    // An angle of view without a size says something only where all images of a split are alike.
+    // Without sizes, an angle of view is meaningful only if all images of a split have the same
+    // size.
     if (i == outline.train.size()) first_size = glm::ivec2(0);
     if (!frames[i]->size) {
       const Camera& camera = read.photograph.camera;

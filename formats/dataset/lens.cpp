@@ -17,9 +17,10 @@ glm::dvec2 Lens::distorted(glm::dvec2 point) const {
 }
 
 bool Lens::sees(glm::dvec2 point) const {
-  // The image folds where the determinant of the Jacobian is no longer positive. Its radial part
-  // along r is 1 + 3 k1 r^2 + 5 k2 r^4 + 7 k3 r^6, whose first root is anywhere between the axis
-  // and the point: a few steps find it, because it turns at most three times.
+  // The image folds where the determinant of the Jacobian is not positive. Its radial part
+  // along r is 1 + 3 k1 r^2 + 5 k2 r^4 + 7 k3 r^6, whose first root may lie anywhere between the
+  // axis and the point. This polynomial changes direction at most three times, so a few steps find
+  // the root.
   constexpr int steps = 8;
   for (int i = 1; i <= steps; ++i) {
     const double x = point.x * i / steps, y = point.y * i / steps, r2 = x * x + y * y;
@@ -43,7 +44,7 @@ std::array<float, 4> catmull_rom(float t) {
           0.5f * (t3 - t2)};
 }
 
-/// A photograph that can be looked at between its pixels. Beyond its edge it goes on as its edge.
+/// Interpolates a photograph between its pixels. Outside, the nearest edge pixel repeats.
 class Sampler {
  public:
   explicit Sampler(const Image8& photograph)
@@ -60,10 +61,10 @@ class Sampler {
       }
   }
 
-  /// At a place in pixels, whose centres are at one half: colour times alpha, and alpha, into
-  /// `sums`. Compilers make one instruction of four channels where they go to memory.
+  /// Writes colour times alpha, and alpha, at a place in pixels (centres at one half) to `sums`.
+  /// Compilers vectorise the four channels because the sums go to memory.
   void operator()(glm::dvec2 place, float* sums) const {
-    // Far outside, where a cast to int would not be defined, the edge is as good; for NaN as well.
+    // Far outside, a cast to int would be undefined; such places and NaN use the edge.
     const double x = (place.x > 0 ? std::min(place.x, double(width_)) : 0.0) - 0.5 + border;
     const double y = (place.y > 0 ? std::min(place.y, double(height_)) : 0.0) - 0.5 + border;
     const int left = int(x), top = int(y);
@@ -89,15 +90,15 @@ class Sampler {
 };
 
 glm::u8vec4 to_pixel(glm::vec4 sum) {
-  // Less than half of the least alpha above zero; the cubic may also swing below zero.
+  // Below half of the smallest positive alpha; the cubic may also be negative.
   if (!(sum.a >= 0.5f)) return glm::u8vec4(0);
   const auto byte = [](float value) { return glm::u8(std::clamp(value, 0.0f, 255.0f) + 0.5f); };
   return {byte(sum.r / sum.a), byte(sum.g / sum.a), byte(sum.b / sum.a), byte(sum.a)};
 }
 
-/// A rectangle without unknown pixels: whichever side has the largest part of them loses a row or
-/// a column until none has any. What is unknown lies outside of a curve around the axis, so the
-/// sides find all of it; known_pixels() looks again.
+/// A rectangle without unknown pixels. The side with the largest fraction of unknown pixels loses
+/// its row or column, until no side has any. Unknown pixels lie outside a curve around the axis, so
+/// the sides find them all; known_pixels() verifies this.
 class Crop {
  public:
   Crop(const std::vector<bool>& known, int width, int height) : known_(known), width_(width) {
@@ -124,7 +125,7 @@ class Crop {
     }
   }
 
-  /// Empty where it holds less than half of the image, or a hole.
+  /// Empty if the rectangle has less than half of the image or contains an unknown pixel.
   PixelRectangle known_pixels() const {
     const std::size_t area =
         std::size_t(area_.right - area_.left) * std::size_t(area_.bottom - area_.top);
@@ -155,8 +156,8 @@ class Crop {
   PixelRectangle area_;
 };
 
-/// Whether every pixel can be seen. What a lens sees is star-shaped around the axis, so that the
-/// pixels at the border speak for all.
+/// Whether every pixel is visible. The visible region is star-shaped around the axis, so a check of
+/// the border is sufficient.
 bool sees_all(const Camera& camera, const Lens& lens) {
   const auto sees = [&](double x, double y) {
     return lens.sees({(x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy});

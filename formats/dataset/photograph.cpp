@@ -17,7 +17,7 @@ std::string size_text(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height);
 }
 
-/// The camera of the same view where its image is resized to width x height.
+/// The camera after its image was resized to width x height.
 Camera stretched(Camera camera, int width, int height) {
   const double x = double(width) / camera.width, y = double(height) / camera.height;
   camera.fx *= x;
@@ -29,13 +29,13 @@ Camera stretched(Camera camera, int width, int height) {
   return camera;
 }
 
-/// The camera of an image of this size from a folder whose images are `shrunk` times smaller than
-/// those that the dataset speaks of.
+/// The camera for an image from a folder whose images are `shrunk` times smaller than the dataset's
+/// full size. Throws InputError if the sizes do not match.
 Camera camera_for(const DatasetFrame& frame, const Image8& image, int shrunk,
                   const std::string& file) {
   const glm::ivec2 full =
       frame.size.value_or(glm::ivec2(image.width * shrunk, image.height * shrunk));
-  // What does not divide was rounded, by whoever made the folder, up or down.
+  // Sizes that are not divisible may have been rounded up or down.
   const auto fits = [&](int have, int want) { return std::abs(have * shrunk - want) < shrunk; };
   if (!fits(image.width, full.x) || !fits(image.height, full.y))
     throw InputError({file, {}, {}}, "the image is " + size_text(image.width, image.height) +
@@ -44,9 +44,10 @@ Camera camera_for(const DatasetFrame& frame, const Image8& image, int shrunk,
   return stretched(frame.camera(full.x, full.y), image.width, image.height);
 }
 
-/// Pixels of the scaled image whose area lies within `known` of an image of this size.
+/// The pixels whose area lies within `known`, after the image was scaled from size `from` to size
+/// `to`.
 PixelRectangle scaled_rectangle(const PixelRectangle& known, glm::ivec2 from, glm::ivec2 to) {
-  // 64 bits: sides go to 2^16.
+  // 64 bits: sides are at most 2^16.
   const auto up = [](std::int64_t a, std::int64_t b, std::int64_t c) {
     return int((a * b + c - 1) / c);
   };
@@ -93,7 +94,7 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem:
   const glm::ivec2 full(image.width, image.height);
   PixelRectangle known{0, 0, full.x, full.y};
   if (!frame.lens.is_pinhole()) {
-    // The same image in floats, with a border, and without its lens.
+    // The image in floats with a border, and the undistorted image.
     input.take_memory(std::uint64_t(full.x + 4) * std::uint64_t(full.y + 4),
                       sizeof(glm::vec4) + sizeof(glm::u8vec4) + 1, "the image without its lens");
     Undistorted without_lens = undistorted(image, camera, frame.lens);
@@ -102,16 +103,15 @@ ReadPhotograph read_photograph(const DatasetFrame& frame, const std::filesystem:
     if (known.right == 0)
       throw InputError({input.name(), {}, {}},
                        "the distortion of its lens cannot be undone: less than half of the "
-                       "image would be left");
+                       "image would remain");
   }
   const glm::ivec2 size(scaled_side(full.x, options.scale), scaled_side(full.y, options.scale));
   known = scaled_rectangle(known, full, size);
   if (known.left >= known.right || known.top >= known.bottom)
-    throw InputError({input.name(), {}, {}}, "nothing is left of it at " +
-                                                 size_text(size.x, size.y) + ", scaled by " +
-                                                 float_text(float(options.scale)));
+    throw InputError({input.name(), {}, {}}, "no pixels remain at " + size_text(size.x, size.y) +
+                                                 ", scaled by " + float_text(float(options.scale)));
   camera = stretched(std::move(camera), size.x, size.y);
-  // Scaled, and perhaps cropped once more.
+  // The scaled image, and perhaps a cropped copy.
   input.take_memory(std::uint64_t(size.x) * std::uint64_t(size.y), 2 * sizeof(glm::u8vec4),
                     "the scaled image");
   image = box_scaled(image, size.x, size.y);

@@ -3,14 +3,14 @@
 #include <nlohmann/json.hpp>
 
 #include "base/input.hpp"
-#include "base/json_file.hpp"
+#include "base/json/json_file.hpp"
 #include "formats/dataset/transforms_json.hpp"
 
 namespace tureen {
 
 namespace {
 
-/// "./images/a.jpg" as "images_4/a.jpg"; nothing where the name begins with another folder.
+/// "./images/a.jpg" as "images_4/a.jpg"; nullopt if the name begins with another folder.
 std::optional<std::string> in_images_folder(const std::string& name, int images_folder) {
   if (images_folder == 1) return name;
   const std::string_view rest = std::string_view(name).substr(name.starts_with("./") ? 2 : 0);
@@ -31,7 +31,7 @@ std::vector<DatasetFrame> read_transforms_dataset(const std::filesystem::path& p
                      hint);
   };
   if (!root.is_object() || !root.contains("frames"))
-    throw InputError({input.name(), {}, {}}, "there is no \"frames\": no transforms.json");
+    throw InputError({input.name(), {}, {}}, "it has no \"frames\": not a transforms.json");
   std::vector<DatasetFrame> result;
   for (const TransformsFrame& frame : read_transforms(root, input.name())) {
     const std::size_t number = result.size();

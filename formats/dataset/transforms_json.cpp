@@ -34,8 +34,8 @@ std::string other_lens(const CameraJson& json) {
     if (json.truth(key)) return key;
   std::string model = json.text("camera_model");
   if (std::find(described.begin(), described.end(), model) == described.end()) return model;
-  // In OpenCV's order the fourth radial number belongs to a quotient of polynomials, in others'
-  // to r^8.
+  // The fourth radial number is ambiguous: in OpenCV it belongs to a quotient of polynomials,
+  // elsewhere to r^8.
   if (json.maybe_number("k4").value_or(0) != 0) return "k4";
   return {};
 }
@@ -50,7 +50,7 @@ TransformsFrame read_frame(const CameraJson& json) {
   if (!frame.fl_x) frame.camera_angle_x = angle(json, "camera_angle_x");
   if (!frame.fl_y) frame.camera_angle_y = angle(json, "camera_angle_y");
   if (!frame.fl_x && !frame.fl_y && !frame.camera_angle_x && !frame.camera_angle_y)
-    json.fail("neither fl_x nor camera_angle_x is there");
+    json.fail("it has neither fl_x nor camera_angle_x");
   frame.cx = json.maybe_number("cx");
   frame.cy = json.maybe_number("cy");
   const auto coefficient = [&](const char* key) { return json.maybe_number(key).value_or(0); };
@@ -89,7 +89,7 @@ Camera pinhole(const TransformsFrame& frame, int width, int height) {
   camera.name = frame.file_path;
   camera.width = width;
   camera.height = height;
-  camera.fx = fx ? *fx : *fy;  // pixels are square where the file gives one of the two
+  camera.fx = fx ? *fx : *fy;  // square pixels if the file has only one of the two
   camera.fy = fy ? *fy : *fx;
   camera.cx = frame.cx.value_or(0.5 * width);
   camera.cy = frame.cy.value_or(0.5 * height);

@@ -4,7 +4,7 @@
 //                      i = t texel_count(level) + k, pixel (i % width, i / width)
 //   mlp_weights.json   W1 [16][16], b1, W2 [16][16], b2, W3 [3][16], b3, row by row
 //   meta.json          up, level, background, num_faces, num_verts
-// All faces have one level. Cameras, names and an origin have no place in it.
+// All faces have one level. The format does not store cameras, names or an origin.
 #pragma once
 
 #include <filesystem>

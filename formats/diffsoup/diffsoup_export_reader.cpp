@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "base/json_file.hpp"
+#include "base/json/json_file.hpp"
 #include "formats/diffsoup/diffsoup_export.hpp"
 #include "formats/diffsoup/diffsoup_mesh.hpp"
 #include "formats/gltf/uri.hpp"
@@ -28,12 +28,12 @@ struct Meta {
   glm::vec3 background{0.0f};
   std::optional<std::uint64_t> faces, vertices;
   bool ours = false;
-  std::string assumed;  // why level is not what meta.json says, where it is not
+  std::string assumed;  // reason for an assumed level; otherwise empty
 };
 
 Meta read_meta(const fs::path& folder, const MemoryBudget& budget, SceneInfo& info) {
   Meta meta;
-  // A link that leads nowhere or to itself is there, and Input::open says what is wrong with it.
+  // A broken or cyclic link exists; Input::open reports its error.
   std::error_code ignored;
   if (fs::symlink_status(folder / "meta.json", ignored).type() == fs::file_type::not_found) {
     meta.assumed = "meta.json is missing: level 5 is assumed";
@@ -62,7 +62,7 @@ Meta read_meta(const fs::path& folder, const MemoryBudget& budget, SceneInfo& in
       fail("\"level\" is not an integer from 0 to 7");
     meta.level = level.get<int>();
   } else {
-    meta.assumed = "meta.json names no level: 5 is assumed";
+    meta.assumed = "meta.json has no level: 5 is assumed";
     info.remarks.push_back({Remark::Kind::level_missing});
   }
   meta.up = vector("up", meta.up);
@@ -81,17 +81,17 @@ void expect_count(const fs::path& mesh, std::optional<std::uint64_t> said, std::
                   const char* what) {
   if (said && *said != have)
     throw InputError({mesh.string(), {}, {}}, std::to_string(have) + " " + what +
-                                                  ", but meta.json says " + std::to_string(*said));
+                                                  ", but meta.json has " + std::to_string(*said));
 }
 
-/// One of the two images, with as many texels as `texels` and a remainder below one row. `assumed`:
-/// what that number stands on, for the refusal of an image of another.
+/// One of the two images, with `texels` pixels and a remainder below one row. `assumed` is the
+/// reason for an assumed level, which is added to the error about a wrong size.
 Image8 read_lut(const fs::path& folder, const char* name, std::uint64_t texels,
                 const std::string& assumed, const MemoryBudget& budget) {
   Input input = open_in_folder(folder, name, budget);
   const auto bytes = input.read_rest();
-  // Bit depth and colour type of IHDR, always the first chunk. Anything else than 8 and 6 would be
-  // decoded into RGBA with values that nobody stored.
+  // Bit depth and colour type of IHDR, which is always the first chunk. The decoder would convert
+  // other depths and types to RGBA8 and change the values.
   constexpr std::array<unsigned char, 8> signature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   if (bytes.size() < 26 || std::memcmp(bytes.data(), signature.data(), signature.size()) != 0)
     input.fail_at(0, "not a PNG image");
@@ -111,7 +111,7 @@ Image8 read_lut(const fs::path& folder, const char* name, std::uint64_t texels,
                           std::to_string(width) + ": " + std::to_string(expected) +
                           " rows expected" + (assumed.empty() ? "" : " (" + assumed + ")"));
   Image8 image = decode_image(bytes, input.name(), budget);
-  // A decoder may look past other chunks for the header that it believes (Apple's CgBI is one).
+  // The decoder may skip chunks before the header, such as Apple's CgBI, and use a later header.
   if (std::uint64_t(image.width) != width || std::uint64_t(image.height) != height)
     input.fail_at(8, "the first chunk of the PNG is not its header");
   return image;
@@ -135,7 +135,7 @@ ColorMlp read_mlp(const fs::path& folder, const MemoryBudget& budget) {
       .blend_channel = 3};
 }
 
-/// The rule that diffsoup_export.hpp states.
+/// Implements the rule in diffsoup_export.hpp.
 void restore_truncated_half(std::vector<std::uint8_t>& texels, std::vector<Remark>& remarks) {
   constexpr std::size_t channels = LatticeTexture::channels, alpha = LatticeTexture::features;
   std::array<std::size_t, 256> histogram{};
@@ -181,7 +181,7 @@ Scene read_diffsoup_export(const fs::path& folder, const ReadOptions& options) {
   const std::uint64_t count = faces * per_face;
   if (count > max_image_pixels)
     throw InputError({mesh_path.string(), {}, {}},
-                     std::to_string(count) + " texels are beyond what we read");
+                     std::to_string(count) + " texels are more than an image can have");
 
   LatticeTexture texture;
   texture.mlp = read_mlp(folder, budget);
@@ -192,7 +192,7 @@ Scene read_diffsoup_export(const fs::path& folder, const ReadOptions& options) {
     if (half == 0) mesh_input.take_memory(count, LatticeTexture::channels, "the texels");
     PassingMemory passing(budget);
     const Image8 image = read_lut(folder, luts[half], count, meta.assumed, budget);
-    // Only now is it certain that the files hold what mesh.ply promised.
+    // The memory is allocated only after the first image has confirmed the count of mesh.ply.
     texels.resize(static_cast<std::size_t>(count) * LatticeTexture::channels);
     for (std::size_t i = 0; i < count; ++i)
       std::memcpy(&texels[i * LatticeTexture::channels + 4 * half], &image.pixels[i], 4);

@@ -21,13 +21,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Widest image that the published exporter makes, and the most rows its viewer can show on common
-/// devices.
+/// Width of the published exporter's widest image, and the largest number of rows that its viewer
+/// supports on common devices, in pixels.
 constexpr std::size_t lut_width = 4096, viewer_rows = 16384;
 
 constexpr std::size_t texel_channels = LatticeTexture::channels;
 
-/// The two images as they are filled; face t begins at texel t * per_face.
+/// The two images; face t begins at texel t * per_face.
 struct Luts {
   int level = 0;
   Image8 first, second;
@@ -159,7 +159,7 @@ ColorMlp inert_mlp() {
 ColorMlp exported_mlp(const TriangleSoup& soup, std::vector<std::string>& notes) {
   const auto* texture = std::get_if<LatticeTexture>(&soup.appearance);
   if (!texture || !texture->mlp) {
-    notes.emplace_back("the scene has no color MLP: one that changes nothing was written");
+    notes.emplace_back("the scene has no color MLP: an inert one was written");
     return inert_mlp();
   }
   const ColorMlp& mlp = *texture->mlp;
@@ -173,7 +173,7 @@ ColorMlp exported_mlp(const TriangleSoup& soup, std::vector<std::string>& notes)
   return mlp;
 }
 
-/// A folder that is made under a temporary name beside its own and takes its place at the end.
+/// A folder that is written under a temporary name beside its final path. commit() moves it there.
 class NewFolder {
  public:
   explicit NewFolder(fs::path path) : path_(std::move(path)) {
@@ -182,11 +182,11 @@ class NewFolder {
     if (fs::exists(path_, error) && !is_diffsoup_export(path_) &&
         !(fs::is_directory(path_, error) && fs::is_empty(path_, error)))
       throw OutputError({path_.string(), {}, {}},
-                        "is there and is no DiffSoup export: not replaced");
+                        "exists and is not a DiffSoup export: not replaced");
     if (const std::string foreign = foreign_to_diffsoup_export(path_); !foreign.empty())
       throw OutputError({path_.string(), {}, {}},
-                        "not replaced: it holds " + foreign + ", which is no part of an export");
-#ifndef __EMSCRIPTEN__  // where there are no links
+                        "not replaced: it holds " + foreign + ", which is not part of an export");
+#ifndef __EMSCRIPTEN__  // it has no links
     path_ = writable_folder(path_);
 #endif
     temporary_ = temporary_beside(path_);
@@ -201,7 +201,7 @@ class NewFolder {
 
   fs::path file(const char* name) const { return temporary_ / name; }
 
-  /// The same of the file's final place, which people know.
+  /// The same error with the file's final path in place of the temporary one.
   OutputError in_place(const OutputError& error) const {
     return {{(path_ / fs::path(error.place().file).filename()).string(), {}, {}},
             error.reason(),
@@ -260,7 +260,7 @@ void write_files(const NewFolder& target, const Luts& luts, const ColorMlp& mlp,
 std::vector<std::string> write_diffsoup_export(const Scene& scene, const fs::path& folder) {
   const auto* soup = std::get_if<TriangleSoup>(&scene.primitives);
   if (!soup)
-    throw UsageError("a DiffSoup export cannot hold soft triangles: make them opaque before");
+    throw UsageError("a DiffSoup export cannot hold soft triangles: make them opaque first");
   assert(!defect(*soup));
   std::vector<std::string> notes;
   const Luts luts = std::visit(FillLuts{*soup, notes}, soup->appearance);

@@ -59,7 +59,7 @@ std::int64_t read_integer(const std::byte* at, const ScalarType& type) {
                   : static_cast<std::int64_t>(value);
 }
 
-/// What the header says. Records of a face count as having three corners.
+/// The contents of the header. Face records are assumed to have three corners.
 struct Header {
   std::uint64_t vertices = 0, faces = 0;
   std::size_t vertex_size = 0, face_size = 0;
@@ -93,9 +93,9 @@ class HeaderReader {
       else if (word == "property")
         read_property(words);
       else
-        fail("\"" + word.substr(0, 40) + "\" means nothing in a PLY header");
+        fail("\"" + word.substr(0, 40) + "\" is unknown in a PLY header");
     }
-    if (!format) fail("the PLY header names no format");
+    if (!format) fail("the PLY header has no format");
     for (const Field& field : header_.position)
       if (!field.type) fail("vertices lack x, y or z");
     if (!header_.corners.type) fail("faces lack vertex_indices");
@@ -143,7 +143,7 @@ class HeaderReader {
     if (size > 65536) fail("too many properties");
     if (type_name == "list") return read_list(words);
     const ScalarType* type = scalar_type(type_name);
-    if (!type || !(words >> name)) fail("a property of no known type");
+    if (!type || !(words >> name)) fail("a property of unknown type");
     if (element_ == 1 && (name == "x" || name == "y" || name == "z")) {
       if (!type->is_float) fail("property " + name + " is neither float nor double");
       header_.position[static_cast<std::size_t>(name[0] - 'x')] = {type, size};
@@ -156,7 +156,7 @@ class HeaderReader {
     words >> count_name >> item_name >> name;
     const ScalarType* count = scalar_type(count_name);
     const ScalarType* item = scalar_type(item_name);
-    if (!count || !item || count->is_float || item->is_float) fail("a list of no integer type");
+    if (!count || !item || count->is_float || item->is_float) fail("a list without integer types");
     if (element_ != 2 || header_.corners.type ||
         (name != "vertex_indices" && name != "vertex_index"))
       fail("a list that is not the one list vertex_indices of the faces");
@@ -179,7 +179,7 @@ class HeaderReader {
 
 std::vector<std::byte> read_records(Input& input, std::uint64_t count, std::size_t size,
                                     const char* what) {
-  // Divided rather than multiplied: a false count must not overflow.
+  // By division: a product with a false count could overflow.
   if (count > input.remaining() / size)
     input.fail(std::to_string(count) + " " + what + " of " + std::to_string(size) +
                " bytes do not fit into the " + std::to_string(input.remaining()) + " bytes left");

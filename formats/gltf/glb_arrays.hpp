@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "base/input.hpp"
-#include "base/json_view.hpp"
+#include "base/json/json_view.hpp"
 #include "formats/gltf/glb_container.hpp"
 #include "formats/tureen_glb/tureen_glb_layout.hpp"
 

@@ -4,11 +4,11 @@
 #include <optional>
 #include <string_view>
 
-#include "base/json_view.hpp"
+#include "base/json/json_view.hpp"
 
 namespace tureen {
 
-static_assert(std::endian::native == std::endian::little, "GLB is read as it lies in memory");
+static_assert(std::endian::native == std::endian::little, "GLB values are read without conversion");
 
 namespace {
 
@@ -18,30 +18,31 @@ constexpr std::uint32_t bin_chunk = 0x004E4942;   // "BIN\0"
 
 constexpr std::uint64_t header_bytes = 12, chunk_header_bytes = 8;
 
-constexpr char trailing_bytes[] = "bytes trail the file: its header says ";
+constexpr char trailing_bytes[] = "bytes follow the end of the file: its header gives ";
 
 std::string lengths(std::uint64_t length, const Input& input) {
   return std::to_string(length) + " bytes, it has " + std::to_string(input.size());
 }
 
-/// From the start of the input; returns the length of the file that the header says.
+/// Reads the header at the start of the input. Returns the length of the file from it.
 std::uint64_t read_header(Input& input) {
   input.seek(0);
   if (input.read_value<std::uint32_t>("the GLB header") != magic)
     input.fail_at(0, "not a GLB file: it does not begin with \"glTF\"");
   const auto version = input.read_value<std::uint32_t>("the GLB header");
-  if (version != 2) input.fail_at(4, "GLB version " + std::to_string(version) + ", only 2 is read");
+  if (version != 2)
+    input.fail_at(4, "GLB version " + std::to_string(version) + ", only 2 is supported");
   return input.read_value<std::uint32_t>("the GLB header");
 }
 
 struct Chunk {
-  std::uint64_t header = 0;  // where it begins
-  std::uint64_t start = 0;   // of its bytes
+  std::uint64_t header = 0;  // offset of the chunk header
+  std::uint64_t start = 0;   // offset of the content
   std::uint32_t size = 0;
   std::uint32_t type = 0;
 };
 
-/// The chunk that begins here, number `index` of a file of `length` bytes.
+/// Reads a chunk header at the current position: number `index` in a file of `length` bytes.
 Chunk read_chunk_header(Input& input, int index, std::uint64_t length) {
   Chunk chunk;
   chunk.header = input.position();
@@ -52,13 +53,13 @@ Chunk read_chunk_header(Input& input, int index, std::uint64_t length) {
   const std::string size = "a GLB chunk of " + std::to_string(chunk.size) + " bytes, ";
   if (chunk.size > length - chunk.start)
     fail(size + "but " + std::to_string(length - chunk.start) + " are left");
-  if (chunk.size % 4 != 0) fail(size + "which is no multiple of 4");
+  if (chunk.size % 4 != 0) fail(size + "which is not a multiple of 4");
   if ((chunk.type == json_chunk) != (index == 0))
     fail(index == 0 ? "the first GLB chunk is not JSON" : "a second JSON chunk in the GLB file");
   return chunk;
 }
 
-/// Reads the JSON, or notes where the binary chunk lies.
+/// Reads the JSON, or stores the location of the binary chunk.
 void take(Input& input, const Chunk& chunk, int index, GlbContainer& glb) {
   if (chunk.type == json_chunk) {
     const auto text = input.read_values<char>(chunk.size, "the JSON chunk");
@@ -91,7 +92,7 @@ GlbContainer read_glb_container(Input& input) {
   const std::uint64_t length = read_header(input);
   if (length != input.size())
     input.fail_at(
-        8, (length > input.size() ? "the file is cut short: its header says " : trailing_bytes) +
+        8, (length > input.size() ? "the file is cut short: its header gives " : trailing_bytes) +
                lengths(length, input));
   GlbContainer glb;
   for (int index = 0; input.remaining() > 0; ++index) {
@@ -108,7 +109,7 @@ std::optional<GlbContainer> read_glb_beginning(Input& input) {
   const std::uint64_t length = read_header(input);
   if (length < input.size()) input.fail_at(8, trailing_bytes + lengths(length, input));
   GlbContainer glb;
-  // The binary chunk is the second or there is none.
+  // A binary chunk, if any, is the second one.
   for (int index = 0; index < 2 && input.position() < length; ++index) {
     const std::uint64_t to_come = length - input.size();
     if (input.remaining() < chunk_header_bytes && to_come > 0) return std::nullopt;

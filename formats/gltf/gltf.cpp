@@ -25,7 +25,7 @@ bool contains_ignoring_case(const std::string& text, const char* word) {
          }) != text.end();
 }
 
-/// Python tools that write the colours they hold, display-referred, into COLOR_0 as they are.
+/// Whether the generator is a Python tool that writes display-referred colours to COLOR_0.
 bool writes_srgb_colors(const std::string& generator) {
   for (const char* tool : {"trimesh", "open3d", "pymeshlab", "pygltflib", "pyvista"})
     if (contains_ignoring_case(generator, tool)) return true;
@@ -52,7 +52,7 @@ class Importer {
     scene.cameras = std::move(cameras_);
     scene.info.source = generator_.empty() ? "glTF" : "glTF by " + generator_;
     if (contains_ignoring_case(generator_, "trimesh")) {
-      // trimesh writes coordinates as it holds them, and the soups that come this way are z up.
+      // trimesh does not convert coordinates, and soups exported with it are z up.
       scene.info.up = {0, 0, 1};
       scene.info.up_is_assumed = true;
       builder_.remarks.push_back({Remark::Kind::up_unknown_to_trimesh});
@@ -78,8 +78,8 @@ class Importer {
                 : Remark::Kind::vertex_colors_linear_by_gltf;
   }
 
-  /// The roots of the scene to draw: the default one, else the first, else all nodes that are
-  /// nobody's child.
+  /// The root nodes to draw: those of the default scene, else of the first scene, else all nodes
+  /// without a parent.
   std::vector<int> roots() const {
     const tinygltf::Model& model = document_.model();
     if (model.defaultScene >= 0 || !model.scenes.empty()) {
@@ -99,7 +99,7 @@ class Importer {
     return result;
   }
 
-  /// Visits every node once, on a stack of our own: a file may nest as deeply as it likes.
+  /// Visits every node once. The explicit stack allows any nesting depth.
   void walk() {
     struct Visit {
       int node;
@@ -150,7 +150,7 @@ class Importer {
     if (expect(node.rotation, 4, "rotation")) {
       const std::vector<double>& q = node.rotation;
       const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-      if (!(length > 0.0)) document_.fail(where + ".rotation", "is no rotation");
+      if (!(length > 0.0)) document_.fail(where + ".rotation", "is not a rotation");
       matrix = glm::dmat4(
           glm::mat3_cast(glm::dquat(q[3] / length, q[0] / length, q[1] / length, q[2] / length)));
     }
@@ -161,7 +161,7 @@ class Importer {
     return matrix;
   }
 
-  /// glTF cameras look along their own -z with y up, as ours do; they have no size in pixels.
+  /// glTF cameras look along -z with y up, as ours do. They store no size in pixels.
   void add_camera(int index, const glm::dmat4& world_from_node, const std::string& where) {
     constexpr int height = 720;
     const auto& all = document_.model().cameras;
@@ -174,7 +174,8 @@ class Importer {
       return;
     }
     const double fov = json.perspective.yfov;
-    // Half a turn is a plane; the camera's aspect may be absent, and the viewer's rules then.
+    // A field of view of pi would be a plane. Without an aspect ratio the viewer's applies; 16:9 is
+    // assumed.
     const double aspect =
         json.perspective.aspectRatio > 0.0 ? json.perspective.aspectRatio : 16.0 / 9.0;
     glm::dmat3 axes(world_from_node);
@@ -184,7 +185,7 @@ class Importer {
       builder_.remarks.push_back({Remark::Kind::blind_cameras_dropped});
       return;
     }
-    // A scale does not change what a camera sees; shear is taken out with it.
+    // A scale does not change a camera's view. Orthonormal axes remove it together with shear.
     const glm::dvec3 backward = glm::normalize(axes[2]);
     const glm::dvec3 right = glm::normalize(glm::cross(axes[1], backward));
     const glm::dvec3 up = glm::cross(backward, right);
@@ -224,7 +225,8 @@ GlbContainer read_json_file(Input& input) {
 bool is_gltf(std::span<const std::byte> head) {
   const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
   if (text.substr(0, 4) == "glTF") return true;
-  const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");  // a UTF-8 mark, too
+  const std::size_t first =
+      text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");  // and a UTF-8 byte order mark
   return first != std::string_view::npos && text[first] == '{' &&
          text.find("\"asset\"") != std::string_view::npos;
 }

@@ -113,7 +113,7 @@ std::size_t bytes_of_element(const Checked& checked) {
   return checked.component_bytes * std::size_t(checked.components);
 }
 
-/// All elements; nowhere (first is null) where the accessor has no bytes of its own.
+/// All elements; `first` is null if the accessor has no bytes.
 GltfDocument::Elements dense_elements(GltfDocument& document, const Checked& checked) {
   const tinygltf::Accessor& accessor = *checked.accessor;
   if (accessor.bufferView < 0) return {};

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "base/json_limits.hpp"
+#include "base/json/json_limits.hpp"
 #include "formats/gltf/uri.hpp"
 #include "image/png.hpp"
 
@@ -16,28 +16,29 @@ namespace tureen {
 
 namespace {
 
-/// What a file may require of us. The mesh and texture extensions change what is drawn and are
-/// honoured; unlit is how we draw anyway.
+/// Extensions that a file may require. The mesh and texture extensions are applied; materials are
+/// always drawn unlit.
 constexpr std::array known_extensions = {"KHR_materials_unlit", "KHR_mesh_quantization",
                                          "KHR_texture_transform"};
 
-/// tinygltf's messages as one line without the full stop.
+/// tinygltf's messages as one line without a full stop.
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
   return text.empty() ? "is not valid glTF" : text;
 }
 
-/// Whether tinygltf, which keeps indices and enumerations as int and drops the bits that do not
-/// fit, would take this for another: vertex 2^32 for vertex 0.
+/// Whether tinygltf would misread this index or enumeration. It stores them as int without the
+/// upper bits, so vertex 2^32 becomes vertex 0.
 bool is_beyond_int(const nlohmann::json& index) {
   return index.is_number_integer() &&
          std::abs(index.get<double>()) > std::numeric_limits<int>::max();
 }
 
-/// Whether there is a number that is_beyond_int where one would be an index or an enumeration: in
-/// members with the names of those, and in all "attributes" and "sparse". Then `place` is where,
-/// below `value`; it is put together on the way back: names may be long, and values many.
+/// Whether `value` contains a number that is_beyond_int where an index or an enumeration is
+/// expected: in the members `keys`, which include all "attributes" and "sparse". `place` then
+/// receives its path below `value`. The path is built on the way back, because names may be long
+/// and values many.
 bool find_beyond_int(const nlohmann::json& value, bool are_indices, std::string& place) {
   static constexpr std::array<std::string_view, 18> keys = {
       "attributes", "buffer",  "bufferView", "camera", "children", "componentType",
@@ -45,7 +46,7 @@ bool find_beyond_int(const nlohmann::json& value, bool are_indices, std::string&
       "sampler",    "scene",   "skin",       "source", "sparse",   "texCoord"};
   if (!value.is_structured()) return are_indices && is_beyond_int(value);
   for (const auto& [key, member] : value.items()) {
-    // Through lists of indices and into objects of indices, but not into the objects of a list.
+    // Lists and objects of indices contain indices; the objects of a list do not.
     const bool next = value.is_array()
                           ? are_indices && !member.is_object()
                           : are_indices || std::find(keys.begin(), keys.end(), key) != keys.end();
@@ -65,27 +66,28 @@ GltfDocument::GltfDocument(Input& input, GlbContainer glb, std::filesystem::path
   const auto minimum = asset.find("minVersion");
   const std::string& version = minimum ? minimum->text() : asset["version"].text();
   if (version.substr(0, 2) != "2." || (minimum && version != "2.0"))
-    (minimum ? *minimum : asset["version"]).fail("glTF " + version + "; 2.0 is read");
+    (minimum ? *minimum : asset["version"]).fail("glTF " + version + "; only 2.0 is supported");
   if (const auto required = root.find("extensionsRequired"))
     for (std::size_t i = 0; i < required->size(); ++i) {
       const std::string& name = required->at(i).text();
       if (std::find(known_extensions.begin(), known_extensions.end(), name) ==
           known_extensions.end())
-        required->at(i).fail("the file requires the extension " + name + ", which is not read");
+        required->at(i).fail("the file requires the extension " + name +
+                             ", which is not supported");
     }
   if (const auto list = root.find("buffers")) buffers_.resize(list->size());
   take_model_memory();
   parse();
 }
 
-/// What the copy of the JSON and tinygltf's model of it will take. Its structures are large: {} is
-/// a material of two kilobytes.
+/// Counts the memory of the JSON's copy and of tinygltf's model. The model's structures are large:
+/// {} becomes a material of two kilobytes.
 void GltfDocument::take_model_memory() const {
-  // No longer than the file's text and some two dozen letters a number, both counted when it was
-  // parsed.
+  // At most as long as the file's text plus about two dozen characters per number; both were
+  // counted when it was parsed.
   const std::string text = glb_.json.dump();
   const std::uint64_t values = count_json_values(text, input_.name());
-  // The copy, its text, tinygltf's own copy, and what it makes of extensions and extras.
+  // The copy, its text, tinygltf's own copy, and its values for extensions and extras.
   take_memory(values, 2 * json_value_bytes + sizeof(tinygltf::Value), "");
   take_memory(2 * text.size(), 1, "");
   constexpr std::pair<const char*, std::size_t> lists[] = {
@@ -96,7 +98,7 @@ void GltfDocument::take_model_memory() const {
       {"textures", sizeof(tinygltf::Texture)}};
   const JsonView root(glb_.json, input_.name());
   const auto take = [&](const JsonView& list, std::size_t each) {
-    // Vectors double: what they grew out of stands beside them for a moment.
+    // Vectors double, and the old array still exists while it is copied.
     take_memory(list.size(), 3 * each, list.path());
   };
   for (const auto& [name, each] : lists)
@@ -113,8 +115,8 @@ void GltfDocument::parse() {
     lean.erase(key);
   if (std::string place; find_beyond_int(lean, false, place))
     fail(place.substr(1), "is beyond 2147483647");
-  // tinygltf takes an offset or a size that is no integer for none at all; such a file would be
-  // read wrongly without a word.
+  // tinygltf ignores an offset or a size that is not an integer. Such a file would be misread
+  // without an error.
   for (const char* list : {"accessors", "bufferViews"}) {
     const auto view = JsonView(glb_.json, input_.name()).find(list);
     for (std::size_t i = 0; view && i < view->size(); ++i)
@@ -132,8 +134,8 @@ void GltfDocument::parse() {
   } catch (const std::exception& exception) {
     error += exception.what();
   }
-  // Of some parts it says what is wrong, leaves them out and goes on: a material whose colour has
-  // three numbers would lose its texture, too.
+  // tinygltf reports errors in some parts, skips these parts and continues: a material whose colour
+  // has three numbers would lose its texture, too.
   if (!parsed || !error.empty()) fail("", "not valid glTF: " + one_line(error));
 }
 
@@ -170,7 +172,8 @@ std::vector<std::byte> GltfDocument::load_uri(const JsonView& uri,
   } catch (const UriError& error) {
     uri.fail(error.reason);
   } catch (const InputError& error) {
-    // The scene's file is what the person named; the other is where it led.
+    // An error in the scene's own file is complete; an error in a referenced file needs the place
+    // of the reference.
     if (error.place().file == input_.name()) throw;
     uri.fail(error.without_hint(), error.hint());
   }
@@ -181,7 +184,7 @@ std::vector<std::byte> GltfDocument::load_buffer(std::size_t index, std::uint64_
   if (const auto uri = json.find("uri")) return load_uri(*uri, size);
   if (index != 0 || glb_.binary_offset == 0) json.fail("has no uri and no binary chunk");
   if (size > glb_.binary_size)
-    json.fail("wants " + std::to_string(size) + " bytes; the binary chunk has " +
+    json.fail("needs " + std::to_string(size) + " bytes; the binary chunk has " +
               std::to_string(glb_.binary_size));
   input_.seek(glb_.binary_offset);
   return input_.read_values<std::byte>(size, "the binary chunk");

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "base/input.hpp"
-#include "base/json_view.hpp"
+#include "base/json/json_view.hpp"
 #include "formats/gltf/glb_container.hpp"
 #include "formats/gltf/tinygltf.hpp"
 #include "image/image.hpp"

@@ -20,8 +20,8 @@ UvMaterial::Wrap wrap_of(const GltfDocument& document, int mode, const std::stri
   }
 }
 
-/// Without mip levels the magnification filter decides; where it is not given, the first half of
-/// the minification filter's name does.
+/// Without mip levels the magnification filter applies. If it is missing, the first half of the
+/// minification filter's name applies.
 UvMaterial::Filter filter_of(const tinygltf::Sampler& sampler) {
   const bool nearest_min = sampler.minFilter == TINYGLTF_TEXTURE_FILTER_NEAREST ||
                            sampler.minFilter == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST ||
@@ -40,7 +40,7 @@ glm::dvec2 pair_of(const GltfDocument& document, const tinygltf::Value& value, c
   return {pair.Get(0).GetNumberAsDouble(), pair.Get(1).GetNumberAsDouble()};
 }
 
-/// KHR_texture_transform: scale, then turn counter-clockwise as seen with v downwards, then move.
+/// KHR_texture_transform: scale, rotate counter-clockwise (v points down), translate.
 void read_transform(const GltfDocument& document, const tinygltf::Value& value,
                     const std::string& where, GltfMaterial& material) {
   const glm::dvec2 offset = pair_of(document, value, "offset", {0, 0}, where);

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
 
-/// Strips and fans as lists: triangle i of a strip turns around where i is odd, so that all face
-/// the same way.
+/// Strips and fans as lists. Odd triangles of a strip are reversed, so that all have the same
+/// orientation.
 std::vector<glm::uvec3> assembled(const std::vector<std::uint32_t>& corners, int mode) {
   std::vector<glm::uvec3> triangles;
   if (mode == TINYGLTF_MODE_TRIANGLES) {
@@ -61,7 +61,7 @@ std::vector<glm::uvec3> GltfSoupBuilder::triangles_of(const tinygltf::Primitive&
   if (primitive.mode == TINYGLTF_MODE_TRIANGLES && corners.size() % 3 != 0)
     remarks.push_back(
         {.kind = Remark::Kind::corners_dropped, .counts = {corners.size()}, .names = {where}});
-  // Of a strip or a fan each corner but two makes a triangle.
+  // A strip or a fan has two triangles fewer than corners.
   const bool list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
   document_.take_memory(list ? corners.size() / 3 : corners.size(), sizeof(glm::uvec3), where);
   return assembled(corners, primitive.mode);
@@ -86,10 +86,10 @@ void GltfSoupBuilder::add_primitive(const tinygltf::Primitive& primitive, const 
   if (vertices >= unused) document_.fail(where, "has more vertices than 32 bits can count");
   std::vector<glm::uvec3> triangles = triangles_of(primitive, where, vertices);
 
-  // Only the vertices that this primitive uses, in order: exporters let many primitives draw on
-  // one large accessor.
+  // Only the vertices that this primitive uses, in ascending order: exporters let many primitives
+  // share one large accessor.
   std::vector<std::uint32_t> used;
-  // What stands beside the soup while this primitive is added.
+  // Temporary memory while this primitive is added, in bytes.
   const std::uint64_t passing =
       std::uint64_t(triangles.size()) * sizeof triangles[0] +
       2 * std::min<std::uint64_t>(vertices, 3 * std::uint64_t(triangles.size())) * sizeof used[0];
@@ -125,7 +125,7 @@ void GltfSoupBuilder::add_primitive(const tinygltf::Primitive& primitive, const 
   const auto color = primitive.attributes.find("COLOR_0");
   if (color != primitive.attributes.end()) {
     if (accessor_count(document_, color->second) != vertices)
-      document_.fail(where + ".attributes.COLOR_0", "has not as many elements as POSITION");
+      document_.fail(where + ".attributes.COLOR_0", "does not have as many elements as POSITION");
     add_colors(color->second, where, used);
   }
   add_uv(primitive, materials_[part.material], where, used);
@@ -157,8 +157,8 @@ void GltfSoupBuilder::add_colors(int accessor, const std::string& where,
   vertex_colors_.resize(first, glm::vec4(1.0f));
   for (std::size_t i = 0; i < used.size(); ++i) {
     glm::vec4 rgba(1.0f);
-    // Floats may be anything; glTF clamps each to [0, 1] before it is multiplied (2.0, section
-    // 3.7.2.1). Written so that NaN becomes 0.
+    // glTF clamps each component to [0, 1] before multiplication (2.0, section 3.7.2.1). The order
+    // of the comparisons turns NaN into 0.
     for (int c = 0; c < colors.components; ++c)
       rgba[c] = std::min(
           std::max(0.0f, colors.values[i * std::size_t(colors.components) + std::size_t(c)]), 1.0f);
@@ -172,9 +172,9 @@ void GltfSoupBuilder::add_uv(const tinygltf::Primitive& primitive, const GltfMat
   const std::string name = "TEXCOORD_" + std::to_string(material.texture_coordinate);
   const auto attribute = primitive.attributes.find(name);
   if (attribute == primitive.attributes.end())
-    document_.fail(where, "its material wants " + name + ", which it lacks");
+    document_.fail(where, "its material needs " + name + ", which is missing");
   if (used.back() >= accessor_count(document_, attribute->second))
-    document_.fail(where + ".attributes." + name, "has not as many elements as POSITION");
+    document_.fail(where + ".attributes." + name, "has fewer elements than POSITION");
   const std::size_t first = soup_.positions.size() - used.size();
   document_.make_room_in(uv_, first + used.size() - uv_.size(), where);
   PassingMemory passing(document_.budget());
@@ -191,8 +191,8 @@ std::size_t GltfSoupBuilder::material(int index) {
   return entry->second;
 }
 
-/// glTF multiplies in linear light. Colours that are display-referred and not changed by a factor
-/// stay as they are to the bit.
+/// glTF multiplies linear colours. Display-referred colours with a factor of 1 are kept bit for
+/// bit.
 glm::vec4 GltfSoupBuilder::display_color(const glm::vec4& stored, const glm::dvec4& factor) const {
   const bool srgb = color_space_ == VertexColorSpace::srgb;
   const glm::vec4 alpha(0, 0, 0, float(double(stored.w) * factor.w));
@@ -213,8 +213,8 @@ VertexColors GltfSoupBuilder::as_vertex_colors() const {
     for (std::size_t v = part.first_vertex; v < part.first_vertex + part.vertices; ++v) {
       glm::vec4 rgba =
           vertex_colors_.empty() ? constant : display_color(vertex_colors_[v], material.factor);
-      // Moved, not scaled: an alpha that equals the cutoff becomes alpha_threshold exactly, and
-      // what is interpolated crosses the one where it crossed the other.
+      // Shifted, not scaled: an alpha equal to the cutoff becomes alpha_threshold exactly, and
+      // interpolated alpha crosses both at the same place.
       rgba.w = material.masked ? rgba.w - material.cutoff + alpha_threshold : 1.0f;
       colors.rgba.push_back(rgba);
     }

@@ -60,7 +60,8 @@ class GltfSoupBuilder {
   std::vector<glm::vec4> vertex_colors_;       // as stored; empty until the first
   std::vector<glm::vec2> uv_;                  // empty until the first
   /// Map from an accessor's vertices to the soup's for the current primitive; other entries are
-  /// `unused`. It is kept because a new one would cost each primitive the length of the accessor.
+  /// `unused`. It is kept, because a new map per primitive would take time proportional to the
+  /// accessor.
   std::vector<std::uint32_t> renamed_;
 };
 

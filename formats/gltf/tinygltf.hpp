@@ -1,4 +1,5 @@
-// tinygltf with our configuration: every source that includes it must use the same switches.
+// tinygltf with our configuration. All sources must include it through this file, so that they use
+// the same macros.
 #pragma once
 
 #define TINYGLTF_NO_STB_IMAGE

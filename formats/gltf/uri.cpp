@@ -16,7 +16,7 @@ int hex_digit(char c) {
   return -1;
 }
 
-/// A stray '%' stands for itself: exporters forget to encode it.
+/// A stray '%' is kept, because exporters may not encode it.
 std::string percent_decoded(std::string_view uri) {
   std::string result;
   for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -73,7 +73,7 @@ std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri) {
 Input open_in_folder(const std::filesystem::path& folder, const std::string& name,
                      MemoryBudget budget) {
   const std::filesystem::path path = folder / name;
-  // What is wrong with a file that cannot be looked up at all, Input::open says best.
+  // If the file's status is unknown, Input::open reports the reason.
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   try {
@@ -103,7 +103,7 @@ std::filesystem::path resolve_name_in_folder(const std::filesystem::path& folder
   const fs::path relative(name);
   if (relative.is_absolute() || relative.has_root_path() || name.front() == '\\')
     refuse("is an absolute path; only files in the scene's folder are opened");
-  // Windows takes either slash for a separator.
+  // Windows accepts both slashes as separators.
   std::string slashes = name;
   std::replace(slashes.begin(), slashes.end(), '\\', '/');
   for (const fs::path& part : fs::path(slashes))

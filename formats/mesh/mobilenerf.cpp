@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "base/extension.hpp"
-#include "base/json_file.hpp"
+#include "base/json/json_file.hpp"
 #include "formats/gltf/uri.hpp"
 #include "formats/mesh/obj.hpp"
 #include "image/png.hpp"
@@ -22,17 +22,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// More than any published scene has by far; bounds the list of what is missing.
+/// Far more than any published scene has; bounds the list of missing shapes.
 constexpr int max_shapes = 1024;
 
-/// The folder that `path` stands for: itself, or the one that its mlp.json or .obj lies in.
+/// The scene's folder: `path` itself, or the folder of the mlp.json or .obj at `path`.
 fs::path folder_of(const fs::path& path) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) return path;
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// Layer `index` of mlp.json, turned from [input][output] to [output][input].
+/// Layer `index` of mlp.json, transposed from [input][output] to [output][input].
 DenseLayer read_layer(const nlohmann::json& json, const std::string& file, int index, int inputs,
                       int outputs) {
   const std::string name = std::to_string(index);
@@ -93,7 +93,7 @@ Network read_network(const fs::path& folder, const MemoryBudget& budget) {
   return network;
 }
 
-/// "shape3.obj" is {3, -1}, "shape3_1.obj" is {3, 1}; nothing for other names.
+/// "shape3.obj" is {3, -1}, "shape3_1.obj" is {3, 1}; nullopt for other names.
 std::optional<std::pair<int, int>> shape_and_piece(std::string_view name) {
   constexpr std::string_view begin = "shape", end = ".obj";
   if (name.size() <= begin.size() + end.size() || name.substr(0, begin.size()) != begin ||
@@ -136,8 +136,8 @@ void append(TriangleSoup& soup, UvTextures& textures, const fs::path& path, std:
     input.fail_at(0, "more vertices than 32 bits can count");
   soup.positions.insert(soup.positions.end(), mesh.positions.begin(), mesh.positions.end());
   for (const glm::vec2& uv : mesh.uv)
-    // OBJ's v = 0 is the last row of the image. In double, so that nothing but the last bit of the
-    // result is rounded: texel centres are what these coordinates name.
+    // OBJ's v = 0 is the last row of the image. Computed in double and rounded once, because these
+    // coordinates are texel centres.
     textures.uv.emplace_back(uv.x, static_cast<float>(1.0 - double(uv.y)));
   for (const glm::uvec3& triangle : mesh.triangles)
     soup.triangles.push_back(triangle + glm::uvec3(static_cast<std::uint32_t>(first)));
@@ -152,7 +152,7 @@ void append_material(UvTextures& textures, const std::array<fs::path, 2>& featur
   material.wrap_u = material.wrap_v = UvMaterial::Wrap::clamp;
   material.filter = UvMaterial::Filter::nearest;
   material.mask_channel = 0;
-  material.mask_threshold = 0.5f / 255.0f;  // between the bytes 0, a hole, and 1
+  material.mask_threshold = 0.5f / 255.0f;  // between the bytes 0 (a hole) and 1
   for (const fs::path& path : features) {
     Input input = open_in_folder(path.parent_path(), path.filename().string(), budget);
     material.images.push_back(static_cast<std::uint32_t>(textures.images.size()));
@@ -168,8 +168,8 @@ void append_material(UvTextures& textures, const std::array<fs::path, 2>& featur
   textures.materials.push_back(std::move(material));
 }
 
-/// Where the published pages start. They shrink camera and object alike to a tenth, which changes
-/// no pixel: these are the coordinates of the .obj files.
+/// The initial camera of the published pages, in the coordinates of the .obj files. The pages scale
+/// camera and object by 1/10, which changes no pixel.
 Camera published_camera() {
   Camera camera =
       look_at({0.0, 2.0, 3.464}, glm::dvec3(0.0), {0.0, 1.0, 0.0}, glm::radians(39.0), 800, 800);
@@ -191,20 +191,21 @@ bool is_mobilenerf(const fs::path& path) {
     const nlohmann::json json = read_json(input);
     return json.is_object() && json.contains("0_weights");
   } catch (const InputError&) {
-    // Damaged beyond recognition: the file's name is all there is to go by.
+    // A damaged file is recognised only by its name.
     return name == "mlp.json" || fs::is_directory(path, ignored);
   }
 }
 
 Scene read_mobilenerf(const fs::path& path, const ReadOptions& options) {
   const fs::path folder = folder_of(path);
-  // Whoever comes with a mesh of any other program has never heard of mlp.json.
+  // A separate error for meshes from other programs, which have no mlp.json.
   std::error_code ignored;
   if (!fs::is_directory(path, ignored) && path.filename() != "mlp.json" &&
       fs::symlink_status(folder / "mlp.json", ignored).type() == fs::file_type::not_found)
-    throw InputError({path.string(), {}, {}},
-                     "an .obj is read as a part of a MobileNeRF scene, and the mlp.json of one is "
-                     "not beside it");
+    throw InputError(
+        {path.string(), {}, {}},
+        "an .obj is supported only as part of a MobileNeRF scene, but its folder has no "
+        "mlp.json");
   const MemoryBudget budget;
   Network network = read_network(folder, budget);
   const auto shapes = find_shapes(folder);
@@ -240,8 +241,8 @@ Scene read_mobilenerf(const fs::path& path, const ReadOptions& options) {
   }
   if (textures.materials.empty())
     throw InputError({folder.string(), {}, {}},
-                     "none of the " + std::to_string(network.shapes) +
-                         " shapes that mlp.json promises is there with its feature images");
+                     "all " + std::to_string(network.shapes) +
+                         " shapes in mlp.json lack their .obj or their feature images");
 
   textures.mlp = std::move(network.mlp);
   soup.appearance = std::move(textures);

@@ -58,7 +58,7 @@ class ObjReader {
     if (corners < 3) text_.fail("a face of " + std::to_string(corners) + " corners");
   }
 
-  /// "v/vt" or "v/vt/vn", each counting from 1, or from -1 backwards.
+  /// "v/vt" or "v/vt/vn", each an index from 1 upwards, or from -1 backwards.
   std::uint32_t read_corner() {
     const std::string word = text_.read_word("a corner v/vt");
     const Integer v = parse_integer(word);
@@ -78,7 +78,7 @@ class ObjReader {
   }
 
   std::uint64_t resolved(long long index, std::size_t count, const char* what) const {
-    // Both fit 32 bits: they make up one key.
+    // Both fit in 32 bits and form one key.
     const auto have = static_cast<long long>(
         std::min<std::size_t>(count, std::numeric_limits<std::uint32_t>::max()));
     if (index == 0 || index > have || index < -have)
@@ -88,10 +88,10 @@ class ObjReader {
   }
 
   [[noreturn]] void fail_corner(const std::string& word) const {
-    text_.fail("\"" + word.substr(0, 40) + "\" is no corner of the form v/vt or v/vt/vn");
+    text_.fail("\"" + word.substr(0, 40) + "\" is not a corner of the form v/vt or v/vt/vn");
   }
 
-  /// A node of the map, and its part of two generations of buckets.
+  /// A node of the map and its share of two generations of buckets, in bytes.
   static constexpr std::size_t bytes_a_vertex = 64;
 
   Input& input_;

@@ -16,20 +16,21 @@ namespace tureen {
 
 namespace {
 
-/// The header word up to and including "OFF", where `text` begins with one: "OFF", "STCNOFF", ..
+/// The header word up to and including "OFF" at the start of `text`: "OFF", "STCNOFF", .. Empty if
+/// there is none.
 std::string_view header_word(std::string_view text) {
   const std::size_t prefix = std::min(text.find_first_not_of("STCN4n"), text.size());
   return text.substr(prefix, 3) == "OFF" ? text.substr(0, prefix + 3) : std::string_view();
 }
 
-/// The numbers that are left on a line, and whether all of them are whole.
+/// The remaining numbers of a line, and whether all are integers.
 struct Numbers {
   static constexpr int most = 5;  // one more than any colour has
   std::array<float, most> values{};
   int count = 0;
   bool whole = true;
 
-  /// The count, beside `others` that came before, for a message.
+  /// The count for a message, including `others` preceding numbers.
   std::string described(int others) const {
     return std::to_string(others + count) + (count == most ? " or more" : "");
   }
@@ -45,13 +46,13 @@ Numbers read_numbers(TextScanner& scanner, const char* what) {
   return numbers;
 }
 
-/// Tells colours in bytes from colours in floats, over a whole file: a float writer may print
-/// (1, 0, 0) as "1 0 0", which only its other colours tell from a byte writer's near-black.
+/// Distinguishes byte colours from float colours over a whole file. A float writer may print (1, 0,
+/// 0) as "1 0 0", a byte writer's near-black; only the file's other colours resolve this.
 class ColorScale {
  public:
   explicit ColorScale(Input& input) : input_(input) {}
 
-  /// The colour in `numbers`, three or four of them, which elements [first, end) of a list get.
+  /// The colour in `numbers` (three or four), for the elements [first, end) of a list.
   glm::vec4 read(const TextScanner& scanner, const Numbers& numbers, std::size_t first,
                  std::size_t end) {
     glm::vec4 color(0.0f, 0.0f, 0.0f, 1.0f);
@@ -93,7 +94,7 @@ class ColorScale {
 
   Input& input_;
   bool bytes_ = false, floats_ = false;
-  std::vector<Doubtful> doubtful_;  // of nothing but 0s and 1s, and at least one 1
+  std::vector<Doubtful> doubtful_;  // only 0s and 1s, at least one 1
 };
 
 class OffReader {
@@ -122,11 +123,12 @@ class OffReader {
     const std::string word(header_word(scanner_.peek(9)));
     if (word.empty()) scanner_.fail("does not begin with OFF or COFF");
     if (word != "OFF" && word != "COFF")
-      scanner_.fail(word + " is a kind of OFF that we do not read: " + kind(word),
+      scanner_.fail(word + " is an unsupported variant of OFF: " + kind(word),
                     "write it as OFF or COFF");
     scanner_.skip(word.size());
     if (!scanner_.next_content()) scanner_.fail("the file ends after its first word");
-    if (scanner_.peek(7) == "BINARY") scanner_.fail("binary OFF is not read", "write it as text");
+    if (scanner_.peek(7) == "BINARY")
+      scanner_.fail("binary OFF is not supported", "write it as text");
 
     constexpr std::int64_t most = std::numeric_limits<std::uint32_t>::max();
     vertices_ = std::uint64_t(scanner_.read_integer("the number of vertices", 0, most));
@@ -160,7 +162,7 @@ class OffReader {
       mesh_.positions.push_back(position);
       const Numbers color = read_numbers(scanner_, "a colour component");
       if (i == 0) {
-        // The first line tells what all of them hold.
+        // All lines must have the columns of the first.
         components = color.count;
         if (components != 0 && components != 3 && components != 4)
           scanner_.fail("a vertex of " + color.described(3) +
@@ -176,7 +178,7 @@ class OffReader {
   }
 
   void read_faces() {
-    // A face that makes a triangle takes at least the eight characters of "3 0 0 0" and a line end.
+    // A triangle takes at least eight characters: "3 0 0 0" and a line end.
     mesh_.reserve_faces(std::min(faces_, scanner_.remaining() / 8 + 1));
     for (std::uint64_t i = 0; i < faces_; ++i) {
       next("face", i, faces_);
@@ -223,7 +225,7 @@ class OffReader {
   std::uint64_t indexed_colors_ = 0;
 };
 
-/// Lines of text, handed to the file a block at a time.
+/// Writes lines of text to the file in blocks.
 class LineWriter {
  public:
   explicit LineWriter(Output& output) : output_(output) { text_.reserve(block + 256); }
@@ -304,7 +306,7 @@ std::vector<std::string> write_off(const Scene& scene, const std::filesystem::pa
       if (k > 0) writer.space();
       writer.number(soup.positions[i][k]);
     }
-    // All vertices have as many numbers as the first, so alpha is always there.
+    // All vertices must have as many numbers as the first, so alpha is always written.
     if (vertex_rgba) writer.color((*vertex_rgba)[i], LineWriter::Alpha::always);
     writer.end_line();
   }

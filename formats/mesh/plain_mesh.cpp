@@ -10,7 +10,7 @@ namespace tureen {
 
 namespace {
 
-/// Brings every component into [0, 1]; how many lay outside.
+/// Clamps every component to [0, 1]. Returns the number of changed components.
 std::uint64_t clamp_colors(std::vector<glm::vec4>& rgba) {
   std::uint64_t clamped = 0;
   for (glm::vec4& color : rgba)
@@ -125,7 +125,7 @@ PlainMesh::PlainMesh(const Scene& scene, const std::string& format) {
   }
   if (!face_rgba() && !vertex_rgba()) use_mean_colors(format);
   if (scene.info.up != assumed_up)
-    lost.push_back(format + " knows no up axis; readers will assume (0, 0, 1).");
+    lost.push_back(format + " stores no up axis; readers assume (0, 0, 1).");
   if (scene.info.background != glm::vec3(0.0f))
     lost.push_back(format + " holds no background colour.");
   if (!scene.cameras.empty()) lost.push_back(format + " holds no cameras.");

@@ -15,15 +15,15 @@ namespace tureen {
 
 namespace {
 
-/// What a scalar property feeds: 0..2 x y z, 3..6 red green blue alpha.
+/// Slots of scalar properties: 0..2 x y z, 3..6 red green blue alpha.
 constexpr int slots = 7;
 constexpr int first_color = 3;
 constexpr int none = -1;
 
-/// How one element is read, decided once from its properties.
+/// The layout of an element, computed once from its properties.
 struct Layout {
-  std::vector<int> slot;               // one a property; none: passed over
-  std::array<double, slots> unit{};    // what stands for 1 in a colour slot
+  std::vector<int> slot;               // one a property; none: skipped
+  std::array<double, slots> unit{};    // divisor of each slot
   std::optional<std::size_t> indices;  // the list of vertex indices
   bool has_color = false;
 };
@@ -56,7 +56,7 @@ class PlyReader {
 
  private:
   void skip(const PlyElement& element) {
-    if (element.properties.empty()) return;  // nothing of it is in the body
+    if (element.properties.empty()) return;  // it has no bytes in the body
     for (std::uint64_t i = 0; i < element.count; ++i) {
       begin_row(element);
       for (const PlyProperty& property : element.properties) values_.skip(property);
@@ -64,7 +64,7 @@ class PlyReader {
     }
   }
 
-  /// Refuses files that hold no triangles, by what they do hold.
+  /// Rejects files without triangles; the error describes their contents.
   void check_kind() {
     const PlyElement* vertex = header_.find("vertex");
     if (!vertex)
@@ -76,10 +76,10 @@ class PlyReader {
       fail_header(*vertex, std::string("holds ") + (vertex->find("scale_2") ? "3D" : "2D") +
                                " Gaussian splats, not triangles: a radiance field of " +
                                std::to_string(vertices_) +
-                               " Gaussians and no faces, which is not drawn");
+                               " Gaussians and no faces, which is not supported");
     if (vertices_ > 0)
-      fail_header(*vertex, "is a point cloud: " + std::to_string(vertices_) +
-                               " vertices and no faces, nothing to draw");
+      fail_header(*vertex,
+                  "is a point cloud: " + std::to_string(vertices_) + " vertices and no faces");
   }
 
   Layout layout_of(const PlyElement& element) {
@@ -121,8 +121,8 @@ class PlyReader {
         return 1.0;
       default:
         fail_header(element, "has a colour '" + property.name +
-                                 "' of a type whose scale is not defined; uchar, ushort, float "
-                                 "and double are known");
+                                 "' of a type without a defined scale; supported: uchar, ushort, "
+                                 "float and double");
     }
   }
 
@@ -132,7 +132,7 @@ class PlyReader {
     if (!layout.indices) fail_header(element, "lacks 'vertex_indices'");
     const PlyProperty& list = element.properties[*layout.indices];
     if (!list.count_type || !is_integer(list.type))
-      fail_header(element, "has '" + list.name + "' that are no list of whole numbers");
+      fail_header(element, "has '" + list.name + "' that are not a list of integers");
   }
 
   void begin_row(const PlyElement& element) {
@@ -151,7 +151,7 @@ class PlyReader {
       if (layout.slot[i] != none && layout.slot[i] < first_color &&
           element.properties[i].type == PlyType::float64 && !ascii())
         rounded_ = true;
-    // The header has been checked: so many rows fit into the file.
+    // The header check guarantees that the rows fit in the file.
     mesh_.reserve_vertices(element.count);
     if (layout.has_color) mesh_.reserve_colors_of_vertices(element.count);
     for (std::uint64_t v = 0; v < element.count; ++v) {
@@ -232,7 +232,7 @@ class PlyReader {
       }
       last = {last.y, last.z, vertex_index(value, element, strip)};
       if (++length < 3) continue;
-      // Every other triangle of a strip runs the other way round.
+      // Every other triangle of a strip has the opposite orientation.
       mesh_.add_triangle(length % 2 ? last : glm::uvec3(last.y, last.x, last.z));
     }
   }
@@ -259,7 +259,7 @@ class PlyReader {
   bool rounded_ = false;
 };
 
-/// Values as little-endian bytes, whatever the machine, handed to the file a block at a time.
+/// Writes values as little-endian bytes on any machine, in blocks.
 class ByteWriter {
  public:
   explicit ByteWriter(Output& output) : output_(output) { bytes_.reserve(block + 16); }
@@ -316,7 +316,7 @@ std::vector<std::string> write_ply(const Scene& scene, const std::filesystem::pa
   const TriangleSoup& soup = mesh.soup();
   const auto* face_rgba = mesh.face_rgba();
   const auto* vertex_rgba = mesh.vertex_rgba();
-  // Indices are written as int, which every reader knows.
+  // Indices are written as int, which every reader supports.
   if (soup.positions.size() > std::size_t(std::numeric_limits<std::int32_t>::max()))
     throw UsageError("PLY cannot hold more than 2147483647 vertices");
   const bool as_bytes = are_bytes(face_rgba ? *face_rgba : *vertex_rgba);

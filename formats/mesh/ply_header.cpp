@@ -33,7 +33,8 @@ class HeaderReader {
     input_.seek(0);
     bytes.resize(input_.read_some(std::as_writable_bytes(std::span(bytes))));
     text_.assign(bytes.begin(), bytes.end());
-    // The first line tells how all of them end: a body may well begin with a line feed.
+    // All lines end like the first. Other line ends are not searched for, because a body may begin
+    // with a line feed.
     const std::size_t first = text_.find_first_of("\r\n");
     if (first != std::string::npos && text_[first] == '\r')
       line_break_ = first + 1 < text_.size() && text_[first + 1] == '\n' ? "\r\n" : "\r";
@@ -68,7 +69,7 @@ class HeaderReader {
   bool next_line() {
     if (next_ >= text_.size()) return false;
     const std::size_t end = text_.find(line_break_, next_);
-    // We stopped reading within it: what it says is not known.
+    // The end of this line was not read.
     if (end == std::string::npos && text_.size() < input_.size()) return false;
     const std::string_view line = std::string_view(text_).substr(next_, end - next_);
     next_ = end == std::string::npos ? text_.size() : end + line_break_.size();
@@ -99,7 +100,7 @@ class HeaderReader {
     else if (words_[1] == "binary_big_endian")
       header_.encoding = PlyHeader::Encoding::big_endian;
     else
-      fail("the encoding '" + printable(words_[1]) + "' is none that we know");
+      fail("the encoding '" + printable(words_[1]) + "' is unknown");
     if (words_[2] != "1.0") fail("PLY of version '" + printable(words_[2]) + "', not 1.0");
   }
 
@@ -128,7 +129,7 @@ class HeaderReader {
       expect_words(5, "property list");
       property.count_type = type(words_[2]);
       if (!is_integer(*property.count_type))
-        fail("a list counted in '" + printable(words_[2]) + "', not in whole numbers");
+        fail("a list counted in '" + printable(words_[2]) + "', not in integers");
       property.type = type(words_[3]);
       property.name = words_[4];
     } else {
@@ -142,11 +143,11 @@ class HeaderReader {
   PlyType type(std::string_view name) {
     for (const TypeName& known : type_names)
       if (known.name == name) return known.type;
-    fail("the type '" + printable(name) + "' is none that we know");
+    fail("the type '" + printable(name) + "' is unknown");
   }
 
-  /// Each element by itself: none of the sums can overflow then (counts are under 2^32, a header
-  /// holds under 2^20 bytes and so under 2^17 properties of 8 bytes).
+  /// Checks each element separately, so that no sum overflows: counts are below 2^32, and a header
+  /// of less than 2^20 bytes has fewer than 2^17 properties of 8 bytes.
   void check_sizes() {
     const bool ascii = header_.encoding == PlyHeader::Encoding::ascii;
     for (const PlyElement& element : header_.elements) {
@@ -185,7 +186,7 @@ class HeaderReader {
   std::size_t next_ = 0;
   std::uint64_t line_ = 0;
   std::vector<std::string_view> words_;  // of the current line
-  std::set<std::string> names_;          // of the elements: a header may have very many
+  std::set<std::string> names_;          // of all elements; a set, because a header may have many
   PlyHeader header_;
 };
 

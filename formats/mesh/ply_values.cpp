@@ -73,7 +73,7 @@ std::uint64_t PlyValues::read_count(const PlyProperty& list) {
   if (count < 0)
     fail("a list '" + list.name + "' of " + std::to_string(std::int64_t(count)) + " values");
   const auto values = static_cast<std::uint64_t>(count);
-  // In a text, a separator and a character a value.
+  // In ascii a value takes at least a separator and a character.
   if (values * (scanner_ ? 2 : size_of(list.type)) > remaining())
     fail("a list '" + list.name + "' of " + std::to_string(values) + " values in the last " +
          std::to_string(remaining()) + " bytes of the file");

@@ -24,7 +24,7 @@ void expect_at_most(const TorchArchive& archive, std::uint64_t count, const char
     archive.fail(std::to_string(count) + " " + what + " are more than 32 bits can count");
 }
 
-/// All of a tensor, three numbers a vector.
+/// All elements of a tensor, three a vector.
 std::vector<glm::vec3> read_vectors(TorchArchive& archive, const TorchTensor& tensor) {
   PassingMemory passing(archive.budget());
   const std::vector<float> values = archive.read_floats(tensor);
@@ -75,7 +75,7 @@ DenseLayer read_layer(TorchArchive& archive, const Pickle::Value& state, const s
           .biases = read(".bias", {high})};
 }
 
-/// Seven features and harmonics of degree 2 in, the hidden widths as they come.
+/// The 16-16-16-3 network. Its inputs are seven features and the nine harmonics of degree 2.
 ColorMlp read_color_mlp(TorchArchive& archive) {
   const Pickle::Value& state = archive.at("color_mlp");
   ColorMlp mlp{.layers = {},
@@ -89,7 +89,7 @@ ColorMlp read_color_mlp(TorchArchive& archive) {
   return mlp;
 }
 
-/// The level whose lattice has this many texels, or nothing.
+/// The level whose lattice has this many texels, or nullopt.
 std::optional<int> level_of(std::uint64_t texels) {
   for (int level = 0; level <= lattice::max_level; ++level)
     if (lattice::texel_count(level) == texels) return level;
@@ -102,7 +102,7 @@ void spread(TorchArchive& archive, const TorchTensor& from, std::size_t count, s
   PassingMemory passing(archive.budget());
   const std::vector<float> values = archive.read_floats(from);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    // Negated so that NaN is refused too.
+    // Negated so that NaN is rejected, too.
     if (!(values[i] >= 0.0f && values[i] <= 1.0f))
       archive.fail("\"" + from.name + "\" holds " + std::to_string(values[i]) + " for texel " +
                    std::to_string(i / count) + ", outside 0..1");
@@ -223,7 +223,7 @@ Scene read_triangle_splatting(TorchArchive& archive, const ReadOptions& options)
   soft.sigma = archive.read_floats(sigma);
   soft.opacity = archive.read_floats(opacity);
   for (std::size_t t = 0; t < count; ++t) {
-    // In double, where only a NaN can make either of them fail.
+    // In double. Sigma fails if it is NaN or exceeds a float, opacity only if it is NaN.
     const double s = 0.01 + std::exp(double(soft.sigma[t]));
     const double o = 1.0 / (1.0 + std::exp(-double(soft.opacity[t])));
     if (!(s <= std::numeric_limits<float>::max()) || std::isnan(o))
@@ -262,7 +262,7 @@ Scene read_connected_triangles(TorchArchive& archive, const ReadOptions& options
 
   Scene scene;
   scene.primitives = std::move(soup);
-  // MeshSplatting saves the same keys and a pixel count besides.
+  // MeshSplatting saves the same keys plus a pixel count.
   scene.info.source =
       archive.find("pixel_count") ? "MeshSplatting checkpoint" : "Triangle Splatting+ checkpoint";
   scene.info.remarks.push_back({Remark::Kind::window_parameters_dropped});
@@ -301,7 +301,7 @@ Scene read_checkpoint(Input input, const ReadOptions& options) {
     scene = read_triangle_splatting(archive, options);
   else
     archive.fail(
-        "a torch file of another kind: neither \"feat_acc\" (DiffSoup) nor \"triangles_points\" "
+        "an unsupported torch file: neither \"feat_acc\" (DiffSoup) nor \"triangles_points\" "
         "(Triangle Splatting) is among its keys");
   if (options.progress) options.progress(1.0);
   return scene;

@@ -12,7 +12,7 @@ namespace tureen {
 
 namespace {
 
-// The opcodes that are read.
+// The supported opcodes.
 enum Opcode : unsigned char {
   op_mark = '(',
   op_stop = '.',
@@ -47,7 +47,7 @@ enum Opcode : unsigned char {
   op_long1 = 0x8a,
 };
 
-/// The opcodes that are refused, for the message. Some build objects or call what they name.
+/// Names of rejected opcodes, for the message. Some of them build objects or call named functions.
 const char* refused_opcode_name(unsigned char opcode) {
   switch (opcode) {
     case '0':
@@ -131,8 +131,8 @@ const char* refused_opcode_name(unsigned char opcode) {
   }
 }
 
-/// One run over the opcodes. Values live in one vector and know each other by number, so that no
-/// depth of nesting and no cycle can exhaust the stack or leak.
+/// One run over the opcodes. Values lie in one vector and refer to each other by index, so that
+/// neither deep nesting nor cycles can exhaust the stack or leak memory.
 class Machine {
  public:
   using Kind = Pickle::Kind;
@@ -246,7 +246,7 @@ class Machine {
         return;
       case op_build:
         pop(1);
-        return;  // attributes of what lies below: not wanted
+        return;  // attributes of the value below; ignored
       case op_binpersid:
         push({.kind = Kind::persistent, .items = pop(1)});
         return;
@@ -264,7 +264,7 @@ class Machine {
     std::snprintf(code, sizeof code, "0x%02x", opcode);
     const char* known = refused_opcode_name(opcode);
     fail(std::string("the pickle opcode ") + (known ? known : "unknown") + " (" + code +
-         ") is not on the list of those that are read: refused, nothing was executed");
+         ") is not supported: rejected, nothing was executed");
   }
 
   std::string_view take(std::uint64_t count, const char* what) {
@@ -312,25 +312,25 @@ class Machine {
 
   void push_integer(std::int64_t value) { push({.kind = Kind::integer, .integer = value}); }
 
-  /// Values above the last mark (or all): what an opcode may take.
+  /// Number of values above the last mark (or of all): an opcode can take only these.
   std::size_t available() const { return stack_.size() - (marks_.empty() ? 0 : marks_.back()); }
 
   std::vector<Ref> pop(std::size_t count) {
-    if (count > available()) fail("the pickle takes a value that is not there");
+    if (count > available()) fail("the pickle takes a missing value");
     std::vector<Ref> taken(stack_.end() - static_cast<std::ptrdiff_t>(count), stack_.end());
     stack_.resize(stack_.size() - count);
     return taken;
   }
 
   std::vector<Ref> pop_to_mark() {
-    if (marks_.empty()) fail("the pickle takes values down to a mark that is not there");
+    if (marks_.empty()) fail("the pickle takes values down to a missing mark");
     std::vector<Ref> taken = pop(available());
     marks_.pop_back();
     return taken;
   }
 
   Value& top() {
-    if (available() == 0) fail("the pickle uses a value that is not there");
+    if (available() == 0) fail("the pickle uses a missing value");
     return values_[stack_.back()];
   }
 
@@ -344,7 +344,8 @@ class Machine {
 
   void put(std::uint64_t index) {
     top();
-    // Picklers number the memo from 0 upwards, so a false index cannot ask for memory.
+    // Picklers number the memo from 0 upwards. The limit prevents a false index from requesting
+    // memory.
     if (index >= Pickle::max_values) fail("memo " + std::to_string(index) + " is out of bounds");
     if (index >= memo_.size()) memo_.resize(static_cast<std::size_t>(index) + 1, unset);
     memo_[static_cast<std::size_t>(index)] = stack_.back();
@@ -370,8 +371,8 @@ class Machine {
     full += '.';
     full += line("a global's name");
     if (full != ordered_dict && std::find(globals_.begin(), globals_.end(), full) == globals_.end())
-      fail("the pickle wants the global " + shown_line(full) +
-           ", which is not on the list of harmless ones: refused, nothing was executed");
+      fail("the pickle needs the global " + shown_line(full) +
+           ", which is not supported: rejected, nothing was executed");
     push({.kind = Kind::global, .text = std::move(full)});
   }
 
@@ -419,8 +420,9 @@ Pickle::Pickle(std::string name, std::span<const std::byte> bytes,
   if (bytes.size() > max_bytes)
     throw InputError({name_, {}, {}}, "a pickle of " + std::to_string(bytes.size()) +
                                           " bytes, the limit is " + std::to_string(max_bytes));
-  // An opcode makes one value at most and moves a number on the stack, into the memo or among the
-  // items of another value; all of them lie in vectors that double. Texts are parts of the bytes.
+  // An opcode creates at most one value and stores one index: on the stack, in the memo or among
+  // the items of another value. All of these lie in vectors that double. Texts are parts of the
+  // bytes.
   const std::uint64_t values = std::min<std::uint64_t>(bytes.size(), max_values);
   if (!budget.take(values, 3 * sizeof(Value)) || !budget.take(bytes.size(), 9 * sizeof(Ref) + 1))
     throw InputError({name_, {}, {}}, budget.refusal("the pickle"), max_memory_hint);

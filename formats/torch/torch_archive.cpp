@@ -12,7 +12,7 @@ namespace tureen {
 
 namespace {
 
-// Storages are little endian, and so is every machine that this is built for.
+// Storages are little endian and are read without conversion.
 static_assert(std::endian::native == std::endian::little);
 
 using Type = TorchTensor::Type;
@@ -70,7 +70,7 @@ T load(const std::byte* at) {
   return value;
 }
 
-/// The element at `at` as a T. Integers are never made of floats (the caller sees to it).
+/// The element at `at` as a T. The caller must not request integers from floats.
 template <class T>
 T element(Type type, const std::byte* at) {
   switch (type) {
@@ -113,7 +113,8 @@ Input expect_zip(Input input) {
   input.seek(0);
   std::array<std::byte, 2> head;
   if (input.read_some(head) == 2 && head[0] == std::byte(0x80) && head[1] == std::byte(2))
-    input.fail_at(0, "saved in the format of torch before 1.6", "load it and save it again there");
+    input.fail_at(0, "saved in the format of torch before 1.6",
+                  "load and save it with torch 1.6 or later");
   return input;
 }
 
@@ -148,7 +149,7 @@ TorchArchive::TorchArchive(Input input) : zip_(expect_zip(std::move(input))) {
   if (const ZipEntry* order = zip_.find(prefix_ + "byteorder")) {
     const auto text = zip_.read_all(*order, 16);
     if (std::string_view(reinterpret_cast<const char*>(text.data()), text.size()) != "little")
-      fail("saved by a big-endian machine: not read");
+      fail("saved by a big-endian machine: not supported");
   }
   std::vector<std::string_view> globals{rebuild_tensor, rebuild_parameter};
   for (const StorageType& storage : storage_types) globals.push_back(storage.global);
@@ -173,7 +174,7 @@ const Value& TorchArchive::at(std::string_view key) const {
 TorchTensor TorchArchive::tensor(const Value& value, std::string name) const {
   const Pickle& p = pickle();
   const auto bad = [&](const std::string& why) { p.fail(value, "\"" + name + "\" " + why); };
-  // A parameter wraps a tensor: (tensor, requires_grad, hooks). Once is all that torch writes.
+  // A parameter wraps a tensor: (tensor, requires_grad, hooks). Torch writes only one such wrapper.
   const Value* built = &value;
   const auto callable = [&]() -> std::string_view {
     return built->kind == Kind::constructed ? std::string_view(p[built->items[0]].text) : "";
@@ -198,24 +199,24 @@ TorchTensor TorchArchive::tensor(const Value& value, std::string name) const {
   if (!id || id->kind != Kind::tuple || id->items.size() != 5 ||
       p[id->items[0]].text != "storage" || p[id->items[2]].kind != Kind::text ||
       p[id->items[4]].kind != Kind::integer || p[id->items[4]].integer < 0)
-    bad("does not say where its storage is");
+    bad("has no valid reference to its storage");
 
   TorchTensor tensor;
   const std::string_view type = p[id->items[1]].text;
   const auto* known = std::find_if(std::begin(storage_types), std::end(storage_types),
                                    [&](const StorageType& s) { return s.global == type; });
-  if (known == std::end(storage_types)) bad("is of a type that is not read");
+  if (known == std::end(storage_types)) bad("is of an unsupported type");
   tensor.type = known->type;
   tensor.storage = zip_.find(prefix_ + "data/" + p[id->items[2]].text);
   if (!tensor.storage)
-    bad("lies in \"" + prefix_ + "data/" + p[id->items[2]].text + "\", which is not there");
+    bad("lies in \"" + prefix_ + "data/" + p[id->items[2]].text + "\", which is missing");
   const auto numbers = static_cast<std::uint64_t>(p[id->items[4]].integer);
   if (numbers > tensor.storage->size / element_size(tensor.type))
     bad("lies in a storage of " + std::to_string(numbers) + " numbers, but \"" +
         tensor.storage->name + "\" has only " + std::to_string(tensor.storage->size) + " bytes");
 
   const auto natural = [&](const Value& v) {
-    if (v.kind != Kind::integer || v.integer < 0) bad("has a shape, stride or offset that is none");
+    if (v.kind != Kind::integer || v.integer < 0) bad("has an invalid shape, stride or offset");
     return static_cast<std::uint64_t>(v.integer);
   };
   if (shape.kind != Kind::tuple || strides.kind != Kind::tuple ||
@@ -229,8 +230,8 @@ TorchTensor TorchArchive::tensor(const Value& value, std::string name) const {
     bad("of shape " + shape_text(tensor.shape) + " does not fit into its storage of " +
         std::to_string(numbers) + " numbers");
   };
-  // Each product and sum is kept within `numbers`, so none overflows. A tensor that shows the same
-  // numbers again and again (stride 0) is refused with the rest: nobody trains one.
+  // Each product and sum is limited by `numbers`, so none overflows. This also rejects tensors that
+  // repeat numbers (stride 0); no trainer saves them.
   std::uint64_t elements = 1;
   const bool empty = std::count(tensor.shape.begin(), tensor.shape.end(), 0u) > 0;
   std::uint64_t last = tensor.offset;
@@ -276,7 +277,7 @@ std::vector<T> TorchArchive::read(const TorchTensor& tensor) {
   take_memory(tensor, extent, size);
   std::vector<std::byte> bytes(static_cast<std::size_t>(extent) * size);
   zip_.read(*tensor.storage, tensor.offset * size, bytes);
-  // An odometer over the shape, the last dimension fastest.
+  // Iterates over the shape, the last dimension fastest.
   std::vector<std::uint64_t> index(tensor.shape.size(), 0);
   std::uint64_t at = 0;
   for (T& value : values) {

@@ -19,7 +19,7 @@ constexpr std::uint32_t locator64_signature = 0x07064b50;
 constexpr std::size_t local_size = 30, central_size = 46, end_size = 22, end64_size = 56,
                       locator64_size = 20;
 
-/// A number of `bytes` bytes, little endian, wherever the machine's own order.
+/// A little-endian number of `bytes` bytes, on any machine.
 std::uint64_t little(std::span<const std::byte> data, std::size_t at, std::size_t bytes) {
   assert(at + bytes <= data.size());
   std::uint64_t value = 0;
@@ -28,7 +28,7 @@ std::uint64_t little(std::span<const std::byte> data, std::size_t at, std::size_
   return value;
 }
 
-/// Frees zlib's state however the scope is left.
+/// Frees zlib's state at the end of its scope.
 struct InflateState {
   z_stream stream{};
   bool ready = inflateInit2(&stream, -MAX_WBITS) == Z_OK;  // negative: no zlib header in a zip
@@ -44,7 +44,7 @@ struct InflateState {
 
 ZipArchive::ZipArchive(Input input) : input_(std::move(input)) {
   const Directory directory = find_directory();
-  // Every record takes 46 bytes at least: a false count is found out before anything is reserved.
+  // A record takes at least 46 bytes, so a false count is rejected before any allocation.
   if (directory.offset > input_.size() || directory.size > input_.size() - directory.offset)
     input_.fail_at(directory.offset, "the zip directory does not lie within the file");
   if (directory.entries > directory.size / central_size)
@@ -53,7 +53,7 @@ ZipArchive::ZipArchive(Input input) : input_(std::move(input)) {
                                          " entries");
   input_.seek(directory.offset);
   const auto bytes = input_.read_values<std::byte>(directory.size, "the zip directory");
-  // Names lie within the directory, which has been counted once, and stand here again.
+  // The entries copy the names from the directory, so its size counts twice.
   input_.take_memory(directory.size, 1, "the zip directory");
   input_.make_room_in(entries_, directory.entries, "the zip directory");
   std::size_t at = 0;
@@ -73,11 +73,12 @@ ZipArchive::ZipArchive(Input input) : input_(std::move(input)) {
   std::sort(entries_.begin(), entries_.end(),
             [](const ZipEntry& a, const ZipEntry& b) { return a.name < b.name; });
   for (std::size_t i = 1; i < entries_.size(); ++i)
-    if (entries_[i].name == entries_[i - 1].name) fail_in(entries_[i], "is there twice");
+    if (entries_[i].name == entries_[i - 1].name) fail_in(entries_[i], "occurs twice");
 }
 
 ZipArchive::Directory ZipArchive::find_directory() {
-  // The end record is the last 22 bytes plus a comment of at most 65,535: search backwards.
+  // The end record is the last 22 bytes plus a comment of at most 65,535. The search goes
+  // backwards.
   if (input_.size() < end_size) input_.fail_at(0, "too short for a zip archive");
   const std::uint64_t window = std::min<std::uint64_t>(input_.size(), end_size + 65535);
   const std::uint64_t start = input_.size() - window;
@@ -96,7 +97,8 @@ ZipArchive::Directory ZipArchive::find_directory() {
     if (!overflows) return directory;
     return place < locator64_size ? directory : find_zip64_directory(place - locator64_size);
   }
-  input_.fail_at(input_.size(), "the zip directory is missing: the file is cut short or no zip");
+  input_.fail_at(input_.size(),
+                 "the zip directory is missing: the file is cut short or is not a zip archive");
 }
 
 ZipArchive::Directory ZipArchive::find_zip64_directory(std::uint64_t locator) {
@@ -124,7 +126,7 @@ void ZipArchive::read_entry(std::span<const std::byte> record, std::uint64_t at,
   entry.header = little(record, 42, 4);
   const std::string quoted = "zip entry \"" + entry.name + "\" ";
 
-  // Zip64: those of the three that read 0xffffffff follow in this order in extra field 1.
+  // Zip64: the fields with the value 0xffffffff follow in this order in extra field 1.
   auto extra = record.subspan(central_size + name_size, extra_size);
   while (extra.size() >= 4) {
     const std::size_t length = static_cast<std::size_t>(little(extra, 2, 2));
@@ -144,8 +146,8 @@ void ZipArchive::read_entry(std::span<const std::byte> record, std::uint64_t at,
   if (little(record, 8, 2) & 1) input_.fail_at(at, quoted + "is encrypted");
   const std::uint64_t method = little(record, 10, 2);
   if (method != 0 && method != 8)
-    input_.fail_at(at, quoted + "is packed by method " + std::to_string(method) +
-                           ", only 0 (stored) and 8 (deflated) are read");
+    input_.fail_at(at, quoted + "is compressed by method " + std::to_string(method) +
+                           ", only 0 (stored) and 8 (deflated) are supported");
   entry.method = method == 0 ? ZipEntry::Method::stored : ZipEntry::Method::deflated;
   if (entry.header > directory || directory - entry.header < local_size ||
       entry.compressed_size > directory - entry.header - local_size)
@@ -171,7 +173,7 @@ const ZipEntry* ZipArchive::find(std::string_view name) const {
 }
 
 std::uint64_t ZipArchive::data_offset(const ZipEntry& entry) {
-  // The local header repeats name and extra field with lengths of their own: torch pads there.
+  // The local header repeats name and extra field with other lengths: torch pads them.
   std::array<std::byte, local_size> header;
   input_.seek(entry.header);
   input_.read(header, "a zip entry's header");
@@ -206,7 +208,7 @@ void ZipArchive::inflate(const ZipEntry& entry, std::uint64_t offset, std::span<
       stream.next_in = reinterpret_cast<Bytef*>(chunk.data());
       stream.avail_in = static_cast<uInt>(chunk.size());
     }
-    // zlib counts in 32 bits: a gibibyte at a time.
+    // zlib counts in 32 bits: at most a gibibyte at a time.
     const std::span<std::byte> whole = skip > 0 ? std::span<std::byte>(discarded) : out;
     const std::uint64_t wanted =
         std::min<std::uint64_t>(skip > 0 ? skip : out.size(), whole.size());
@@ -221,8 +223,7 @@ void ZipArchive::inflate(const ZipEntry& entry, std::uint64_t offset, std::span<
     else
       out = out.subspan(got);
     if (out.empty()) break;
-    if (status != Z_OK)
-      fail_in(entry, "is damaged: its deflated data ends early or makes no sense");
+    if (status != Z_OK) fail_in(entry, "is damaged: its deflated data ends early or is invalid");
   }
 }
 

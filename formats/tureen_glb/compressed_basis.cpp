@@ -12,7 +12,7 @@ namespace tureen {
 namespace {
 
 constexpr int features = LatticeTexture::features;
-constexpr double one = 65536.0;  // of the fixed point
+constexpr double one = 65536.0;  // 1.0 in fixed point
 
 std::size_t at(int i) { return std::size_t(i); }
 
@@ -35,7 +35,7 @@ struct Eigen {
   FeatureMatrix vectors;  // column j belongs to values[j]
 };
 
-/// Of a symmetric matrix, by Jacobi's rotations.
+/// Eigenvalues and eigenvectors of a symmetric matrix, by Jacobi's rotations.
 Eigen eigen(FeatureMatrix a) {
   Eigen result{{}, identity_matrix()};
   // Convergence is quadratic: 7 x 7 is diagonal to the last bit after about 8 sweeps.
@@ -60,8 +60,9 @@ Eigen eigen(FeatureMatrix a) {
   return result;
 }
 
-/// The covariance of what is left of each texel of a finest level after the mean of the two that it
-/// lies between, in bytes, by the weights of texels; the identity where there is none.
+/// The covariance of the prediction residuals on the finest level of each patch, in squared bytes,
+/// weighted by texel. A residual is a texel minus the mean of its two neighbours. The identity if
+/// there are no residuals.
 FeatureMatrix residual_covariance(const LatticeTexture& texture, std::span<const float> weights) {
   FeatureMatrix sum{};
   double total = 0;
@@ -74,7 +75,7 @@ FeatureMatrix residual_covariance(const LatticeTexture& texture, std::span<const
       for (int y = 0; x + y <= n; ++y) {
         if (x % 2 == 0 && y % 2 == 0) continue;
         const int dx = x % 2, dy = x % 2 == 0 ? 1 : y % 2 == 0 ? 0 : -1;
-        if (n == 1) continue;  // a triangle's corners have nothing between them
+        if (n == 1) continue;  // level 0 has only corners, and no prediction
         const std::uint32_t texel = patch.first_texel + lattice::texel_index(x, y);
         const double weight = weights.empty() ? 1 : double(weights[texel]);
         std::array<double, features> left;
@@ -92,7 +93,7 @@ FeatureMatrix residual_covariance(const LatticeTexture& texture, std::span<const
   return sum;
 }
 
-/// Gauss and Jordan, with pivots. The matrix of a basis can be inverted.
+/// Gauss-Jordan elimination with pivots. The matrix of a basis is invertible.
 FeatureMatrix inverse(FeatureMatrix a) {
   FeatureMatrix result = identity_matrix();
   for (std::size_t i = 0; i < features; ++i) {
@@ -156,8 +157,8 @@ CompressedBasis compressed_basis(const LatticeTexture& texture, const FeatureMat
   assert(weights.empty() || weights.size() == texture.texel_count());
   Eigen metric = eigen(sensitivity);
   const double most = *std::max_element(metric.values.begin(), metric.values.end());
-  // A colour that nothing moves: any step will do. One that features hardly move, a byte by a
-  // hundredth of a byte, is the same for every practical purpose, and its steps stay numbers.
+  // If no feature changes the colour, any step will do. The minimum of 1e-4 keeps the steps finite:
+  // below it, one byte of a feature moves the colour by less than a hundredth of a byte.
   const double least = most > 0 ? std::max(most / 100, 1e-4) : 1;
   FeatureMatrix root{}, inverse_root{};
   for (std::size_t k = 0; k < features; ++k) {
@@ -171,7 +172,7 @@ CompressedBasis compressed_basis(const LatticeTexture& texture, const FeatureMat
   }
   const Eigen residual = eigen(product(product(root, residual_covariance(texture, weights)), root));
   const FeatureMatrix columns = product(inverse_root, residual.vectors);
-  // Large residuals first: what they miss tells the coder about the others.
+  // Large residuals first: their sizes select the probability models of the others.
   std::array<std::size_t, features> order;
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

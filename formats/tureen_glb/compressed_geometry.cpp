@@ -22,18 +22,18 @@ struct Grid {
 };
 static_assert(sizeof(Grid) == 16);
 
-/// What a face needs meanwhile: itself, and the cells and positions of three vertices that are its
-/// own, all in vectors that double as they grow.
+/// Temporary memory per face in bytes: indices, cells and positions of three vertices, times 3 for
+/// vectors that double as they grow.
 constexpr std::size_t bytes_a_face = 3 * (12 + 3 * 12 + 3 * 12);
-/// Faces a byte, so that those bytes stay within 4,096 for each stored one. The encoder pads what
-/// is smaller.
+/// Largest number of faces per stored byte, so that this memory stays within 4,096 bytes per stored
+/// byte. The encoder pads smaller data.
 constexpr std::uint64_t max_faces_per_byte = 16;
 static_assert(bytes_a_face <= 4096 / max_faces_per_byte);
 
 struct GeometryModels {
   BitModel known[3];
   NumberModel<26> distance[3];
-  // By corner and axis, and by how long the number was in the face before.
+  // By corner, axis and bit length of the previous difference of that corner and axis.
   SignedModel<25> difference[3][3][26];
 };
 
@@ -43,14 +43,15 @@ int bit_length(int value) {
   return std::min(length, 25);
 }
 
-/// What encoder and decoder share. The encoder's cells and triangles are given; the decoder's are
-/// empty and come out.
+/// The traversal shared by encoder and decoder. The encoder passes its cells and triangles; the
+/// decoder passes none and receives them.
 template <class Coder>
 class GeometryWalk {
  public:
   GeometryWalk(Coder& coder, std::span<const glm::ivec3> given) : coder_(coder), given_(given) {}
 
-  /// False where a corner names a vertex that is not there, or one more than `limit` is made.
+  /// Returns false if a corner refers to a missing vertex, or if there would be more than `limit`
+  /// vertices.
   bool face(const glm::uvec3& wanted, std::size_t limit, glm::uvec3& face) {
     for (int k = 0; k < 3; ++k) {
       const std::size_t made = cells.size();
@@ -79,7 +80,7 @@ class GeometryWalk {
       const int difference =
           models_->difference[corner][axis][length].code(coder_, wanted[axis] - first_[axis]);
       length = bit_length(difference);
-      // Damaged bytes must not add up beyond what an int holds.
+      // Damaged bytes must not overflow an int.
       result[axis] = std::clamp(first_[axis] + difference, 0, 1 << max_compressed_bits);
     }
     return result;
@@ -88,7 +89,7 @@ class GeometryWalk {
   Coder& coder_;
   std::span<const glm::ivec3> given_;
   std::unique_ptr<GeometryModels> models_ = std::make_unique<GeometryModels>();
-  glm::ivec3 first_{0};  // of this face, or of the one before it
+  glm::ivec3 first_{0};  // first corner of this face, or of the previous one
   std::array<std::array<int, 3>, 3> lengths_{};
 };
 
@@ -117,14 +118,14 @@ Grid grid_of(const std::vector<glm::vec3>& positions, int bits) {
   for (const glm::vec3& p : positions)
     for (int k = 0; k < 3; ++k) {
       if (!std::isfinite(p[k]))
-        throw UsageError("a compressed file cannot hold a vertex that is not finite");
+        throw UsageError("a compressed file cannot hold a non-finite vertex");
       low[k] = std::min(low[k], p[k]);
       high[k] = std::max(high[k], p[k]);
     }
   double side = 0;
   for (int k = 0; k < 3; ++k) side = std::max(side, double(high[k]) - double(low[k]));
   const auto step = float(side / double((1 << bits) - 1));
-  // A soup that is one point has no side.
+  // Equal positions give a step of 0.
   return {low, step > 0.0f ? step : 1.0f};
 }
 
@@ -192,7 +193,7 @@ CompressedGeometry decode_compressed_geometry(std::span<const std::byte> bytes,
   CompressedGeometry result;
   for (std::size_t t = 0; t < faces; ++t) {
     glm::uvec3 triangle;
-    // No vertex of a decoder's is known before it is made.
+    // A decoder ignores the vertex; 0xffffffff is never a valid one.
     if (!walk.face(glm::uvec3(0xffffffffu), vertices, triangle)) throw damaged();
     result.triangles.push_back(triangle);
   }

@@ -46,7 +46,7 @@ LatticeTexture decode_compressed_texels(std::span<const std::byte> bytes, std::s
   const auto damaged = [&]() -> InputError {
     return InputError({file, {}, {}}, "the compressed texels are cut short or damaged");
   };
-  // Texels have 32-bit indices, too.
+  // Texel indices have 32 bits.
   const auto limit = std::min<std::uint64_t>(bytes.size() * max_per_byte, 0xffffffffu);
   TexelHeader header;
   if (bytes.size() < sizeof(header) || faces > limit) throw damaged();
@@ -60,8 +60,8 @@ LatticeTexture decode_compressed_texels(std::span<const std::byte> bytes, std::s
   };
   take(1, sizeof(Models));
   const auto models = std::make_unique<Models>();
-  // Its entry among patch_of_face, twice over where that grows; one of its own patches, with what
-  // is known of it meanwhile; and its place in the texture.
+  // Memory per face: an entry of patch_of_face and a Patch, both in growing vectors (times 3), an
+  // Activity (36 bytes) and a LatticePatch.
   take(faces, 3 * sizeof(std::uint32_t) + 3 * sizeof(Patch) + 36 + sizeof(LatticePatch));
   Faces layout;
   if (!code_faces(coder, *models, faces, {}, limit, layout)) throw damaged();

@@ -14,8 +14,7 @@ namespace {
 
 using namespace compressed;
 
-/// The texture as patches with contents of their own, in the order of their first face, one patch
-/// for all faces that look the same.
+/// The texture with one patch for all faces of equal contents, in the order of their first face.
 struct Source {
   Faces faces;
   std::vector<std::uint8_t> texels;
@@ -62,14 +61,14 @@ Source source_of(const LatticeTexture& texture, const CompressedTexelOptions& op
   return source;
 }
 
-/// What of a texel shows.
+/// The visibility of a texel's features.
 enum class Shows : std::uint8_t {
-  nothing,  // no alpha around reaches 1/2
-  edge,     // the cut-out's edge passes by
+  nothing,  // alpha is below 1/2 all around
+  edge,     // the edge of the cut-out is near
   all,      // alpha is at least 1/2 all around
 };
 
-/// A texel takes part in the triangles that it and two neighbours span.
+/// A texel affects the triangles that it spans with two neighbours.
 std::vector<Shows> what_shows(const Source& source) {
   constexpr lattice::Coordinates ring[] = {{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}};
   std::vector<Shows> result(std::size_t(source.faces.texels));
@@ -96,14 +95,14 @@ std::vector<Shows> what_shows(const Source& source) {
   return result;
 }
 
-/// How much more an error counts for each finer level: what is predicted from a texel inherits it,
-/// where nothing more is coded. Each texel has a part in six of the next level's; were all of those
-/// coded as nothing and errors did not know of each other, it would be 1 + 6/4, and 4 if all were
-/// the same. Of 1, 1.5, 2, 2.5, 3, 3.5 and 4 this made the smallest files for the same loss: the
-/// fox's are 9 % smaller than with 1.
+/// Factor of an error's weight for each finer level. Values predicted from a texel inherit its
+/// error if no residual is coded for them. A texel contributes one half to each of six texels on
+/// the next level. Without any residuals there, the factor would be 1 + 6/4 for uncorrelated errors
+/// and 4 for equal ones. Of 1, 1.5, 2, 2.5, 3, 3.5 and 4, the factor 3 gave the smallest files at
+/// the same loss: the fox's are 9 % smaller than with 1.
 constexpr double inherited = 3;
 
-/// What the encoder chooses, value by value.
+/// The encoder's choice of each residual.
 class Chooser {
  public:
   Chooser(const Source& source, const CompressedTexelOptions& options)
@@ -135,7 +134,8 @@ class Chooser {
     return miss < 0 ? -size : size;
   }
 
-  /// Of the nearest multiple, the next one towards none and none what costs least: error and bits.
+  /// The cheapest of the nearest multiple, the next one towards 0, and 0. The cost is the weighted
+  /// squared error plus the price of the bits.
   template <class Price>
   int feature_steps(const Question& asked, const Price& price) const {
     const int miss = value_of(asked) - asked.prediction;
@@ -160,7 +160,7 @@ class Chooser {
     return best;
   }
 
-  /// Never across 1/2: no fragment of a texel's own comes or goes.
+  /// Alpha stays on its side of 1/2, so that no fragment at the texel appears or disappears.
   int alpha_steps(const Question& asked) const {
     const int value = value_of(asked), prediction = asked.prediction, step = asked.step;
     const auto same_side = [&](int steps) {

@@ -22,8 +22,8 @@ inline constexpr int alpha = LatticeTexture::features;
 /// small file cannot request much memory.
 inline constexpr std::uint64_t max_per_byte = 64;
 
-/// A texel that a level adds to the level below, in that level's coordinates, and the two texels
-/// around it.
+/// A texel that a level adds to the next coarser one, and its two neighbours, in the coordinates of
+/// the finer level.
 struct Middle {
   lattice::Coordinates at, a, b;
 };
@@ -147,7 +147,7 @@ class Walk {
  private:
   using Values = std::array<int, channels>;
 
-  /// Sum of the residual magnitudes in a patch so far, channel by channel.
+  /// Sum of the residual magnitudes in a patch so far, for each channel.
   struct Activity {
     std::array<std::int32_t, channels> missed{};
     std::int32_t texels = 0;

@@ -1,6 +1,6 @@
 #include "formats/tureen_glb/tureen_glb_geometry.hpp"
 
-#include "base/json_vector.hpp"
+#include "base/json/json_vector.hpp"
 #include "formats/tureen_glb/tureen_glb.hpp"
 #include "image/png.hpp"
 
@@ -8,7 +8,7 @@ namespace tureen {
 
 namespace {
 
-/// Images of any other size cannot be drawn, and a driver may do worse than say so.
+/// Images of other sizes cannot be drawn, and a driver may fail on them without an error.
 int side(const JsonView& view) {
   const std::uint64_t pixels = view.natural(max_image_side);
   if (pixels == 0) view.fail("an image without pixels");
@@ -40,7 +40,7 @@ JsonView tureen_extension_of(const GlbArrays& arrays) {
     extension["version"].fail("this file has version " + std::to_string(version) + " of " +
                               tureen_extension + "; only versions " +
                               std::to_string(tureen_extension_version) + " and " +
-                              std::to_string(tureen_compressed_version) + " are read");
+                              std::to_string(tureen_compressed_version) + " are supported");
   return extension;
 }
 
@@ -68,7 +68,7 @@ GeometryLayout geometry_layout(const GlbArrays& arrays, const JsonView& extensio
     layout.triangles =
         arrays.location(extension, "triangles", 3 * layout.faces, glb_formats::scalar_u32);
   else if (layout.vertices != 3 * layout.faces)
-    extension.fail(std::to_string(layout.faces) + " faces without \"triangles\" want " +
+    extension.fail(std::to_string(layout.faces) + " faces without \"triangles\" need " +
                    std::to_string(3 * layout.faces) + " vertices, not " +
                    std::to_string(layout.vertices));
   return layout;

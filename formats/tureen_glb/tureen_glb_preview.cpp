@@ -11,8 +11,8 @@ namespace tureen {
 
 namespace {
 
-/// Display-referred values of linear ones of 16 bits. Each is worked out once: millions of faces
-/// have thousands of values.
+/// Display-referred values of 16-bit linear ones. Each is computed once: millions of faces have
+/// thousands of values.
 class SrgbOfUnorm16 {
  public:
   float operator()(std::uint16_t linear) {
@@ -25,18 +25,18 @@ class SrgbOfUnorm16 {
   std::vector<float> known_ = std::vector<float>(65536, -1.0f);
 };
 
-/// Where all that a preview shows lies in the file.
+/// Locations of the arrays of a preview.
 struct PreviewLayout {
   GeometryLayout geometry;
   GlbArrays::Location colors;
-  bool one_color_a_vertex = false;  // otherwise three a face, all the same
+  bool one_color_a_vertex = false;  // otherwise three equal ones a face
 
   std::uint64_t size() const {
     return std::max({geometry.positions.end(), geometry.triangles.end(), colors.end()});
   }
 };
 
-/// Nothing where the file has no mesh with colours.
+/// Returns nullopt if the file has no mesh with colours.
 std::optional<PreviewLayout> preview_layout(const GlbArrays& arrays, const JsonView& extension) {
   const auto meshes = arrays.root().find("meshes");
   if (!meshes || extension.find("slim_geometry")) return std::nullopt;
@@ -52,7 +52,7 @@ std::optional<PreviewLayout> preview_layout(const GlbArrays& arrays, const JsonV
   return layout;
 }
 
-/// Every `stride`-th of the colours that begin at `bytes`.
+/// Every `stride`-th colour from `bytes` on, `count` in all.
 std::vector<glm::vec4> display_colors(const std::byte* bytes, std::size_t count,
                                       std::size_t stride) {
   SrgbOfUnorm16 srgb;
@@ -81,7 +81,8 @@ Scene read_preview(GlbArrays& arrays, const JsonView& extension, const PreviewLa
   return scene;
 }
 
-/// Finds out how far `prefix` reaches; reads the scene where it is `wanted` and all there.
+/// Returns the size as tureen_glb_preview_size does. Reads the scene into `wanted`, unless that is
+/// null or `prefix` is too short.
 std::optional<std::uint64_t> preview(std::span<const std::byte> prefix, const std::string& name,
                                      std::optional<Scene>* wanted) {
   Input input = Input::memory(name, prefix);

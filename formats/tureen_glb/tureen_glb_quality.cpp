@@ -27,7 +27,7 @@ void read_texel_bits(const JsonView& view, StoredPreset& preset) {
 }
 
 void read_color(const JsonView& view, StoredPreset& preset) {
-  // The default degree was 2; of degree 0 one colour a texel is left.
+  // The default degree was 2. Degree 0 leaves one colour a texel.
   const auto degree = view.find("harmonics_degree");
   const bool is_constant = degree && degree->natural(2) == 0;
   const auto color = view.find("color");

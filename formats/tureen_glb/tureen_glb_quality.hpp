@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/json_view.hpp"
+#include "base/json/json_view.hpp"
 #include "scene/edit/edits.hpp"
 #include "scene/quality.hpp"
 

@@ -1,11 +1,11 @@
-// Reads TUREEN_triangle_soup: the JSON says where each array lies, and each is read from there
-// straight into the scene. In a file of our writer that goes forward only.
+// Reads TUREEN_triangle_soup. The JSON locates each array, and the reader copies it directly into
+// the scene. Files of our writer are read in file order.
 #include <algorithm>
 #include <array>
 #include <optional>
 
 #include "base/crc32.hpp"
-#include "base/json_vector.hpp"
+#include "base/json/json_vector.hpp"
 #include "formats/gltf/glb_arrays.hpp"
 #include "formats/tureen_glb/compressed_geometry.hpp"
 #include "formats/tureen_glb/compressed_texels.hpp"
@@ -57,7 +57,7 @@ class Reader {
     input_.seek(arrays_.location(holder, "rgba", count, glb_formats::vec4_unorm8).offset);
     input_.take_memory(count, sizeof(glm::vec4), "rgba");
     std::vector<glm::vec4> result(static_cast<std::size_t>(count));
-    // Block by block, so that the bytes do not stand beside all of the floats.
+    // Block by block, so that bytes and floats are never both in memory as a whole.
     std::array<glm::u8vec4, 4096> block;
     for (std::size_t done = 0; done < result.size();) {
       const std::size_t n = std::min(block.size(), result.size() - done);
@@ -84,8 +84,8 @@ class Reader {
     soup.triangles = std::move(geometry.triangles);
   }
 
-  /// What an entropy coder made of an array. Damage to that decodes to something else more often
-  /// than to nothing: the checksum beside it tells.
+  /// The entropy-coded bytes of an array, checked against their checksum: most damaged bytes would
+  /// decode without an error.
   std::vector<std::byte> coded(const JsonView& holder, const std::string& key) {
     const JsonView view = holder[key.c_str()];
     auto bytes = arrays_.read_at<std::byte>(arrays_.view_location(view), "compressed bytes");
@@ -95,7 +95,7 @@ class Reader {
     return bytes;
   }
 
-  /// Sets the scene's quality. The edits are those that a file of an earlier version asks for.
+  /// Sets the scene's quality. Returns the edits, which only files of earlier versions have.
   Edits read_preset(Scene& scene, const TriangleSoup& soup) {
     const auto view = extension_.find("preset");
     if (!view) return {};
@@ -111,8 +111,8 @@ class Reader {
     return std::move(preset.edits);
   }
 
-  /// The number of texels that a limit of the lattice level leaves. Faces that share all of their
-  /// texels share them afterwards, too.
+  /// The number of texels with all lattice levels limited to `level`. Faces that share all texels
+  /// continue to share them.
   static std::uint64_t texels_at_most(const LatticeTexture& texture, int level) {
     std::vector<std::uint64_t> patches;
     for (const LatticePatch& patch : texture.patches)
@@ -128,11 +128,11 @@ class Reader {
   TriangleSoup with_edits(TriangleSoup soup, const Edits& edits, std::vector<Remark>& remarks) {
     if (edits == Edits{}) return soup;
     PassingMemory passing(input_.budget());
-    input_.take_memory(byte_size(soup), 1, "what the file's preset makes of the scene");
+    input_.take_memory(byte_size(soup), 1, "the scene after the edits of the file's preset");
     if (const auto* texture = std::get_if<LatticeTexture>(&soup.appearance))
       input_.take_memory(texels_at_most(*texture, edits.lattice_level),
                          LatticeTexture::channels * (texture->is_float() ? 4 : 1),
-                         "what the file's preset makes of the texels");
+                         "the texels after the edits of the file's preset");
     remarks.push_back({.kind = Remark::Kind::preset_applied, .names = names_of(edits)});
     return edited(std::move(soup), edits);
   }
@@ -215,7 +215,7 @@ class Reader {
 
   LatticeTexture lattice_texture(const JsonView& view, const TriangleSoup& soup) {
     if (view.find("slim_texels")) {
-      // The network lies before the texels.
+      // The network precedes the texels in the file.
       std::optional<ColorMlp> mlp = color_mlp(view);
       PassingMemory passing(input_.budget());
       LatticeTexture texture = decode_compressed_texels(
@@ -244,7 +244,7 @@ class Reader {
       const auto level = std::uint32_t(level_member->natural(lattice::max_level));
       const std::uint64_t each = lattice::texel_count(int(level));
       if (faces * each > GlbArrays::max_count)
-        level_member->fail("has more texels than 32 bits can name");
+        level_member->fail("has more texels than 32 bits can count");
       for (std::size_t t = 0; t < faces; ++t) result[t] = {std::uint32_t(t * each), level};
       return result;
     }
@@ -257,8 +257,8 @@ class Reader {
   }
 
   std::vector<std::uint8_t> strips(const JsonView& list, std::uint64_t texels) {
-    // Every strip is bounded and follows the one before; deflate packs at most 1032 to 1, so a
-    // count that the images cannot hold is refused before anything is allocated for it.
+    // Strips are bounded and contiguous. Deflate compresses by at most 1032 : 1, so a count that
+    // exceeds the images is rejected before any allocation.
     std::uint64_t counted = 0, encoded = 0;
     for (std::size_t i = 0; i < list.size(); ++i) {
       const JsonView strip = list.at(i);
@@ -333,11 +333,12 @@ class Reader {
     return arrays_.view_location(image["bufferView"]);
   }
 
-  /// Images lie in the order in which they are named, each after the last: a small file cannot
-  /// name the same bytes over and over and so fill the memory.
+  /// Images must lie in the order of their references, without overlap. Otherwise a small file
+  /// could fill the memory with repeated references to the same bytes.
   GlbArrays::Location next_image(const JsonView& reference) {
     const GlbArrays::Location location = image_location(reference);
-    if (location.offset < images_end_) reference.fail("lies before the end of the image before it");
+    if (location.offset < images_end_)
+      reference.fail("begins before the end of the previous image");
     images_end_ = location.end();
     return location;
   }

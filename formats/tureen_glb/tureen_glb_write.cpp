@@ -1,5 +1,5 @@
-// Writes TUREEN_triangle_soup: plans the binary chunk as a list of pieces, most of which lie in the
-// scene already, describes it in JSON, then streams both out.
+// Writes TUREEN_triangle_soup. The binary chunk is a list of pieces, most of them arrays of the
+// scene. The JSON describes it, and both are streamed to the file.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,7 +34,7 @@ constexpr BinaryPlan::Format vec4_float{"VEC4", layout::float32, 4};
 constexpr BinaryPlan::Format vec4_unorm8{"VEC4", layout::unsigned_byte, 4, true};
 constexpr BinaryPlan::Format vec4_unorm16{"VEC4", layout::unsigned_short, 4, true};
 
-/// Colours as bytes, if every one of them is exactly byte / 255; otherwise nothing.
+/// The colours as bytes if every component is exactly byte / 255; otherwise empty.
 std::vector<glm::u8vec4> exact_bytes(const std::vector<glm::vec4>& colors) {
   std::vector<glm::u8vec4> bytes(colors.size());
   for (std::size_t i = 0; i < colors.size(); ++i)
@@ -69,8 +69,7 @@ json array_of(const glm::vec<N, Real>& v, const std::string& what) {
   return numbers;
 }
 
-/// Each appearance in two steps, so that the small arrays of all of it (colours, MLP) come before
-/// the texels.
+/// Adds the arrays of an appearance; the small ones (colours, MLP) precede the texels.
 struct AddAppearance {
   BinaryPlan& plan;
 
@@ -136,7 +135,7 @@ struct AddAppearance {
     return result;
   }
 
-  /// One number where all patches have one level and follow each other, as trainers leave them.
+  /// A single level if all patches have the same one and are contiguous, as trainers write them.
   void add_patches(json& result, const std::vector<LatticePatch>& patches) const {
     const std::uint32_t level = patches.empty() ? 0 : patches.front().level;
     const std::uint64_t each = lattice::texel_count(int(level));
@@ -164,7 +163,7 @@ struct AddAppearance {
       const std::size_t count = std::min<std::size_t>(layout::strip_texels, total - first);
       const int width = int(std::min<std::size_t>(layout::strip_width, count));
       const int height = int((count + width - 1) / width);
-      // What follows the last texel in the last row stays zero.
+      // Pixels after the last texel stay zero.
       Image8 low(width, height), high(width, height);
       for (std::size_t i = 0; i < count; ++i) {
         const std::uint8_t* texel = &texels[(first + i) * LatticeTexture::channels];
@@ -208,15 +207,15 @@ glm::u16vec4 linear_unorm16(const glm::vec3& display) {
   return glm::u16vec4(glm::dvec4(linear, 1.0) * 65535.0 + 0.5);
 }
 
-/// The mesh that every glTF viewer sees. Where faces share vertices but not a colour, the mesh is
-/// an unshared copy and the soup's own vertices and triangles follow it.
+/// The mesh for other glTF viewers. If faces share vertices but not a colour, the mesh is an
+/// unshared copy, and the soup's own vertices and triangles follow it.
 json add_mesh(BinaryPlan& plan, json& extension, const TriangleSoup& soup) {
   json attributes, primitive = {{"material", 0}, {"mode", 4}};
   const auto* vertex_colors = std::get_if<VertexColors>(&soup.appearance);
   const bool unshared = is_unshared(soup);
   const std::size_t faces = soup.triangles.size();
 
-  std::vector<glm::vec3> corners;  // of the unshared copy, where there is one
+  std::vector<glm::vec3> corners;  // of the unshared copy, if any
 
   if (unshared || vertex_colors) {
     plan.accessor(attributes, "POSITION", bytes_of(soup.positions), vec3_float);
@@ -256,30 +255,30 @@ json add_mesh(BinaryPlan& plan, json& extension, const TriangleSoup& soup) {
   return primitive;
 }
 
-/// The rotation (x, y, z, w) that stands the scene on glTF's y axis.
+/// The rotation (x, y, z, w) from the scene's up axis to glTF's y axis.
 json upright(const glm::vec3& up) {
   const glm::dvec3 from = glm::normalize(glm::dvec3(up));
-  // Half a turn has no unique axis; any horizontal one will do. 1e-12 is far above the rounding
-  // of the sum and far below any angle that shows.
+  // A rotation by 180 degrees has no unique axis; any horizontal one will do. 1e-12 is far above
+  // the rounding error of the sum and far below any visible angle.
   if (!(1.0 + from.y > 1e-12)) return {1.0, 0.0, 0.0, 0.0};
   const glm::dvec3 axis = glm::cross(from, glm::dvec3(0, 1, 0));
   const glm::dvec4 q = glm::normalize(glm::dvec4(axis, 1.0 + from.y));
   return {q.x, q.y, q.z, q.w};
 }
 
-/// The text, with what is not UTF-8 replaced and confessed: JSON cannot hold it.
+/// The text with invalid UTF-8 replaced, because JSON cannot store it. A replacement is a loss.
 std::string utf8(const std::string& text, std::vector<std::string>& losses) {
   try {
     static_cast<void>(json(text).dump());
     return text;
   } catch (const json::exception&) {
-    losses.push_back("a text is not UTF-8; its foreign bytes are replaced");
+    losses.push_back("a text is not UTF-8; its invalid bytes are replaced");
     return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace))
         .get<std::string>();
   }
 }
 
-/// The soft triangles' shapes with their harmonics, for the mesh alone.
+/// The soft triangles as a soup with their harmonics, only for the mesh.
 TriangleSoup hard_shapes(const SoftTriangles& soft) {
   TriangleSoup soup;
   soup.positions = soft.positions;
@@ -322,7 +321,7 @@ json mlp_json(BinaryPlan& plan, const ColorMlp& mlp) {
 
 json info_json(const Scene& scene, std::vector<std::string>& losses) {
   const SceneInfo& info = scene.info;
-  if (info.up == glm::vec3(0.0f)) throw UsageError("a GLB cannot hold an up axis of no direction");
+  if (info.up == glm::vec3(0.0f)) throw UsageError("a GLB cannot hold an up axis of length 0");
   json extension = {{"version", tureen_extension_version},
                     {"name", utf8(info.name, losses)},
                     {"source", utf8(info.source, losses)},
@@ -423,12 +422,12 @@ std::vector<std::string> write_tureen_glb(const Scene& scene, const std::filesys
                    {"materials",
                     {{{"doubleSided", true},
                       {"alphaMode", "OPAQUE"},
-                      // For viewers without the extension: no mirror, no gloss.
+                      // For viewers without KHR_materials_unlit: neither metallic nor glossy.
                       {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}},
                       {"extensions", {{"KHR_materials_unlit", json::object()}}}}}},
                    {"extensions", {{tureen_extension, std::move(extension)}}}};
   if (primitive.is_null()) {
-    // glTF knows no empty mesh.
+    // glTF does not allow an empty mesh.
     document["scenes"] = json::array({json::object()});
     document.erase("materials");
     document["extensionsUsed"] = json::array({tureen_extension});

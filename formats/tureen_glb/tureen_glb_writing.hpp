@@ -99,8 +99,8 @@ class BinaryPlan {
   std::deque<std::vector<std::byte>> owned_;  // a deque: its elements never move
 };
 
-/// The JSON of everything except geometry and appearance. Appends to `losses` what JSON cannot
-/// store. Throws UsageError as write_tureen_glb does.
+/// The JSON of everything except geometry and appearance. Appends one sentence to `losses` for each
+/// text that JSON cannot store. Throws UsageError as write_tureen_glb does.
 json info_json(const Scene& scene, std::vector<std::string>& losses);
 
 /// The JSON of a color MLP; its weights are added to the plan.

@@ -4,7 +4,7 @@
 //
 // The baseline has the viewer's shortcomings too. It draws lattice textures with a color MLP, with
 // one lattice level for all faces, from lookup textures that must fit the largest 2D texture of the
-// device. It has no specialisations, and its renderers name no faces and no points.
+// device. It has no specialisations, and neither faces nor points can be read from its renderers.
 #pragma once
 
 #include <glm/vec3.hpp>

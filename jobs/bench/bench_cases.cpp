@@ -17,7 +17,7 @@ constexpr const char* ours = "tureen";
 constexpr const char* generic = "generic";
 constexpr const char* in_fragments = "tureen-fragment";
 constexpr const char* as_compute = "tureen-compute";
-/// Results keep the name of the first edition, so that --against finds it.
+/// The name in result files. It equals that of earlier versions, so that --against can compare.
 constexpr const char* baseline = "published";
 constexpr const char* triangles = "triangles";
 constexpr const char* copy = "copy";
@@ -31,7 +31,7 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
       .count();
 }
 
-/// A renderer with one plan: what `tureen render` draws with.
+/// A renderer with one plan, as in `tureen render`.
 class RendererCase final : public BenchCase {
  public:
   RendererCase(const std::string& name, const gl::Context& context, const Scene& scene,
@@ -60,7 +60,7 @@ class RendererCase final : public BenchCase {
   void finish() const override { renderer_->finish(); }
   Image8 last_frame() const override { return renderer_->read_color(); }
   PassTimes passes(std::span<const Camera> cameras) override {
-    // Enough for a timestamp's rounding to vanish, and still a short wait.
+    // Enough repeats to make the rounding of timestamps negligible, in a short time.
     constexpr int repeats = 20;
     return time_passes(context_, *renderer_, cameras, repeats);
   }
@@ -78,8 +78,7 @@ class CopyCase final : public BenchCase {
     copy_ = std::make_unique<CopyCeiling>(context);
     copy_->finish();
     configuration.upload_ms = milliseconds_since(start);
-    configuration.plan = {
-        "copies the same number of pixels with a full-screen triangle (a ceiling)"};
+    configuration.plan = {"copies the same number of pixels with a full-screen triangle (ceiling)"};
   }
   void draw(const Camera& camera) override { copy_->draw(camera.width, camera.height); }
   void finish() const override { copy_->finish(); }
@@ -110,7 +109,7 @@ std::vector<std::string> names_of(const BenchCaseOptions& options) {
   return names;
 }
 
-/// The options of `tureen render` that draw the same, and the preferences that they stand for.
+/// Equivalent options of `tureen render`, and the preferences that they set.
 struct Setting {
   PipelineKind pipeline = PipelineKind::tureen;
   PlanPreferences plan;
@@ -119,7 +118,7 @@ struct Setting {
 
 Setting setting_of(const std::string& name, PlanPreferences plan) {
   if (name == baseline) {
-    plan.shading_stage = ShadingStage::fragment;  // it has no other
+    plan.shading_stage = ShadingStage::fragment;  // the baseline's only stage
     return {PipelineKind::baseline, plan, {"--pipeline", "baseline"}};
   }
   if (name == in_fragments) plan.shading_stage = ShadingStage::fragment;
@@ -172,7 +171,7 @@ BenchCases make_cases(const BenchCaseOptions& options, const gl::Context& contex
   std::exception_ptr first;
   for (const std::string& name : names_of(options)) {
     const auto skip = [&](const Error& error) {
-      if (!options.only.empty()) throw;  // it was asked for by name
+      if (!options.only.empty()) throw;  // the case was requested by name
       if (!first) first = std::current_exception();
       result.skipped.push_back({name, error.reason()});
     };

@@ -1,5 +1,5 @@
-// The cases of `tureen bench`, each ready to draw: the plan, on request with either shading stage,
-// the same pipeline without specialisations, the baseline, and the device's ceilings.
+// The cases of `tureen bench`: the plan, optionally with either shading stage; the same pipeline
+// without specialisations; the baseline; and the device's ceilings.
 #pragma once
 
 #include <memory>
@@ -18,45 +18,46 @@ namespace tureen {
 
 struct BenchCaseOptions {
   PipelineKind pipeline = PipelineKind::tureen;
-  PlanPreferences plan = {};      // with the scene's quality, or another
-  std::vector<std::string> only;  // names; empty: the usual ones
+  PlanPreferences plan = {};      // includes the sampling quality
+  std::vector<std::string> only;  // names of cases; empty: the default cases
   bool ceilings = false;
 };
 
-/// The names that BenchCaseOptions::only may have.
+/// The names that BenchCaseOptions::only supports.
 std::span<const std::string> bench_case_names();
 
-/// Something that draws a camera's view on a device.
+/// Draws views on a device.
 class BenchCase {
  public:
   virtual ~BenchCase() = default;
   virtual void draw(const Camera& camera) = 0;
   virtual void finish() const = 0;
   virtual Image8 last_frame() const = 0;
-  /// Of these views; a reason and no times where the device has no timer.
+  /// The mean times of passes over these views; a reason and no times if the device has no timer.
   virtual PassTimes passes(std::span<const Camera> cameras) = 0;
 
-  BenchConfiguration configuration;  // as the result describes it
+  BenchConfiguration configuration;  // its description in the result
 
   BenchmarkCase benchmark_case();
 };
 
-/// A configuration that cannot draw the scene, and why.
+/// A configuration that cannot draw the scene, with the reason.
 struct SkippedCase {
   std::string name;
   std::string reason;
 };
 
 struct BenchCases {
-  std::vector<std::unique_ptr<BenchCase>> list;  // the first is what ratios refer to
-  double peak_mib = 0;                           // of the process, when the first was ready to draw
+  std::vector<std::unique_ptr<BenchCase>> list;  // the first is the reference of ratios
+  double peak_mib = 0;  // of the process, when the first case is ready to draw
   std::vector<SkippedCase> skipped;
 };
 
-/// Plans and uploads for each; the times are in BenchCase::configuration. With --no-specialise or
-/// --pipeline published there is only that case, and the ceilings on request. Cases that cannot
-/// draw this soup are skipped, but UsageError and DeviceLimitError pass where --only names the
-/// case, or, the first of them, where no case is left.
+/// Plans and uploads each case; the times are in BenchCase::configuration. By default: the plan,
+/// the same without specialisations, and the baseline. With --no-specialise or --pipeline baseline
+/// only that case is made, plus the ceilings if requested. A case that fails with UsageError or
+/// DeviceLimitError is skipped. The error is rethrown if options.only names cases; the first error
+/// is rethrown if no case is left.
 BenchCases make_cases(const BenchCaseOptions& options, const gl::Context& context,
                       const Scene& scene);
 

@@ -1,5 +1,5 @@
-// Two results of a benchmark side by side: what became faster or slower, and whether the two can be
-// compared at all.
+// Compares two results of a benchmark: ratios of times, other changes, and whether the two are
+// comparable.
 #pragma once
 
 #include <optional>
@@ -15,16 +15,16 @@ struct BenchRatio {
   std::string configuration, camera_set, size;
   double then_ms = 0, now_ms = 0;     // min_of_medians
   double ratio = 1;                   // now / then: above 1 is slower
-  std::optional<double> spread = {};  // spread_between() the two, with the larger A/A spread
+  std::optional<double> spread = {};  // spread_between() both, with the larger A/A spread
   Verdict verdict = Verdict::unknown;
-  int rounds = 0;            // of the shorter of the two
-  bool same_pixels = false;  // the two drew the same image, bit for bit
+  int rounds = 0;            // the smaller number of both results
+  bool same_pixels = false;  // whether both drew the same image, bit for bit
 };
 
-/// Why times of two results say nothing of each other.
+/// The reason why the times of two results are not comparable.
 enum class Incomparable { software, clock };  // one drawn in software; different clocks
 
-/// Something else than the program that differs.
+/// A difference between the results other than times.
 struct BenchChange {
   enum class What { scene, machine, driver, context, rasteriser_threads, build, commit, clock };
   What what{};
@@ -40,16 +40,17 @@ struct UnmatchedBench {
 
 struct BenchComparison {
   std::optional<Incomparable> incomparable;
-  /// In the order of the new result. None, as nothing unmatched, where they are incomparable.
+  /// In the order of the new result. If the results are incomparable, `ratios` and `unmatched` are
+  /// empty.
   std::vector<BenchRatio> ratios;
-  /// In the order of BenchChange::What. A field that an older file lacks is no change.
+  /// In the order of BenchChange::What. A field that an older file lacks is not a change.
   std::vector<BenchChange> changes;
   std::vector<UnmatchedBench> unmatched;
 };
 
 BenchComparison compare_benches(const BenchResult& now, const BenchResult& then);
 
-/// Those that are slower by more than `percent`, and by more than their spread explains.
+/// The ratios that are slower by more than `percent` and have Verdict::slower.
 std::vector<BenchRatio> slower_than(const BenchComparison& comparison, double percent);
 
 }  // namespace tureen

@@ -8,13 +8,13 @@ namespace tureen {
 
 namespace {
 
-/// Samples shorter than this would measure how one waits for a device rather than how it draws.
+/// Shorter samples would measure the wait for the device instead of drawing.
 constexpr double min_sample_ms = 5;
 
-/// For graphics cards to raise their clocks; next to nothing beside a run of seconds.
+/// Time for graphics cards to raise their clocks; negligible in a run of seconds.
 constexpr double min_warm_up_seconds = 0.1;
 
-/// What the pixels of the last frame that was timed prove.
+/// Adds the hash and the file of the last timed frame.
 void add_proof(BenchMeasurement& measurement, const BenchCase& bench_case,
                const MeasureOptions& options) {
   const Image8 frame = bench_case.last_frame();
@@ -52,7 +52,7 @@ std::vector<BenchMeasurement> measure_views(const BenchCases& cases, const Bench
     BenchCase& bench_case = *cases.list[i];
     BenchMeasurement measurement = described(result.cases[i], result, views);
     add_proof(measurement, bench_case, options);
-    // Only now: these frames are not those that were timed.
+    // Passes come last, because they draw further frames.
     PassTimes passes = bench_case.passes(views.cameras);
     measurement.passes_ms = std::move(passes.ms);
     measurement.passes_gap = passes.gap;
@@ -80,10 +80,10 @@ std::vector<BenchMeasurement> measure(const BenchCases& cases, const std::vector
       if (options.progress) options.progress((double(i) + fraction) / count, detail);
     };
     if (options.max_seconds > 0) {
-      // What small images leave of their share is the larger ones', which come later.
+      // Views that need less than their share leave time to later views, which have larger images.
       const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start;
       const double left = (options.max_seconds - used.count()) / (count - double(i));
-      benchmark.max_seconds = std::max(left, 1e-3);  // a round is always made
+      benchmark.max_seconds = std::max(left, 1e-3);  // one round is always measured
       benchmark.max_warm_up_seconds = std::min(benchmark.max_warm_up_seconds, left / 8);
     }
     for (BenchMeasurement& each : measure_views(cases, views[i], benchmark, options))

@@ -13,17 +13,17 @@ namespace tureen {
 
 struct MeasureOptions {
   int rounds = 5;
-  double max_seconds = 0;                   // for all together; 0: no limit
-  std::function<double()> clock = nullptr;  // of BenchmarkOptions
-  /// Called often with the fraction done, 0..1, and what is being timed; may throw to end it.
+  double max_seconds = 0;                   // for all measurements; 0: no limit
+  std::function<double()> clock = nullptr;  // as BenchmarkOptions::clock
+  /// Called often with the fraction done, 0..1, and the current views; may throw to cancel.
   std::function<void(double fraction, const std::string& what)> progress = {};
-  /// Called with the last frame timed for a measurement; returns the file that holds it, for
+  /// Called with the last timed frame of a measurement. Returns the name of its file, for
   /// BenchMeasurement::image.
   std::function<std::string(const BenchMeasurement&, const Image8&)> keep_frame = {};
 };
 
-/// One after the other, case by case within each. Throws what the callbacks
-/// throw, DeviceLimitError for a size that the device does not draw and OutputError.
+/// Measures the views one after the other. The result lists the cases of each. Throws the errors of
+/// the callbacks, and DeviceLimitError for a size beyond the device's limits.
 std::vector<BenchMeasurement> measure(const BenchCases& cases, const std::vector<BenchViews>& views,
                                       const MeasureOptions& options);
 

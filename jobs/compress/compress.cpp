@@ -22,25 +22,26 @@ namespace {
 constexpr std::size_t counted_views = 200;
 constexpr int importance_views = 64;
 constexpr int fewest_bits = 10;
-/// Of the loss, for the positions at most. A bit of theirs takes less than texels save by what it
-/// leaves them of the loss: against a quarter of it, 15,000 triangles of lego and of the fox
-/// were some 2 % smaller.
+/// Largest fraction of the loss that positions may cause. A further bit per position costs less
+/// than texels save with the loss that it frees. With 15,000 triangles of lego or the fox, files
+/// are about 2 % smaller than with a quarter of the loss.
 constexpr double geometry_share = 0.08;
-/// 255ths of colour. Below the least the rounding to bytes is all that is left; beyond the largest
-/// no scene is worth looking at.
+/// Range of the step of colour, in 1/255. Below it, only the rounding to bytes is left; above it,
+/// every scene is unusable.
 constexpr double min_step = 0.5, largest_step = 64;
-/// Halves the ratio of the two to 1.04.
+/// Narrows the ratio of the two bounds to 1.04.
 constexpr int bisections = 7;
-/// Then the loss is not smooth any more: where each choice between steps depends on those before
-/// it, it jumps by 2 % either way. From a few steps above what bisection found it comes down to the
-/// first that keeps within the bound.
+/// At this scale the loss is not monotonic: each rounding depends on earlier ones, so the loss
+/// jumps by 2 % in either direction. A scan therefore starts a few steps above the bisected step
+/// and takes the first step within the bound.
 constexpr int scan_steps = 12;
 constexpr double scan_by = 0.005;
-/// Alpha is seen only by where it reaches 1/2: 0, 85, 170, 255 do for trained soups. Where alpha is
-/// about 1/2 everywhere, as before training, its edges take more; 1 keeps every alpha near one.
+/// Alpha is visible only through its edge at 1/2, so trained soups need only 0, 85, 170 and 255. If
+/// alpha is about 1/2 everywhere, as before training, edges need finer steps; 1 keeps every alpha
+/// near an edge.
 constexpr std::array<std::uint8_t, 3> alpha_steps = {85, 17, 1};
 
-/// Without the faces that none of the views shows.
+/// The soup without the faces that no view shows.
 TriangleSoup seen_faces(const gl::Context& context, const Scene& scene,
                         std::span<const Camera> views, const Cancel& cancel) {
   const auto& soup = std::get<TriangleSoup>(scene.primitives);
@@ -51,7 +52,7 @@ TriangleSoup seen_faces(const gl::Context& context, const Scene& scene,
   return keep_faces(soup, keeps);
 }
 
-/// Those that faces may be left out by: all that the loss and the weights know, and some more.
+/// The views that decide which faces are removed: those of the weights, and more around the scene.
 std::vector<Camera> all_views(const Scene& scene, const std::vector<Camera>& views) {
   std::vector<Camera> all = views;
   const auto around =
@@ -60,21 +61,24 @@ std::vector<Camera> all_views(const Scene& scene, const std::vector<Camera>& vie
   return all;
 }
 
-/// Each face at the smallest level that says the same to half a step of 8 bits. What a finer level
-/// would say is coded as nothing anyway; without it there are fewer texels to decode and to draw.
+/// Reduces each face to the smallest level with an error below half a step of 8 bits. The details
+/// of finer levels would be coded as zero anyway. Without them there are fewer texels to decode and
+/// draw.
 void lower_levels(TriangleSoup& soup, const Cancel& cancel) {
   auto& texture = std::get<LatticeTexture>(soup.appearance);
   const LevelProgress progress = [&](double) { cancel(); };
   texture = at_levels(texture, smallest_levels(texture, {}, progress), progress);
 }
 
-/// The scene's own, first of all the one that its compressed file keeps, and what joins them.
+/// The scene's cameras, then the training cameras that are added. The first one is also the camera
+/// in the compressed file.
 std::vector<Camera> recorded_cameras(const gl::Context& context, const Scene& scene,
                                      const CompressRequest& request, const Cancel& cancel) {
   std::vector<Camera> cameras = scene.cameras;
   if (cameras.size() >= telling_cameras || request.training_cameras.size() < telling_cameras)
     return cameras;
-  // By a damaged pose, say, which would vote for leaving everything out.
+  // Cameras that show nothing of the scene, e.g. with damaged poses, would favour removing all
+  // faces.
   const std::vector<Camera>& others = request.training_cameras;
   const auto pixels =
       count_covered_pixels(context, std::get<TriangleSoup>(scene.primitives), scene.origin,
@@ -99,7 +103,7 @@ class Search {
         lent_(recorded_.size() - scene.cameras.size()),
         views_(compress_views(scene, recorded_, counted_views)),
         soup_(std::get<TriangleSoup>(scene.primitives)) {
-    // Of fewer nobody knows where the scene is looked at from.
+    // With fewer cameras the typical viewpoints are unknown, so all faces are kept.
     if (request.keep_unseen || recorded_.size() < telling_cameras) return;
     const std::vector<Camera> all = all_views(scene, views_);
     const std::size_t faces = soup_.triangles.size();
@@ -121,9 +125,8 @@ class Search {
     });
     if (!found)
       throw UsageError(
-          fmt::format("a compressed file of this scene loses more than the {:g} dB that are "
-                      "allowed: {:.4f} dB with "
-                      "the finest steps",
+          fmt::format("a compressed file of this scene exceeds the allowed loss of {:g} dB: the "
+                      "finest steps lose {:.4f} dB",
                       request_.max_loss_db, min_loss_));
     result.unseen = unseen_;
     result.seeing_views = seeing_views_;
@@ -135,7 +138,7 @@ class Search {
   }
 
  private:
-  /// The largest step of colour that keeps within the bound; whether there is one.
+  /// Finds the largest step of colour within the bound. Returns whether there is one.
   bool find_step(CompressResult& result, const CompressImportance& importance,
                  std::uint8_t alpha_step) {
     const auto fits = [&](double step, bool bits_have_a_price = true) {
@@ -151,7 +154,7 @@ class Search {
       result.soup = std::move(compressed);
       return true;
     };
-    // The least loss there is.
+    // The smallest possible loss at this alpha step.
     if (!fits(min_step, false)) return false;
     double low = min_step, high = largest_step;
     for (int i = 0; i < bisections; ++i) {
@@ -162,7 +165,7 @@ class Search {
     return true;
   }
 
-  /// The texels as they are, on positions of so many bits.
+  /// The loss with positions of `bits` bits and unchanged texels.
   CompressLoss geometry_loss(int bits) {
     const auto bytes = encode_compressed_geometry({soup_.positions, soup_.triangles}, bits);
     TriangleSoup moved = soup_;
@@ -188,8 +191,8 @@ class Search {
   }
 
   void report_progress() const {
-    // Most scenes take about five tries for the positions, the finest colours at once, and eight
-    // of the scan.
+    // Most scenes need about five tries for positions, one for the finest colours, the bisections
+    // and eight of the scan.
     constexpr double usual_tries = 5 + 1 + bisections + 8;
     const int done = std::max(tries_ - 1, 0);
     if (request_.progress) request_.progress(std::min(0.99, done / usual_tries));
@@ -214,7 +217,7 @@ class Search {
 CompressResult compress(const Scene& scene, const CompressRequest& request) {
   const auto* soup = std::get_if<TriangleSoup>(&scene.primitives);
   if (!soup || !std::holds_alternative<LatticeTexture>(soup->appearance))
-    throw UsageError("a compressed file holds lattice textures only; this scene has " +
+    throw UsageError("a compressed file supports only lattice textures; this scene has " +
                      std::string(soup ? appearance_name(soup->appearance) : "soft triangles"));
   return Search(scene, request).run();
 }

@@ -11,23 +11,24 @@ namespace tureen {
 
 namespace {
 
-/// What a bit is worth, in squared steps (CompressedTexelOptions). Of 0.2, 0.25, 0.3, 0.4 and 0.5
-/// this gave the fewest bytes at the same loss (the fox). Where every value takes bits, 2 ln 2 / 12
-/// = 0.12 would be right: a step twice as large, whose errors are a twelfth of its square, is a bit
-/// less.
+/// CompressedTexelOptions::bit_price, in squared steps. Among 0.2, 0.25, 0.3, 0.4 and 0.5 this
+/// gives the fewest bytes at the same loss (the fox). If every value took bits, 2 ln 2 / 12 = 0.12
+/// would be optimal: the squared error is 1/12 of a squared step, and doubling the step saves a
+/// bit.
 constexpr double bit_price = 0.3;
-/// How much of what a face's pixels and sensitivity differ from the mean its step follows; the
-/// rest is in the weights. Against 0 and 0.4 this saves 1 % of the fox's bytes at the same loss.
+/// Exponent of a face's visible pixels and sensitivity, relative to the mean, in its step. The
+/// weights account for the rest. Compared with 0 and 0.4 this saves 1 % of the fox's bytes at the
+/// same loss.
 constexpr double follow = 0.2;
-/// How visible a texel counts at least, of the mean: recorded views do not show what others may.
-/// Three times as much costs 1.5 % more bytes (the fox).
+/// Smallest visibility of a texel, relative to the mean, because other views may show more than the
+/// recorded ones. Three times this value costs 1.5 % more bytes (the fox).
 constexpr double min_shown = 0.01;
-/// Where the sensitivity of faces is measured: with steps of about what is chosen in the end.
+/// Step of colour for measuring the sensitivity of faces, about that of the final result.
 constexpr double usual_step = 8;
 
 using Features = std::array<double, LatticeTexture::features>;
 
-/// What a step along each axis of the basis changes, features in [0, 1].
+/// The change of all features by a step along each axis of the basis; features are in [0, 1].
 std::vector<Features> steps_of(const CompressedBasis& basis) {
   std::vector<Features> result(basis.rows.size());
   for (std::size_t axis = 0; axis < result.size(); ++axis)
@@ -42,7 +43,7 @@ double mean(const std::vector<double>& values) {
   return values.empty() ? 0 : sum / double(values.size());
 }
 
-/// The index of the multiplier nearest to `wanted`, in proportion.
+/// The index of the multiplier whose ratio to `wanted` is nearest to 1.
 std::uint8_t nearest_multiplier(double wanted) {
   std::size_t best = 0;
   const auto away = [&](std::size_t i) {
@@ -69,7 +70,8 @@ CompressImportance::CompressImportance(const gl::Context& context, const Triangl
     double pixels = 0;
     for (std::uint32_t i = 0; i < lattice::texel_count(int(patch.level)); ++i)
       pixels += double(weights_[patch.first_texel + i]);
-    // A face that no view shows may show in others: like a quarter of a pixel.
+    // Other views may show a face that these do not, so a face counts at least a quarter of a
+    // pixel.
     shown.push_back(std::max(pixels, 0.25));
     texels += lattice::texel_count(int(patch.level));
   }
@@ -83,7 +85,7 @@ CompressImportance::CompressImportance(const gl::Context& context, const Triangl
   if (by_texel) unseen_texels_ = std::size_t(std::count(weights_.begin(), weights_.end(), 0.0f));
   std::vector<float> weights(weights_.size(), 0.0f);
   for (std::size_t t = 0; t < shown.size(); ++t) {
-    // Faces of one colour, whatever their features: 1/1000 of the mean is none.
+    // The lower limit applies to faces whose colour does not depend on their features.
     const double sees = mean_moved > 0 ? std::max(moved[t] / mean_moved, 1e-3) : 1;
     coarseness_.push_back(nearest_multiplier(1 / std::pow(shown[t] / mean_shown * sees, follow)));
     const LatticePatch& patch = texture_.patches[t];
@@ -91,7 +93,7 @@ CompressImportance::CompressImportance(const gl::Context& context, const Triangl
       const std::size_t texel = patch.first_texel + i;
       const double visible =
           by_texel ? std::max(double(weights_[texel]) / texel_shown, min_shown) : 1;
-      // Faces that share texels: what the most sensitive one makes of them.
+      // A texel of several faces gets the weight from the most sensitive one.
       weights[texel] = std::max(weights[texel], float(visible * sees));
     }
   }

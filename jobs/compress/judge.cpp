@@ -69,10 +69,10 @@ CompressJudge::CompressJudge(const gl::Context& context, const Scene& scene,
   model_db_ = model_db(errors);
   if (model_db_ < hopeless_db)
     throw UsageError(
-        fmt::format("the scene comes only within {:.2f} dB of these photographs: most likely they "
-                    "show another one",
+        fmt::format("the PSNR of the scene against these photographs is only {:.2f} dB: they most "
+                    "likely show another scene",
                     model_db_),
-        "without --photographs the loss is estimated");
+        "omit --photographs to estimate the loss");
 }
 
 CompressLoss CompressJudge::loss(const TriangleSoup& soup) const {

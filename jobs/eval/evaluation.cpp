@@ -13,7 +13,7 @@ namespace tureen {
 
 namespace {
 
-/// What is left to do for a view once it is drawn. Runs on any thread.
+/// The errors of a drawn view. Runs on any thread.
 ViewMetrics measure(std::size_t view, const Photograph& photograph, const Image8& rendering,
                     const EvaluationOptions& options) {
   const ImageF truth = composited(to_float(photograph.image), options.background);
@@ -47,7 +47,8 @@ Evaluation evaluate(const TriangleSoup& soup, glm::dvec3 origin,
   result.context = context.description();
   result.renderer = context.capabilities().renderer;
 
-  // One view more than cores is in memory at a time. Destroying what is left waits for it.
+  // At most one view more than cores is in memory. On an exception, the destructor of `running`
+  // waits for the remaining views.
   const std::size_t most = std::max(1u, std::thread::hardware_concurrency());
   std::deque<std::future<ViewMetrics>> running;
   const auto take_first = [&] {

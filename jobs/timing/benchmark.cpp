@@ -129,7 +129,7 @@ void BenchmarkRun::choose_frames_per_sample() {
   const double fastest = *std::min_element(fastest_ms_.begin(), fastest_ms_.end());
   if (options_.min_sample_ms <= 0) return;
   const double most = std::max(options_.max_frames_per_sample, 1);
-  // A clock too coarse to see a frame gives 0, and the most.
+  // A clock too coarse for a single frame returns 0; then the maximum is used.
   const double wanted = fastest > 0 ? options_.min_sample_ms / fastest : most;
   frames_per_sample_ = int(std::clamp(std::ceil(wanted), 1.0, most));
 }

@@ -1,4 +1,4 @@
-// The timing protocol of all our frame times.
+// The timing protocol for all frame times.
 //
 // Cases alternate frame by frame (A B C A B C ..), so that disturbances affect all alike. Each is
 // warmed up until it is stable. First the first case runs against itself: the A/A spread is the
@@ -7,7 +7,7 @@
 // The clock is the processor's steady clock.
 //
 // This file is independent of GL. Cases are functions, so that tests can use an artificial clock,
-// and compute paths or other renderers can take part.
+// and other renderers can be compared.
 #pragma once
 
 #include <functional>

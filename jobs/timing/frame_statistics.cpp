@@ -17,7 +17,7 @@ std::vector<double> sorted(std::span<const double> values) {
 
 /// Index of the nearest rank among `count` sorted values.
 std::size_t rank(std::size_t count, double percent) {
-  // 95 % of 20 is 19.000000000000004 in doubles, and must not become the 20th.
+  // 95 % of 20 is 19.000000000000004 in doubles; it must not round up to the 20th.
   constexpr double rounding = 1e-9;
   const double exact = std::ceil(double(count) * percent / 100 - rounding);
   return std::clamp<std::size_t>(std::size_t(std::max(exact, 1.0)), 1, count) - 1;
@@ -74,7 +74,7 @@ FrameStatistics statistics_of(const FrameTimes& times) {
   return result;
 }
 
-// By nearest rank the 99th of a hundred samples is the first that is not the slowest.
+// With 100 samples, the nearest rank for p99 is the 99th, so one slower sample remains.
 bool tells_slowest_percent(const FrameStatistics& ms) { return ms.samples >= 100; }
 
 std::vector<double> view_medians(const FrameTimes& times) {
@@ -109,6 +109,20 @@ Verdict verdict_on(const FrameStatistics& a, const FrameStatistics& b, double aa
   const double ours = a.min_of_medians, theirs = b.min_of_medians;
   if (ours == theirs || relative_difference(ours, theirs) < 2 * *spread) return Verdict::equal;
   return ours < theirs ? Verdict::faster : Verdict::slower;
+}
+
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::unknown:
+      return "unknown";
+    case Verdict::equal:
+      return "equal";
+    case Verdict::faster:
+      return "faster";
+    case Verdict::slower:
+      return "slower";
+  }
+  return "";
 }
 
 }  // namespace tureen

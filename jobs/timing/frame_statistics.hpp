@@ -51,8 +51,8 @@ struct FrameStatistics {
   std::size_t samples = 0;
 };
 
-/// Whether there are at least 100 samples, so that p99 and low_1_percent_fps rest on at least one
-/// sample. With several frames a sample both use means, which hide single slow frames.
+/// Whether there are at least 100 samples, so that the slowest 1 % has at least one sample. If
+/// samples have several frames, p99 and low_1_percent_fps use means, which hide single slow frames.
 bool tells_slowest_percent(const FrameStatistics& ms);
 
 /// Asserts a whole round.
@@ -78,6 +78,9 @@ std::optional<double> spread_between(const FrameStatistics& a, const FrameStatis
                                      double aa_spread);
 
 enum class Verdict { unknown, equal, faster, slower };
+
+/// "unknown", "equal", "faster", "slower".
+const char* name_of(Verdict verdict);
 
 /// Compares the min_of_medians of `a` and `b`; `tureen bench` and the benchmarks use it. Equal:
 /// they differ by less than twice spread_between(), relative to the smaller. Unknown:

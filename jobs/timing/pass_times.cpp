@@ -1,7 +1,5 @@
 #include "jobs/timing/pass_times.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cassert>
 #include <chrono>
 #include <cstdio>
@@ -24,42 +22,32 @@ double wall_ms(Renderer& renderer, std::span<const Camera> cameras, int repeats)
   return all.count() / (double(repeats) * double(cameras.size()));
 }
 
-constexpr std::array<std::string_view, 7> gap_names{
-    "none", "one_pass", "no_timers", "disturbed_clock", "exceeds_wall_clock", "partial", "other"};
-
 }  // namespace
-
-std::string_view name_of(PassTimesGap gap) { return gap_names[std::size_t(gap)]; }
-
-std::optional<PassTimesGap> pass_times_gap(std::string_view name) {
-  const auto found = std::find(gap_names.begin(), gap_names.end(), name);
-  if (found == gap_names.end()) return {};
-  return PassTimesGap(found - gap_names.begin());
-}
 
 PassTimes believed(std::vector<std::pair<std::string, double>> passes, double wall_ms) {
   double sum = 0;
   for (const auto& [pass, ms] : passes) sum += ms;
-  // Timestamps round to a microsecond on some devices, and the two were not the same frames.
+  // Some devices round timestamps to a microsecond, and the two times are from different frames.
   constexpr double tolerance = 1.1, rounding_ms = 0.002;
-  // Below it, the passes are the smaller part of the frame.
+  // Below this fraction of the wall time, the passes are the smaller part of the frame.
   constexpr double complete = 0.5;
   char text[240];
-  // A sum of 0: the clock stands still.
+  // A sum of 0 means that the device's clock does not advance.
   if (sum > 0 && sum <= wall_ms * tolerance + rounding_ms * double(passes.size())) {
     if (sum >= wall_ms * complete)
       return {.ms = std::move(passes), .gap = {}, .reason = {}, .gpu_ms = sum};
     std::snprintf(
         text, sizeof text,
-        "the passes are %.3f ms of frames that take %.3f ms by the wall clock: the rest is "
-        "the processor's work, or the device's timers miss some of its own",
+        "the passes take %.3f ms of frames that take %.3f ms by the wall clock: the rest is work "
+        "of the processor, or the device's timers miss a part",
         sum, wall_ms);
     return {.ms = std::move(passes), .gap = PassTimesGap::partial, .reason = text, .gpu_ms = sum};
   }
-  std::snprintf(text, sizeof text,
-                "the device's timers say %.3f ms for frames that take %.3f ms by the wall clock: "
-                "only the processor's clock counts",
-                sum, wall_ms);
+  std::snprintf(
+      text, sizeof text,
+      "the device's timers report %.3f ms for frames that take %.3f ms by the wall clock: "
+      "only the processor's clock is used",
+      sum, wall_ms);
   return {.ms = {}, .gap = PassTimesGap::exceeds_wall_clock, .reason = text, .gpu_ms = {}};
 }
 
@@ -71,7 +59,7 @@ PassTimes time_passes(const gl::Context& context, Renderer& renderer,
   gl::PassTimer timer(context);
   renderer.time_passes(&timer);
   std::vector<gl::PassTimer::PassTime> passes;
-  // Three attempts: a fourth would be disturbed as well.
+  // After three disturbed attempts, a fourth is unlikely to succeed.
   for (int attempt = 0; attempt < 3 && passes.empty(); ++attempt) {
     for (const Camera& camera : cameras)
       for (int i = 0; i < repeats; ++i) renderer.draw(camera);
@@ -82,7 +70,7 @@ PassTimes time_passes(const gl::Context& context, Renderer& renderer,
   if (passes.empty())
     return {.ms = {},
             .gap = PassTimesGap::disturbed_clock,
-            .reason = "the device's clock was disturbed: only the processor's clock counts",
+            .reason = "the device's clock was disturbed: only the processor's clock is used",
             .gpu_ms = {}};
   std::vector<std::pair<std::string, double>> ms;
   for (const auto& each : passes)

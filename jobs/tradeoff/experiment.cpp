@@ -28,19 +28,19 @@ void add(Design& design, Configuration configuration, const Refusal& refuse) {
     design.skipped.push_back({std::move(configuration), *reason});
 }
 
-/// The setting of a configuration of the star, none for the defaults.
+/// The changed setting in a configuration of the star; nullopt for the defaults.
 std::optional<std::size_t> changed_setting(const Configuration& configuration) {
   for (std::size_t setting = 0; setting < configuration.size(); ++setting)
     if (configuration[setting] != 0) return setting;
   return {};
 }
 
-/// Combinations of these settings that change two of them or more: the others are in the star.
+/// Combinations that change at least two of these settings; the others are in the star.
 Design combinations(std::span<const int> value_counts, std::span<const SettingRange> settings,
                     const Refusal& refuse) {
   Design design;
-  // Counts through them as an odometer does, the last setting fastest: a part comes before its
-  // whole.
+  // Counts like an odometer, with the last setting fastest. A configuration therefore comes after
+  // all its parts.
   Configuration configuration(value_counts.size(), 0);
   for (;;) {
     std::size_t at = settings.size();
@@ -122,14 +122,15 @@ std::vector<std::string> describe(const Reduction& reduction, const FactorialLim
   const auto& [mattering, wanted, configurations, combined] = reduction;
   if (wanted < mattering)
     sentences.push_back(std::to_string(mattering) + " settings matter; the " +
-                        std::to_string(wanted) + " that move time and error most are combined");
+                        std::to_string(wanted) +
+                        " with the largest effect on time and error are combined");
   if (combined < wanted)
     sentences.push_back(
         "all combinations of " + std::to_string(wanted) + " settings are " +
         std::to_string(configurations) + " configurations, more than the limit of " +
         std::to_string(limits.max_configurations) + ": " +
-        (combined < 2 ? std::string("none are measured")
-                      : "only those of the first " + std::to_string(combined) + " are"));
+        (combined < 2 ? std::string("no combination is measured")
+                      : "only those of the first " + std::to_string(combined) + " are measured"));
   return sentences;
 }
 

@@ -74,7 +74,7 @@ void Measurer::measure_group(std::vector<Job> jobs) {
       renderer->draw(scene_.cameras.front());
       running.push_back({std::move(job), std::move(renderer)});
     } catch (const Error& error) {
-      // The defaults must be drawn; what else this device or runtime cannot do is left out.
+      // The defaults must be drawable. Other configurations that are not supported are skipped.
       const bool refused =
           dynamic_cast<const UsageError*>(&error) || dynamic_cast<const DeviceLimitError*>(&error);
       if (!control_ && running.empty()) throw;
@@ -117,8 +117,7 @@ void Measurer::time_and_compare(std::vector<Running>& running) {
     panel_.outcomes.push_back(std::move(running[i].job.outcome));
 }
 
-/// Errors of frames that the renderers draw once more, now that they were timed: one configuration
-/// a core.
+/// Draws the frames again after timing and computes their errors, with one configuration per core.
 void Measurer::compare(std::vector<Running>& running, std::size_t first) {
   const std::size_t most = std::max(1u, std::thread::hardware_concurrency());
   std::vector<std::future<Errors>> errors;
@@ -138,8 +137,8 @@ void Measurer::compare(std::vector<Running>& running, std::size_t first) {
       std::vector<ImageF> images;
       for (const Image8& image : drawn)
         images.push_back(composited(to_float(image), options_.background));
-      // Where a pixel is covered in part, the device says with which colour and how much of it; a
-      // screen shows 8 bits of the mixture.
+      // A partly covered pixel has a colour and a coverage. A screen shows the mixture with the
+      // background in 8 bits.
       images = as_shown(images);
       return errors_of(references_, images, options_.with_flip);
     }));

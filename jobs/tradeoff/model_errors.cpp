@@ -21,7 +21,7 @@ ModelError drawn_error(const Outcome& outcome, const TriangleSoup& soup, glm::dv
   evaluation.progress = progress;
   const Edits& edits = outcome.applied.edits;
   std::optional<TriangleSoup> reduced;
-  // Reducing is short beside the photographs: it may end early, but does not move the bar.
+  // Editing is short compared with the photographs. It can be cancelled but shows no progress.
   if (edits != Edits{}) reduced = edited(soup, edits, [&](double) { progress(0); });
   const ViewMetrics mean =
       evaluate(reduced ? *reduced : soup, origin, photographs, evaluation).mean;

@@ -21,7 +21,7 @@ Candidates candidates(const Panel& panel) {
     const Outcome& outcome = panel.outcomes[i];
     if (outcome.method != Method::specialised || !is_judged(outcome)) continue;
     const double ms = outcome.ms.min_of_medians;
-    // From the A/A spread alone: too few rounds for a spread between rounds.
+    // Only the A/A spread is used; there are too few rounds for a spread between rounds.
     result.points.push_back({.ms = ms,
                              .spread_ms = 2 * panel.aa_spread * ms,
                              .psnr_db = outcome.error.psnr_db,
@@ -52,13 +52,12 @@ const Outcome* generic_of(const Panel& panel, const Outcome& outcome) {
 
 std::vector<std::string> warnings_about(const Outcome& outcome) {
   std::vector<std::string> warnings;
-  if (!outcome.stable)
-    warnings.emplace_back("its times did not come to rest before they were taken");
+  if (!outcome.stable) warnings.emplace_back("its warm-up did not become stable before timing");
   if (outcome.error.non_finite > 0)
-    warnings.push_back(fmt::format("{} pixels are no numbers", outcome.error.non_finite));
+    warnings.push_back(fmt::format("{} pixels are not finite", outcome.error.non_finite));
   if (!is_judged(outcome))
     warnings.emplace_back(
-        "drawn at the reference's own samples: its error is rounding alone, and it is on no front");
+        "drawn at the reference's samples: its error is only rounding, and it is not on the front");
   return warnings;
 }
 
@@ -66,9 +65,8 @@ std::optional<std::string> spread_warning(double aa_spread) {
   if (aa_spread <= BenchmarkOptions{}.stable_within) return std::nullopt;
   return fmt::format(
       "two measurements of one configuration differ by {:.0f} %, so differences below {:.0f} % "
-      "mean "
-      "nothing and another run may choose otherwise; use a quiet machine, more --rounds or "
-      "--processor-time",
+      "are not significant and another run may choose differently; use an idle machine, more "
+      "--rounds or --processor-time",
       100 * aa_spread, 200 * aa_spread);
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Fastest first; of equal times the better one.
+/// Fastest first; for equal times, the higher PSNR first.
 std::vector<std::size_t> by_time(std::span<const Point> points) {
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t(0));

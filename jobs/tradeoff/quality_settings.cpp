@@ -50,7 +50,7 @@ QualitySetting color() {
 QualitySetting triangle_budget(std::span<const std::uint64_t> visible_pixels) {
   QualitySetting setting{
       "triangle_fraction", "triangle budget", {{"1", "all triangles", unchanged}}};
-  // Few triangles have no tenth of them.
+  // Below ten triangles there is no tenth.
   if (visible_pixels.size() < 10) return setting;
   for (const double fraction : {0.5, 0.25, 0.1}) {
     const std::vector<std::uint8_t> keeps_face = most_visible(visible_pixels, fraction);
@@ -75,7 +75,7 @@ std::vector<QualitySetting> drawing_settings(const TriangleSoup& soup,
     if (texture->mlp) settings.push_back(color());
   }
   settings.push_back(triangle_budget(visible_pixels));
-  // A lattice of level 0 has no coarser one.
+  // A setting with a single value has no effect, e.g. the lattice level of a level-0 texture.
   std::erase_if(settings, [](const QualitySetting& setting) { return setting.values.size() < 2; });
   return settings;
 }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double rays_in_a_strip = 4e6;
 
-/// Rows [first, first + rows) of what the camera sees.
+/// The camera of rows [first, first + rows).
 Camera strip_of(const Camera& camera, int first, int rows) {
   Camera strip = camera;
   strip.height = rows;
@@ -18,7 +18,7 @@ Camera strip_of(const Camera& camera, int first, int rows) {
   return strip;
 }
 
-/// With alpha as the part of a pixel's rays that hit something.
+/// Sets alpha to the fraction of a pixel's rays with a hit.
 void set_coverage(OracleImage& image, int supersampling) {
   const auto width = std::size_t(image.color.width), n = std::size_t(supersampling);
   std::vector<int> hits(image.color.pixels.size());
@@ -42,7 +42,7 @@ ImageF reference_image(const TriangleSoup& soup, glm::dvec3 origin, const Camera
                        const ReferenceOptions& options) {
   const bool antialiased = options.samples == Samples::antialiased;
   const int n = antialiased ? antialiased_samples : 1;
-  // A snapped image is not cut: where a triangle is clipped depends on the image's border.
+  // A snapped image is drawn in one piece, because clipping depends on the image's border.
   const int rows = antialiased
                        ? std::clamp(int(rays_in_a_strip / (n * n) / camera.width), 1, camera.height)
                        : camera.height;

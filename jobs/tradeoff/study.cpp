@@ -16,7 +16,7 @@ namespace tureen::tradeoff {
 
 namespace {
 
-/// Refuses configurations that cannot be drawn, before anything is uploaded.
+/// Rejects configurations that cannot be drawn, before any upload.
 Refusal refusal_of(const std::vector<QualitySetting>& settings) {
   return [&settings](const Configuration& configuration) {
     return defect(applied_by(settings, configuration).quality);
@@ -36,7 +36,7 @@ void add_skipped(Panel& panel, const Design& design) {
     panel.skipped.push_back({describe(panel.settings, skipped.configuration), skipped.reason});
 }
 
-/// The ranges of the settings, from the outcomes of the star that were measured as specialised.
+/// The ranges of the settings, from the specialised outcomes of the star.
 void find_ranges(Panel& panel) {
   std::vector<Configuration> configurations;
   std::vector<Measured> measured;
@@ -83,7 +83,7 @@ void study_drawing(const StudyScene& scene, const StudyOptions& options, Study& 
 
   Measurer measurer(scene, options, references, panel);
   std::vector<Job> jobs = jobs_of(panel.settings, star.configurations, true);
-  // The baseline comes right after the defaults, so that it shares their group.
+  // The baseline follows the defaults, so that both are in the same group.
   Job baseline = job_of(panel.settings, star.configurations.front(), true);
   baseline.outcome.name = "baseline";
   baseline.outcome.method = Method::baseline;

@@ -19,7 +19,7 @@ template <class Visit>
 void visit_images(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 origin,
                   std::span<const Camera> views, const std::function<void(double)>& progress,
                   const Visit& visit) {
-  // Forward plans name no faces.
+  // Forward plans do not store faces.
   Renderer renderer(context, soup, origin, {.plan = {.site = ShadingSite::deferred}});
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (progress) progress(double(i) / double(views.size()));
@@ -60,7 +60,7 @@ std::vector<float> count_visible_texels(const gl::Context& context, const Triang
                                         glm::dvec3 origin, std::span<const Camera> views,
                                         const std::function<void(double)>& progress) {
   const auto& texture = std::get<LatticeTexture>(soup.appearance);
-  // Millions of small weights: in floats their sum would stop growing.
+  // In floats, a sum of millions of small weights would stop growing.
   std::vector<double> shown(texture.texel_count(), 0.0);
   visit_images(context, soup, origin, views, progress,
                [&](const Camera& view, const std::vector<std::uint32_t>& faces) {

@@ -15,15 +15,14 @@ namespace tureen {
 namespace {
 
 constexpr std::array debug_views{
-    DebugViewName{DebugView::color, "color", "final colour", "as it is drawn"},
+    DebugViewName{DebugView::color, "color", "final colour", "as rendered"},
     DebugViewName{DebugView::depth, "depth", "depth", "distance along the viewing axis"},
     DebugViewName{DebugView::normals, "normals", "normals", "(n + 1) / 2, towards the eye"},
-    DebugViewName{DebugView::triangle_id, "triangle-id", "triangle id", "a colour a triangle"},
+    DebugViewName{DebugView::triangle_id, "triangle-id", "triangle id", "one colour a triangle"},
     DebugViewName{DebugView::texels, "texels", "texels", "the nearest texel, not interpolated"},
-    DebugViewName{DebugView::alpha, "alpha", "alpha", "also where it is cut out"},
-    DebugViewName{DebugView::mlp_weight, "mlp-weight", "MLP weight",
-                  "how much of the network is blended in"},
-    DebugViewName{DebugView::features, "features", "features", "what the texels store"},
+    DebugViewName{DebugView::alpha, "alpha", "alpha", "including cut-out fragments"},
+    DebugViewName{DebugView::mlp_weight, "mlp-weight", "MLP weight", "blend weight of the network"},
+    DebugViewName{DebugView::features, "features", "features", "stored texel values"},
     DebugViewName{DebugView::overdraw, "overdraw", "overdraw", "fragments a pixel"},
     DebugViewName{DebugView::wireframe, "wireframe", "wireframe", "edges over the dimmed colour"},
 };
@@ -46,8 +45,8 @@ bool has_texels(const TriangleSoup& soup) {
 }
 
 std::uint32_t mixed_bits(std::uint32_t x) {
-  // A bijection of 32 bits found by search for the least bias: lowbias32 of Chris Wellons' "hash
-  // prospector".
+  // lowbias32 from Chris Wellons' "hash prospector": a bijection of 32 bits, found by a search for
+  // minimal bias.
   x = (x ^ (x >> 16)) * 0x7feb352du;
   x = (x ^ (x >> 15)) * 0x846ca68bu;
   return x ^ (x >> 16);
@@ -112,12 +111,12 @@ std::optional<std::string> why_not(DebugView what, const TriangleSoup& soup) {
       break;
     case DebugView::alpha:
       if (std::holds_alternative<Harmonics>(soup.appearance))
-        return "There is no alpha, every triangle is opaque" + stored_instead(soup) + ".";
+        return "There is no alpha: every triangle is opaque" + stored_instead(soup) + ".";
       break;
     case DebugView::mlp_weight:
       if (!network) return "There is no color MLP" + stored_instead(soup) + ".";
       if (!network->blend_channel)
-        return "The color MLP is not blended with anything: it makes the whole colour.";
+        return "The color MLP has no blend weight: it computes the whole colour.";
       break;
     case DebugView::features:
       if (feature_count(soup) == 0) return "There are no features" + stored_instead(soup) + ".";
@@ -129,7 +128,7 @@ std::optional<std::string> why_not(DebugView what, const TriangleSoup& soup) {
 }
 
 std::optional<std::string> why_not(const FeatureChoice& choice, int feature_count) {
-  if (choice.count < 1 || choice.count > 3) return "One, two or three features show at once.";
+  if (choice.count < 1 || choice.count > 3) return "A debug view shows one, two or three features.";
   if (choice.first < 0 || choice.first + choice.count > feature_count)
     return "Features are numbered from 0 to " + std::to_string(feature_count - 1) + ".";
   return std::nullopt;
@@ -145,7 +144,7 @@ double DepthScale::position(double depth) const {
 }
 
 DepthScale depth_scale(const Bounds& bounds, glm::dvec3 eye) {
-  // A soup that is a single point still needs a range.
+  // A soup of a single point also needs a range.
   const double radius = std::max(bounds.radius(), 1e-6);
   const double distance = glm::length(bounds.centre() - eye);
   const double far = distance + radius;

@@ -31,7 +31,7 @@ enum class DebugView {
 struct DebugViewName {
   DebugView what;
   const char* name;     // "triangle-id", for the command line
-  const char* title;    // "triangle id", for people
+  const char* title;    // "triangle id", for display
   const char* meaning;  // in a few words
 };
 

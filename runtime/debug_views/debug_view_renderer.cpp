@@ -22,7 +22,8 @@ namespace tureen {
 
 namespace {
 
-/// A plan that keeps all there is to see. Only how the same is computed may be chosen.
+/// A plan that draws all faces and stores all values. It allows only specialisations of the
+/// network's code, which are exact.
 RenderPlan make_debug_view_plan(const TriangleSoup& soup, const DeviceLimits& limits,
                                 const DebugViewOptions& options) {
   SpecialisationSet wanted;
@@ -42,7 +43,7 @@ const char* shader_of(const TriangleSoup& soup) {
                                                                  : "debug_view_plain.glsl";
 }
 
-/// With what of the geometry a pixel looks up: shaders/face_corners.glsl and debug_view.frag.
+/// The appearance with the additional stores that face_corners.glsl and debug_view.frag read.
 AppearanceSource debug_view_appearance(const TriangleSoup& soup, const RenderPlan& plan,
                                        const TexelLayout& layout) {
   AppearanceSource appearance = prepare_appearance(soup, plan, layout);
@@ -58,14 +59,14 @@ AppearanceSource debug_view_appearance(const TriangleSoup& soup, const RenderPla
   return appearance;
 }
 
-/// SHOW_DEPTH and the like, from the names on the command line.
+/// The shader constant of a debug view: SHOW_DEPTH for "depth".
 std::string constant_of(const DebugViewName& debug_view) {
   std::string constant = std::string("SHOW_") + debug_view.name;
   for (char& c : constant) c = c == '-' ? '_' : c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c;
   return constant;
 }
 
-/// How bright the colours below the wireframe's lines are.
+/// Factor of the colours below the wireframe's lines.
 constexpr const char* dimmed = "0.4";
 
 }  // namespace
@@ -131,7 +132,7 @@ DebugViewRenderer::State::State(const gl::Capabilities& capabilities, const Tria
   gl::check("DebugViewRenderer");
 }
 
-// -- programs, each made when it is first needed ------------------------------------------------
+// -- programs, created on first use -------------------------------------------------------------
 
 const gl::Program& DebugViewRenderer::State::geometry_program(const char* fragment,
                                                               bool alpha_test) {
@@ -171,7 +172,7 @@ const gl::Program& DebugViewRenderer::State::shown_program() {
 // -- the passes ---------------------------------------------------------------------------------
 
 void DebugViewRenderer::State::resize(int new_width, int new_height) {
-  width = height = 0;  // should it throw, the next frame starts anew
+  width = height = 0;  // if a target throws, the next frame resizes again
   color = make_target(target_formats::rgba8, new_width, new_height);
   counts = make_target(target_formats::rgba8, new_width, new_height);
   depth = make_target(plan.reversed_depth ? target_formats::depth32f : target_formats::depth24,
@@ -197,7 +198,7 @@ void DebugViewRenderer::State::draw(const FrameCamera& frame) {
   gl::check("DebugViewRenderer::draw");
 }
 
-/// In the order in which the ordinary frame draws them.
+/// In the drawing order of ordinary frames.
 void DebugViewRenderer::State::draw_faces(const gl::Program& program, const FrameCamera& frame) {
   if (plan.clusters.empty()) return;
   program.use();
@@ -246,8 +247,8 @@ void DebugViewRenderer::State::draw_shown(const FrameCamera& frame) {
   draw_full_screen(program);
 }
 
-/// Edges lie as deep as their faces: those that the image shows pass, and those of fragments that
-/// the alpha test has thrown away in front of it.
+/// Edges have the depth of their faces. The depth test passes edges of visible faces, and edges in
+/// front of them, where the alpha test rejected the face.
 void DebugViewRenderer::State::draw_edges(const FrameCamera& frame) {
   glBindFramebuffer(GL_FRAMEBUFFER, color_framebuffer.id());
   glDepthMask(GL_FALSE);
@@ -286,7 +287,7 @@ void DebugViewRenderer::State::draw_full_screen(const gl::Program& program) {
   glEnable(GL_DEPTH_TEST);
 }
 
-/// The uniforms of face_corners.glsl: window y runs up, image y down.
+/// The uniforms of face_corners.glsl: window y points up, image y down.
 void DebugViewRenderer::State::set_corners(const gl::Program& program,
                                            const FrameCamera& frame) const {
   const Camera& camera = frame.camera;

@@ -6,8 +6,8 @@
 namespace tureen::gl {
 
 bool is_refused(const std::function<void()>& allocate) {
-  // Somebody else's errors must not read as ours. There are at most a few kinds of them, each kept
-  // once; a device that never ends telling of errors is gone.
+  // Clears the errors of earlier calls. GL keeps each kind of error once, so a few reads suffice. A
+  // lost device reports errors forever.
   for (int kinds = 0; kinds < 16 && glGetError() != GL_NO_ERROR; ++kinds) {
   }
   allocate();

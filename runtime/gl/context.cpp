@@ -47,7 +47,7 @@ bool contains(const std::string& text, const char* part) {
 #if !defined NDEBUG && !defined __EMSCRIPTEN__
 void GLAD_API_PTR report(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message,
                          const void*) {
-  // Performance hints and notices are not ours to mend.
+  // Performance hints and notices are not errors.
   if (type == GL_DEBUG_TYPE_ERROR) std::fprintf(stderr, "OpenGL: %s\n", message);
 }
 #endif
@@ -68,7 +68,7 @@ bool has_timer_queries(Api api) {
   return false;
 #else
   if (api == Api::es) return has_extension("GL_EXT_disjoint_timer_query");
-  // Core since 3.3, but with a clock of no bits where the device has none.
+  // Core since 3.3. A device without a clock reports 0 bits.
   GLint bits = 0;
   glGetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
   return bits > 0;
@@ -85,7 +85,7 @@ bool has_clip_control(Api api, int version) {
 #endif
 }
 
-/// Many runs of vertices in one call.
+/// Whether one call can draw many runs of vertices.
 bool has_multi_draw(Api api) {
 #ifdef __EMSCRIPTEN__
   (void)api;
@@ -95,7 +95,7 @@ bool has_multi_draw(Api api) {
 #endif
 }
 
-/// Browsers hide the device behind a name of their own; some tell it when asked for "unmasked".
+/// GL_RENDERER of a browser is its own name; some report the device as UNMASKED_RENDERER_WEBGL.
 std::string renderer_name() {
 #ifdef __EMSCRIPTEN__
   constexpr GLenum unmasked_renderer = 0x9246;
@@ -126,7 +126,7 @@ Capabilities query_capabilities(Api api) {
   const bool desktop = api == Api::desktop;
   const int version = 10 * result.major + result.minor;
   if (version < (desktop ? 33 : 30))
-    throw ContextError("OpenGL " + result.version + " is too old: 3.3 core or ES 3.0 is needed");
+    throw ContextError("OpenGL " + result.version + " is too old: Tureen needs 3.3 core or ES 3.0");
   result.clip_control = has_clip_control(api, version);
   result.multi_draw = has_multi_draw(api);
   result.timer_queries = has_timer_queries(api);
@@ -144,7 +144,7 @@ Capabilities query_capabilities(Api api) {
 }  // namespace
 
 bool draws_in_software(const std::string& renderer) {
-  // Mesa's two, Chromium's, what Windows has without a driver (WARP, and OpenGL 1.1), and macOS'.
+  // The renderers of Mesa (two), Chromium, Windows without a driver (WARP, OpenGL 1.1) and macOS.
   constexpr const char* names[] = {"llvmpipe",    "softpipe",
                                    "SwiftShader", "Microsoft Basic Render Driver",
                                    "GDI Generic", "Apple Software Renderer"};
@@ -153,13 +153,13 @@ bool draws_in_software(const std::string& renderer) {
 }
 
 void throw_if_lost() {
-#ifndef __EMSCRIPTEN__  // a canvas has events for that
-  // OpenGL 4.5 and ES 3.2 have it; older ones end the program themselves.
+#ifndef __EMSCRIPTEN__  // a canvas reports it by events
+  // OpenGL 4.5 and ES 3.2 have this query. Older drivers end the program.
   if (glGetGraphicsResetStatus && glGetGraphicsResetStatus() != GL_NO_ERROR)
     throw ContextError(
-        "the graphics device was reset while it was drawing (its driver failed or was replaced, or "
-        "a draw took too long), and what it held is gone",
-        "start again");
+        "the graphics device was reset while drawing (its driver failed or was replaced, or a draw "
+        "took too long), and its buffers and textures are lost",
+        "start the program again");
 #endif
 }
 
@@ -185,7 +185,7 @@ Context Context::create(const ContextRequest& request) {
   if (request.backend != Backend::osmesa) platform = attempt(create_egl, "EGL");
   if (!platform && request.backend != Backend::egl) platform = attempt(create_osmesa, "OSMesa");
   if (!platform)
-    throw ContextError("no OpenGL context can be had (" + tried + ")",
+    throw ContextError("no OpenGL context can be created (" + tried + ")",
                        "install a GPU driver with EGL, or Mesa's software renderer: on Debian and "
                        "Ubuntu, apt-get install libegl1 libgl1-mesa-dri, or libosmesa6");
   return Context(std::move(platform), request.api);
@@ -216,10 +216,10 @@ Context::~Context() = default;
 void Context::make_current() {
   platform_->make_current();
 #ifndef __EMSCRIPTEN__
-  // glad keeps one table of functions; another library's context needs its own in it.
+  // glad keeps one table of functions. A context of another library needs its own functions in it.
   const auto load = reinterpret_cast<GLADloadfunc>(platform_->get_proc_address());
   const int loaded = capabilities_.api == Api::es ? gladLoadGLES2(load) : gladLoadGL(load);
-  if (!loaded) throw ContextError("the context does not yield the OpenGL functions");
+  if (!loaded) throw ContextError("the context does not provide the OpenGL functions");
 #endif
 }
 

@@ -1,5 +1,6 @@
-// EGL without a surface (EGL_MESA_platform_surfaceless, or a device where a vendor's EGL offers no
-// such platform). The few declarations we need stand here, so that building wants no EGL headers.
+// EGL without a surface: on a device (EGL_EXT_platform_device), for vendors' EGL, or on
+// EGL_MESA_platform_surfaceless. The few required declarations are here, so that the build needs no
+// EGL headers.
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -103,11 +104,11 @@ class EglPlatform final : public Context::Platform {
   EglPlatform(EGLDisplay display, EGLContext context, unsigned api)
       : display_(display), context_(context), api_(api) {}
   ~EglPlatform() override {
-    // Only our own: another context may have been made current since.
+    // Only if this context is current: another one may have become current.
     if (egl().get_current_context() == context_)
       egl().make_current(display_, nullptr, nullptr, nullptr);
     egl().destroy_context(display_, context_);
-    // The display is shared by every context of the process and stays initialised.
+    // All contexts of the process share the display, so it stays initialised.
   }
   void make_current() override {
     egl().bind_api(api_);
@@ -134,7 +135,7 @@ EGLContext create_on(EGLDisplay display, const ContextRequest& request, int majo
   std::vector<EGLint> attributes = {egl_context_major_version, major, egl_context_minor_version,
                                     minor};
   if (!es) attributes.insert(attributes.end(), {egl_context_profile_mask, egl_core_profile_bit});
-  // To be told of resets (throw_if_lost), where EGL knows how: from 1.5 on.
+  // Requests reset notification for throw_if_lost(). EGL supports it from 1.5 on.
   std::vector<EGLint> told = attributes;
   told.insert(told.end(), {egl_context_reset_strategy, egl_lose_context_on_reset, egl_none});
   attributes.push_back(egl_none);

@@ -1,5 +1,5 @@
 // OSMesa: Mesa's software rasteriser drawing into our memory. Its header clashes with GL loaders,
-// so the few declarations we need stand here. Mesa 25.1 and later no longer have it.
+// so the few required declarations are here. Mesa 25.1 and later do not include OSMesa.
 #include <array>
 #include <string>
 #include <vector>
@@ -24,7 +24,7 @@ constexpr int osmesa_minor_version = 0x37;
 constexpr unsigned gl_unsigned_byte = 0x1401;
 
 SharedLibrary open_library() {
-  // 8 is Debian's and Fedora's name, 6 the one before it.
+  // Version 8 is in Debian and Fedora; 6 is the older one.
   try {
     return SharedLibrary("libOSMesa.so.8");
   } catch (const ContextError&) {
@@ -58,13 +58,13 @@ class OsMesaPlatform final : public Context::Platform {
  public:
   explicit OsMesaPlatform(OSMesaContext context) : context_(context) {}
   ~OsMesaPlatform() override {
-    // Only our own: another context may have been made current since.
+    // Only if this context is current: another one may have become current.
     if (osmesa().get_current_context() == context_)
       osmesa().make_current(nullptr, nullptr, 0, 0, 0);
     osmesa().destroy_context(context_);
   }
   void make_current() override {
-    // The window that OSMesa insists on; everything is drawn into framebuffers of our own.
+    // OSMesa requires a window buffer. All drawing goes to our own framebuffers.
     if (!osmesa().make_current(context_, window_.data(), gl_unsigned_byte, 1, 1))
       throw ContextError("OSMesaMakeCurrent failed");
   }
@@ -79,11 +79,11 @@ class OsMesaPlatform final : public Context::Platform {
 }  // namespace
 
 std::unique_ptr<Context::Platform> create_osmesa(const ContextRequest& request) {
-  if (request.api == Api::es) throw ContextError("OSMesa makes no OpenGL ES contexts");
+  if (request.api == Api::es) throw ContextError("OSMesa does not support OpenGL ES");
   struct Version {
     int major, minor;
   };
-  // 4.6 yields no context, 4.5 the highest that Mesa's software rasteriser knows.
+  // 4.6 fails; 4.5 is the highest version of Mesa's software rasteriser.
   const std::vector<Version> versions = request.major > 0
                                             ? std::vector<Version>{{request.major, request.minor}}
                                             : std::vector<Version>{{4, 5}, {4, 1}, {3, 3}};

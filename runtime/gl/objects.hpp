@@ -1,5 +1,5 @@
-// Move-only ownership of GL objects. Construction binds only if it must, and no function keeps GL
-// state except as its name says. The context must be current, also on destruction.
+// Move-only ownership of GL objects. Construction binds an object only if necessary. Functions
+// change GL state only as their names imply. The context must be current, also on destruction.
 #pragma once
 
 #include <utility>

@@ -47,7 +47,7 @@ void wait_for_device(unsigned framebuffer) {
 void use_zero_to_one_depth(Api api, bool zero_to_one) {
 #ifndef __EMSCRIPTEN__
   const GLenum depth = zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE;
-  // By the context, not by which pointer is set: one may be another context's.
+  // Selects by the context's API: a set function pointer may belong to another context.
   if (api == Api::desktop)
     glClipControl(GL_LOWER_LEFT, depth);
   else

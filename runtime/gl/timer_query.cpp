@@ -15,9 +15,8 @@ constexpr GLenum timestamp = 0x8E28, query_result = 0x8866, gpu_disjoint = 0x8FB
 std::optional<std::string> timers_mislead(const Capabilities& capabilities) {
   if (capabilities.software)
     return "software OpenGL (" + capabilities.renderer +
-           ") draws when its tiles are flushed, whatever pass that falls into: only the "
-           "processor's "
-           "clock counts";
+           ") draws when its tiles are flushed, possibly during another pass: only the "
+           "processor's clock counts";
   if (!capabilities.timer_queries)
     return "this context has no timer queries: only the processor's clock counts";
   return {};
@@ -32,7 +31,7 @@ PassTimer::PassTimer(const Context& context) {
   get_result_ = reinterpret_cast<GetResult>(
       get(desktop ? "glGetQueryObjectui64v" : "glGetQueryObjectui64vEXT"));
   may_be_disturbed_ = !desktop;
-  if (may_be_disturbed_) disturbed();  // reading forgets what was before
+  if (may_be_disturbed_) disturbed();  // reading clears earlier disturbances
 }
 
 Query PassTimer::take_query() {

@@ -14,7 +14,7 @@ namespace tureen {
 
 namespace {
 
-/// Colours as bytes where that loses nothing, as floats otherwise.
+/// Colours as bytes if that is lossless, otherwise as floats.
 TexelSource color_source(std::uint64_t count, const char* what,
                          const std::function<glm::vec4(std::uint64_t)>& color) {
   const auto as_byte = [](float value) {
@@ -60,9 +60,9 @@ class Preparation {
     result_.samplers.push_back({name, std::move(source)});
   }
   std::uint64_t slots() const { return plan_.faces.size(); }
-  /// The soup's face in a slot; holds on to the elements, not to the plan.
+  /// The soup's face of each slot. Refers to the elements, not to the plan object.
   auto faces() const { return std::span<const std::uint32_t>(plan_.faces); }
-  /// Finds the soup's vertex at a corner of the slots, three a slot.
+  /// A function from a corner of the slots, three a slot, to the soup's vertex.
   auto corner_vertices() const {
     return [faces = faces(), &triangles = soup_.triangles](std::uint64_t corner) {
       return triangles[faces[corner / 3]][int(corner % 3)];
@@ -181,9 +181,9 @@ class Preparation {
     if (textures.mlp) add_mlp(*textures.mlp, plan_.feature_ranges);
   }
 
-  /// The images one after another in one store (two where there are features), and the materials,
-  /// three texels each, that say where an image lies and how it is read; the flags are those of
-  /// shaders/appearance_uv.glsl.
+  /// Adds one store with all images, or two with latent features, and the store of materials. Each
+  /// material has three texels with the place and the sampling of its image.
+  /// shaders/appearance_uv.glsl defines the flags.
   void prepare_images(const UvTextures& textures) {
     std::vector<glm::uvec4> table;
     std::vector<const Image8*> firsts, seconds;

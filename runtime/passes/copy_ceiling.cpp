@@ -23,7 +23,7 @@ struct CopyCeiling::State {
     to = make_target(target_formats::rgba8, width, height);
     from_framebuffer = make_framebuffer({from.id()}, 0);
     to_framebuffer = make_framebuffer({to.id()}, 0);
-    // Not one colour: hardware compresses what was cleared and would not read it at all.
+    // Many colours, because GPUs compress a cleared target and would not read it.
     gl::use_plain_rasterisation(width, height);
     glEnable(GL_SCISSOR_TEST);
     glBindFramebuffer(GL_FRAMEBUFFER, from_framebuffer.id());

@@ -7,14 +7,14 @@ namespace tureen {
 
 namespace {
 
-/// Faces that are looked at together: loops over them are what a compiler vectorises.
+/// Faces tested together, in loops that compilers vectorise.
 constexpr std::size_t block_size = 64;
 
-/// Corners further out than this many images to a side are somebody else's: clipping makes new
-/// ones of them.
+/// Largest distance of a tested corner outside the image, in image sizes. Clipping replaces corners
+/// further out, so their faces are culled only if they lie entirely beside the image.
 constexpr float guard = 1.0f;
 
-/// Pixels: from half of one on nothing would be found between centres.
+/// In pixels. From half a pixel on, no face would fit between pixel centres.
 constexpr float largest_margin = 0.25f;
 
 float smallest(float a, float b, float c) {
@@ -38,7 +38,8 @@ float floor_from(float value, float offset) {
   return static_cast<float>(static_cast<int>(value + offset)) - offset;
 }
 
-/// Relative to one of the four centres around it, how far inside a triangle's edge the others lie.
+/// The function of one edge, relative to the first pixel centre, plus a margin. It is negative only
+/// for points outside.
 struct Edge {
   float at_00, per_x, per_y, margin;
 
@@ -47,8 +48,8 @@ struct Edge {
     at_00 = sign * (y * x0 - x * y0);
     per_x = -sign * y;
     per_y = sign * x;
-    // A point of the triangle whose corners are moved by up to the margin is a point of this one
-    // moved by as much. 1e-5: the rounding of products of a few pixels.
+    // Moving the corners by up to the margin moves each point of the triangle by at most as much.
+    // 1e-5: rounding of products of a few pixels.
     margin = corner_margin * (std::abs(x) + std::abs(y)) + 1e-5f;
   }
   float inside(float x, float y) const { return at_00 + x * per_x + y * per_y + margin; }
@@ -73,13 +74,14 @@ struct CoveredFaces::Block {
       const float scale = 1.0f / depth;
       x[corner][i] = view.cx + view.fx * right * scale;
       y[corner][i] = view.cy + view.fy * up * scale;
-      // Five roundings of what the depth is summed of: below it not even the sign is sure.
+      // Five roundings of the sum of the depth's terms. Below this bound even the sign is
+      // uncertain.
       const float rounding = 5 * 0x1p-24f * (std::abs(dx) + std::abs(dy) + std::abs(dz));
       in_front[corner][i] = depth > view.near + rounding ? 1 : 0;
     }
   }
 
-  /// Whether each face may show: 0 or 1.
+  /// Writes 1 for each face that may be visible, otherwise 0.
   void judge(const View& view, std::size_t count, std::uint32_t* shows) const {
     const float m = view.margin;
     const float left = -guard * view.width, right = (1 + guard) * view.width;
@@ -93,17 +95,17 @@ struct CoveredFaces::Block {
       const int in_front_of_near = in_front[0][i] & in_front[1][i] & in_front[2][i];
       const int beside =
           int(x_high < 0) | int(x_low > view.width) | int(y_high < 0) | int(y_low > view.height);
-      // Clamping has not moved any corner.
+      // 1 if clamping moved no corner.
       const int whole = int(x0 == x[0][i]) & int(x1 == x[1][i]) & int(x2 == x[2][i]) &
                         int(y0 == y[0][i]) & int(y1 == y[1][i]) & int(y2 == y[2][i]);
 
-      // Centres lie at whole numbers and a half: the first and the last column and row of them.
+      // Pixel centres lie at whole numbers plus 1/2: the first column and row of them in the box.
       const float first_x = floor_from(x_low - 0.5f, 1 - left) + 1.5f;
       const float first_y = floor_from(y_low - 0.5f, 1 - bottom) + 1.5f;
-      const float columns = x_high - first_x, rows = y_high - first_y;  // less one, rounded up
+      const float columns = x_high - first_x, rows = y_high - first_y;  // number of them: floor + 1
       const int between = int(columns < 0) | int(rows < 0);
 
-      // Up to four centres can be held against the edges.
+      // Tests up to 2 x 2 centres against the edges.
       const float sign = (x1 - x0) * (y2 - y0) - (y1 - y0) * (x2 - x0) < 0 ? -1.0f : 1.0f;
       const Edge a(x0 - first_x, y0 - first_y, x1 - first_x, y1 - first_y, sign, m);
       const Edge b(x1 - first_x, y1 - first_y, x2 - first_x, y2 - first_y, sign, m);
@@ -153,9 +155,9 @@ bool CoveredFaces::begin_frame(const FrameCamera& frame, int subpixel_bits) {
            .width = float(camera.width),
            .height = float(camera.height),
            .margin = 0};
-  // A corner is snapped to the subpixel grid, by a unit at most; and comes there through a dozen
-  // floats, here and on the device, each rounded by 2^-24 of what is at most the focal length and
-  // the guarded image.
+  // Snapping moves a corner by at most one unit of the subpixel grid. About a dozen float
+  // operations, here and on the device, each round by 2^-24 of at most the focal length plus the
+  // guarded image.
   const double sizes = camera.fx + camera.fy + 4.0 * (camera.width + camera.height) +
                        std::abs(camera.cx) + std::abs(camera.cy);
   view_.margin = float(std::ldexp(1.0, -subpixel_bits) + 16 * 0x1p-24 * sizes);
@@ -174,7 +176,7 @@ void CoveredFaces::append(std::int32_t first_vertex, std::int32_t vertex_count,
     }
     std::uint32_t shows[block_size];
     block.judge(view_, size, shows);
-    // All are written and those that do not show written over.
+    // Writes every face without a branch; the next face overwrites a culled one.
     std::size_t end = vertices.size();
     vertices.resize(end + 3 * size);
     for (std::size_t i = 0; i < size; ++i) {

@@ -10,7 +10,7 @@ DeviceAppearance::DeviceAppearance(AppearanceSource source)
       mlp(std::move(source.mlp)) {
   for (AppearanceSource::Sampler& sampler : source.samplers) {
     samplers.push_back({std::move(sampler.name), TexelStore(source.layout, sampler.source)});
-    sampler.source.fill = nullptr;  // what it holds need not be kept beside what is on the device
+    sampler.source.fill = nullptr;  // frees its data after the upload
   }
 }
 

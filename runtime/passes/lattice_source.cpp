@@ -15,19 +15,19 @@ namespace tureen {
 
 namespace {
 
-/// What one run of texels or cells on the device comes from.
+/// A run of texels or cells on the device, and its source.
 struct Run {
   std::uint64_t first;  // on the device
   std::uint32_t face;   // of the soup
   int level;            // on the device, at most the soup's
 };
 
-/// Where the texels and cells of each slot come from and go to.
+/// Source and destination of the texels and cells of each slot.
 class Placement {
  public:
   Placement(const LatticeTexture& texture, const RenderPlan& plan) : texture_(texture) {
-    // Without a uniform level and without levels of our own the texels stay as the soup has them,
-    // and faces that share texels share their cells.
+    // Without a uniform level and without changed levels, texels are uploaded unchanged, and faces
+    // that share texels share cells.
     repacked_ = plan.lattice.uniform_level >= 0 || !plan.lattice.levels.empty();
     patches_.resize(plan.faces.size());
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> known_cells;
@@ -61,8 +61,8 @@ class Placement {
   std::uint64_t cells() const { return cell_count_; }
   std::span<const glm::uvec4> patches() const { return patches_; }
 
-  /// Calls visit(i, source) for texels [first, first + count) of the device, `source` being the
-  /// soup's texel that belongs there.
+  /// Calls visit(i, source) for texels [first, first + count) on the device. `source`: index of the
+  /// soup's texel.
   template <class Visit>
   void for_each_texel(std::uint64_t first, std::uint64_t count, const Visit& visit) const {
     if (!repacked_) {
@@ -78,7 +78,7 @@ class Placement {
   }
 
   /// The same for cells: `sources` are the soup's texels at the corners (x+1, y), (x, y+1), (x, y)
-  /// and (x+1, y+1), the last one moved to the border on the last diagonal.
+  /// and (x+1, y+1), the last one moved to the border for cells on the last diagonal.
   template <class Visit>
   void for_each_cell(std::uint64_t first, std::uint64_t count, const Visit& visit) const {
     for_each_run(
@@ -97,8 +97,8 @@ class Placement {
   }
 
  private:
-  /// Texel k of a face on the device as a texel of the soup: a face below its soup's level keeps
-  /// its three corners.
+  /// Maps texel k of a face on the device to a texel of the soup. A face below its soup's level
+  /// keeps only its three corner texels.
   class Source {
    public:
     Source(const LatticePatch& patch, int level)
@@ -191,11 +191,11 @@ void check_capacity(const Placement& placement, const RenderPlan& plan, const Te
   const std::uint64_t needed = std::max(placement.texel_count(), placement.cells());
   if (needed <= layout.capacity()) return;
   const std::uint64_t fitting = layout.capacity() * plan.faces.size() / needed;
-  throw DeviceLimitError(std::to_string(plan.faces.size()) + " triangles have " +
-                         std::to_string(placement.texel_count()) +
-                         " lattice texels; this device holds " + std::to_string(layout.capacity()) +
-                         " a texture: about " + std::to_string(fitting) +
-                         " such triangles would fit, or four times as many a level lower");
+  throw DeviceLimitError(
+      std::to_string(plan.faces.size()) + " triangles have " +
+      std::to_string(placement.texel_count()) + " lattice texels, but this device holds " +
+      std::to_string(layout.capacity()) + " a texture: about " + std::to_string(fitting) +
+      " such triangles fit, or four times as many at a lower lattice level");
 }
 
 }  // namespace

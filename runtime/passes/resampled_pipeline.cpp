@@ -15,7 +15,7 @@ namespace tureen {
 
 namespace {
 
-/// Another pipeline's frame, of a size of its own, and the filter that makes ours of it.
+/// Draws a frame with another pipeline at another size, and filters it to the size of the image.
 class ResampledPipeline : public Pipeline {
  public:
   ResampledPipeline(std::unique_ptr<Pipeline> pipeline, const ImageLimit& limit, const char* filter,
@@ -29,8 +29,8 @@ class ResampledPipeline : public Pipeline {
     const glm::ivec2 size = size_to_draw({width, height});
     if (std::max(size.x, size.y) > limit_.max_side)
       throw DeviceLimitError("an image of " + std::to_string(width) + "x" + std::to_string(height) +
-                             " needs samples of " + std::to_string(size.x) + "x" +
-                             std::to_string(size.y) + ": this device draws " +
+                             " needs " + std::to_string(size.x) + "x" + std::to_string(size.y) +
+                             " samples, but this device draws at most " +
                              std::to_string(limit_.max_side) + " a side");
     pipeline_->resize(size.x, size.y);
     size_ = {width, height};

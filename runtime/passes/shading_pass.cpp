@@ -46,7 +46,7 @@ void ShadingPass::compute(const Frame& frame) const {
     return static_cast<GLuint>((size + shading_group_side - 1) / shading_group_side);
   };
   glDispatchCompute(groups(frame.width), groups(frame.height), 1);
-  // The image is read, blitted and cleared as a framebuffer's, and sampled by filters.
+  // The image is later read, blitted and cleared as a framebuffer, and sampled by filters.
   glMemoryBarrier(GL_FRAMEBUFFER_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                   GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 #endif

@@ -12,7 +12,7 @@ namespace tureen {
 
 namespace {
 
-/// Of the texture that is bound.
+/// For the bound texture.
 void use_nearest_sampling() {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
@@ -57,8 +57,7 @@ void require_complete_framebuffer() {
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
   gl::throw_if_lost();
   throw DeviceLimitError(
-      "the device has no memory for the targets of an image of this size: a smaller one would "
-      "fit");
+      "the device has no memory for the targets of an image of this size: draw a smaller image");
 }
 
 Image8 read_pixels(GLuint framebuffer, int width, int height) {
@@ -76,11 +75,11 @@ Image8 read_pixels(GLuint framebuffer, int width, int height) {
 std::vector<std::uint32_t> read_visible_faces(GLuint framebuffer, glm::ivec2 size,
                                               std::span<const std::uint32_t> faces) {
   const auto width = std::size_t(size.x), height = std::size_t(size.y);
-  // Reading must wait for the pass that wrote this target, but Mesa 22.3's llvmpipe waits only
-  // where the pass in flight writes to it: the shading pass reads it, and an older frame comes
-  // back.
+  // Reading must wait for the pass that wrote this target. Mesa 22.3's llvmpipe waits only for a
+  // running pass that writes it. The shading pass only reads it, so an older frame would be
+  // returned.
   glFinish();
-  // Four channels, though two are stored: ES 3.0 promises to read integers in no other way.
+  // Four channels, although two are stored: ES 3.0 guarantees only this format for integers.
   std::vector<glm::uvec4> fragments(width * height);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
   glReadBuffer(GL_COLOR_ATTACHMENT0);
@@ -109,7 +108,7 @@ void blit_color(GLuint from, GLuint to, glm::ivec2 size, glm::ivec2 corner) {
 void require_drawable(int width, int height, int max_side) {
   if (std::max(width, height) > max_side)
     throw DeviceLimitError("an image of " + std::to_string(width) + "x" + std::to_string(height) +
-                           " is larger than this device draws: " + std::to_string(max_side) +
+                           " exceeds the limit of this device: " + std::to_string(max_side) +
                            " pixels a side");
 }
 

@@ -30,11 +30,11 @@ TexelStore::TexelStore(const TexelLayout& layout, const TexelSource& source) {
   const std::uint64_t count = source.count;
   const std::string& what = source.what;
   if (count > layout.capacity())
-    throw DeviceLimitError(what + ": " + std::to_string(count) + " texels, this device holds " +
+    throw DeviceLimitError(what + ": " + std::to_string(count) + " texels, but this device holds " +
                            std::to_string(layout.capacity()) + " in a texture of " +
                            std::to_string(layout.max_layers) + " layers; " +
                            std::to_string(layout.capacity() * 100 / count) +
-                           "% of the scene would fit, or a lower lattice level");
+                           "% of the scene fits, or a lower lattice level");
   const std::uint64_t columns = std::uint64_t(1) << layout.row_bits;
   const std::uint64_t rows_per_layer = std::uint64_t(1) << layout.layer_bits;
   const std::uint64_t rows = std::max<std::uint64_t>((count + columns - 1) / columns, 1);
@@ -56,11 +56,10 @@ TexelStore::TexelStore(const TexelLayout& layout, const TexelSource& source) {
       }))
     throw DeviceLimitError(what + ": the device refuses a texture of " +
                            std::to_string(device_bytes_ >> 20) +
-                           " MiB; fewer triangles or a lower "
-                           "lattice level would fit");
+                           " MiB: use fewer triangles or a lower lattice level");
 
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  // A megabyte or so at a time keeps the second copy small.
+  // About 1 MiB at a time, so that the second copy stays small.
   const std::uint64_t rows_per_block =
       std::clamp<std::uint64_t>((std::uint64_t(1) << 20) / (width * format.bytes), 1, height);
   std::vector<std::byte> block(rows_per_block * width * format.bytes);

@@ -1,5 +1,5 @@
-// Our frame: a geometry pass that stores which face each pixel shows, then a shading pass over the
-// covered pixels; or colour at once.
+// Tureen's pipeline. A geometry pass stores the visible face of each pixel, then a shading pass
+// colours the covered pixels. A forward plan writes colours in a single pass.
 #include <optional>
 #include <utility>
 #include <vector>
@@ -111,7 +111,7 @@ class TureenPipeline final : public Pipeline {
                        with_appearance(fragment, constants));
   }
 
-  /// GLSL of a file that reads the appearance.
+  /// Complete GLSL for a file that reads the appearance.
   std::string with_appearance(const char* file, const Constants& constants) const {
     ShaderSource source{.file = file,
                         .constants = appearance_.constants,
@@ -148,7 +148,8 @@ class TureenPipeline final : public Pipeline {
     draw_geometry(frame);
   }
 
-  /// The only pass, also of ShadingSite::nowhere, which leaves the background's colour.
+  /// The only pass of a forward plan, and of ShadingSite::nowhere, which keeps the background's
+  /// colour.
   void draw_forward(const FrameCamera& frame, const glm::vec4& background) {
     const gl::TimedPass pass(timer_, "forward");
     glBindFramebuffer(GL_FRAMEBUFFER, color_framebuffer_.id());
@@ -191,7 +192,7 @@ class TureenPipeline final : public Pipeline {
     gl::draw_runs(device_, first, count);
   }
 
-  /// Those of the runs' faces that may show.
+  /// Draws those faces of the runs that may be visible.
   void draw_covered(std::span<const std::int32_t> first, std::span<const std::int32_t> count) {
     vertices_.clear();
     for (std::size_t i = 0; i < first.size(); ++i) covered_->append(first[i], count[i], vertices_);
@@ -212,20 +213,20 @@ class TureenPipeline final : public Pipeline {
   Geometry geometry_;
   gl::Program opaque_, cut_out_;
   FrontToBack order_;
-  std::optional<CoveredFaces> covered_;  // where small triangles are dropped
+  std::optional<CoveredFaces> covered_;  // if small triangles are culled
   gl::Buffer covered_vertices_;
-  std::vector<std::uint32_t> vertices_;  // of the last frame's
+  std::vector<std::uint32_t> vertices_;  // for the last draw_covered()
   int subpixel_bits_ = 0;
-  /// Looking for a small triangle costs a part of what not drawing it saves: where most faces
-  /// are seen, the next frames draw all of them, which is the same image.
+  /// Culling costs time for every face. If more than this fraction of the faces remains, the next
+  /// frames draw all faces; the image is the same.
   static constexpr double worthwhile = 0.7;
-  static constexpr int rested_frames = 30;  // the search is then a thirtieth of what it was
+  static constexpr int rested_frames = 30;  // the cost falls to a thirtieth
   int search_rests_ = 0;                    // frames
   int width_ = 0, height_ = 0;
   gl::Texture depth_, color_;
   gl::Framebuffer color_framebuffer_;
-  std::optional<ShadingPass> shading_;  // where the plan is deferred
-  FragmentStore store_;                 // there, too
+  std::optional<ShadingPass> shading_;  // if the plan is deferred
+  FragmentStore store_;                 // likewise
 };
 
 }  // namespace

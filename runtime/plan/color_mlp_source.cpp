@@ -10,9 +10,9 @@ namespace {
 
 std::string literal(float value) {
   char text[32] = "";
-  // Nine digits give every float back; the exponent form is a float literal in GLSL everywhere.
+  // Nine digits reproduce every float. The exponent form is a float literal in all GLSL versions.
   std::snprintf(text, sizeof text, "%.8e", double(value));
-  // The program around us may have set a locale; GLSL knows only the point.
+  // The program may have set a locale, but GLSL needs a decimal point.
   std::replace(text, text + sizeof text, ',', '.');
   return text;
 }
@@ -59,8 +59,8 @@ std::string signature(const ColorMlp& mlp) {
   return text;
 }
 
-/// `sum` is an expression for the three outputs before the sigmoid, `blend` one for the blend
-/// channel's value; empty for a network that replaces the base colour.
+/// `sum`: expression for the three outputs before the sigmoid. `blend`: expression for the value of
+/// the blend channel; empty for a network that replaces the base colour.
 std::string epilogue(const std::string& sum, const std::string& blend) {
   const std::string text = "  vec3 predicted = 1.0 / (1.0 + exp(-" + sum + "));\n";
   if (blend.empty()) return text + "  return predicted;\n}\n";
@@ -71,7 +71,7 @@ std::string blend_expression(const ColorMlp& mlp) {
   return mlp.blend_channel ? feature_name(*mlp.blend_channel) : std::string();
 }
 
-/// The same where the values that never change are known.
+/// The same, with a constant for a channel of a single value.
 std::string blend_expression(const ColorMlp& mlp, const FeatureRanges& ranges) {
   if (!mlp.blend_channel) return {};
   const FeatureRange& range = ranges[std::size_t(*mlp.blend_channel)];
@@ -110,8 +110,8 @@ ColorMlpSource with_constants(const ColorMlp& mlp, const FeatureRanges& ranges, 
         terms += " + " + literal(weights[i]) + " * " + inputs[i].name;
       }
       const std::string sum = literal(float(bias)) + terms;
-      // The rounding on the device of a sum of at most max_width + 1 float products, and of the
-      // features themselves: 64 * 2^-24 of the terms' magnitude, with room to spare.
+      // Rounding on the device of a sum of at most max_width + 1 float products, and of the
+      // features themselves: less than 64 * 2^-24 = 3.8e-6 of the terms' magnitude.
       const double rounding = 1e-5 * magnitude;
       const bool dead = pruned && !last && high <= -rounding;
       result.hidden_neurons += last ? 0 : 1;

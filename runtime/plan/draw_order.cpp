@@ -71,7 +71,7 @@ void sort_spatially(const TriangleSoup& soup, std::vector<std::uint32_t>& faces)
 
 bool coincident(const TriangleSoup& soup, std::uint32_t a, std::uint32_t b) {
   const auto points_a = corners(soup, a), points_b = corners(soup, b);
-  // Bits are what is meant: only then does the rasteriser see the same triangle twice.
+  // Compares bits, since only equal bits give the rasteriser the same triangle.
   // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
   return std::memcmp(points_a.data(), points_b.data(), sizeof points_a) == 0;
 }
@@ -97,7 +97,7 @@ void FrontToBack::sort(std::span<const Cluster> clusters, glm::vec3 eye, glm::ve
   keys_.resize(clusters.size());
   for (std::uint32_t i = 0; i < clusters.size(); ++i) {
     const float depth = glm::dot(clusters[i].centre - eye, forward);
-    // Coordinates near the end of float can make NaN, which no order has a place for.
+    // Coordinates near the limit of float can give NaN, which has no order.
     keys_[i] = {std::isnan(depth) ? 0.0f : depth, i};
   }
   std::sort(keys_.begin(), keys_.end(), [](const Key& a, const Key& b) {

@@ -12,7 +12,7 @@ namespace {
 
 FaceAlpha classify(float lowest, float highest, float threshold) {
   if (lowest >= threshold) return FaceAlpha::opaque;
-  // Negated so that NaN counts as transparent, as the alpha test has it.
+  // Negated so that NaN counts as transparent, as in the alpha test.
   if (!(highest >= threshold)) return FaceAlpha::transparent;
   return FaceAlpha::cut_out;
 }
@@ -28,13 +28,15 @@ struct AlphaRange {
     high = std::max(high, alpha);
     has_nan = has_nan || std::isnan(alpha);
   }
-  /// Comparisons pass NaN by: what it reaches has no alpha, the rest may have, so it is tested.
+  /// Comparisons ignore NaN. Fragments that interpolate a NaN do not exist, but others may, so the
+  /// face needs the test.
   FaceAlpha classified() const {
     return has_nan ? FaceAlpha::cut_out : classify(low, high, alpha_threshold);
   }
 };
 
-/// How many texels of an image's channel reach a threshold, over any rectangle in constant time.
+/// Counts the texels of an image's channel that reach a threshold, for any rectangle in constant
+/// time.
 class ReachingCounts {
  public:
   ReachingCounts(const Image8& image, int channel, float factor, float threshold)
@@ -102,7 +104,7 @@ struct Classify {
   }
 
   void operator()(const UvTextures& textures) const {
-    // Material by material, so that what is known of one image is in memory at a time.
+    // Material by material, so that only the counts of one image are in memory.
     std::vector<std::vector<std::uint32_t>> faces(textures.materials.size());
     for (std::uint32_t t = 0; t < result.size(); ++t)
       faces[textures.material_of_face[t]].push_back(t);
@@ -113,7 +115,7 @@ struct Classify {
       const bool tinted = !textures.vertex_rgba.empty();
       if (always || material.images.empty() || tinted) {
         const float value = material.factor[material.mask_channel];
-        // A tint varies over the face: left to the test.
+        // A tint varies over the face, so the face needs the test.
         const FaceAlpha alpha = always   ? FaceAlpha::opaque
                                 : tinted ? FaceAlpha::cut_out
                                          : classify(value, value, material.mask_threshold);
@@ -132,9 +134,9 @@ struct Classify {
     const glm::uvec3& v = soup.triangles[t];
     const glm::vec2 a = textures.uv[v.x], b = textures.uv[v.y], c = textures.uv[v.z];
     const glm::vec2 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
-    // Wrapping is left to the test; negated so that NaN is too.
+    // Faces with wrapped coordinates need the test. Negated so that NaN needs it too.
     if (!(low.x >= 0 && low.y >= 0 && high.x <= 1 && high.y <= 1)) return FaceAlpha::cut_out;
-    // One texel more on each side: bilinear neighbours, and the rounding of the interpolation.
+    // One more texel on each side, for bilinear neighbours and the rounding of the interpolation.
     const int x0 = std::max(int(low.x * float(image.width)) - 1, 0);
     const int y0 = std::max(int(low.y * float(image.height)) - 1, 0);
     const int x1 = std::min(int(high.x * float(image.width)) + 1, image.width - 1);
@@ -166,8 +168,8 @@ bool drawable(const TriangleSoup& soup, std::uint32_t face) {
   const glm::dvec3 ab = b - a, ac = c - a, bc = c - b;
   const glm::dvec3 cross = glm::cross(ab, ac);
   const double longest = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)});
-  // An area below 1e-12 of the longest edge squared is rounding; comparing this way round also
-  // refuses NaN, and infinite corners give NaN.
+  // An area below 1e-12 of the longest edge squared is rounding. This form of the comparison also
+  // rejects NaN, which infinite corners give.
   return glm::length(cross) > 1e-12 * longest;
 }
 

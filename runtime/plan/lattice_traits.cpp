@@ -12,7 +12,7 @@ namespace {
 
 constexpr int channels = LatticeTexture::channels;
 
-/// Measures one face given its texels, `scale` turning stored values into [0, 1].
+/// Measures the texels of one face. `scale`: factor from stored values to [0, 1].
 template <class Value>
 struct FaceMeasurement {
   bool constant = true;
@@ -46,7 +46,7 @@ template <class Value>
 LatticeTraits measure_values(const LatticeTexture& texture, const std::vector<Value>& values,
                              std::span<const std::uint32_t> faces) {
   const float scale = sizeof(Value) == 1 ? 1.0f / 255.0f : 1.0f;
-  // What rounding leaves of an alpha that is affine: a few ulps of 1.
+  // Rounding of an affine alpha: a few ulps of 1.
   constexpr float alpha_tolerance = 1e-6f;
   LatticeTraits traits;
   traits.affine_residual.resize(faces.size());
@@ -72,7 +72,7 @@ LatticeTraits measure_values(const LatticeTexture& texture, const std::vector<Va
     traits.affine_residual[i] = same_cut_out ? face.feature_residual : INFINITY;
   }
   if (faces.empty()) traits.ranges.fill({});
-  traits.ranges[LatticeTexture::features] = {};  // the eighth is no feature of a lattice
+  traits.ranges[LatticeTexture::features] = {};  // lattices have seven features
   std::sort(runs.begin(), runs.end());
   traits.shares_texels =
       std::adjacent_find(runs.begin(), runs.end(), [](const auto& run, const auto& next) {
@@ -116,7 +116,8 @@ double base_from_network(const FeatureRanges& ranges) {
 double color_gain(const ColorMlp& mlp, const FeatureRanges& ranges) {
   const double gain = network_gain(mlp, 0, mlp.feature_count());
   if (!mlp.blend_channel) return gain;
-  // (1 - r) base + r mlp: base moves by one, mlp by its gain, r by how far the two lie apart.
+  // The colour is (1 - r) base + r mlp. The base changes by 1, mlp by its gain. A change of r by 1
+  // changes the colour by the difference between base and mlp.
   return std::max(1.0, gain) + base_from_network(ranges);
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 void choose_site(PlanDraft& draft) {
   RenderPlan& plan = draft.plan;
-  // One or three reads make a colour: a second pass over the pixels costs more than it saves.
+  // A colour takes one or three reads, so a second pass over the pixels costs more than it saves.
   const bool cheap = plan.flat_colors ||
                      std::holds_alternative<VertexColors>(draft.soup.appearance) ||
                      (std::holds_alternative<UvTextures>(draft.soup.appearance) && !plan.color_mlp);
@@ -32,8 +32,7 @@ void choose_stage(PlanDraft& draft, const DeviceLimits& limits) {
   const ShadingStage wanted = draft.preferences.shading_stage;
   if (wanted == ShadingStage::compute && !limits.compute_shaders)
     throw DeviceLimitError(
-        "shading as compute needs compute shaders, OpenGL 4.3 or ES 3.1, which this device has "
-        "not");
+        "shading as compute needs compute shaders (OpenGL 4.3 or ES 3.1), which this device lacks");
   plan.requested_stage = wanted;
   if (plan.site == ShadingSite::deferred) plan.shading_stage = wanted;
 }

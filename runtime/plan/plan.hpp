@@ -84,7 +84,7 @@ struct RenderPlan {
   /// Small-triangle culling: each frame skips faces that cover no pixel centre (covered_faces.hpp).
   bool drops_small_triangles = false;
 
-  bool flat_colors = false;  // one colour a face suffices, whatever the soup stores
+  bool flat_colors = false;  // one colour a face suffices, for any stored appearance
   bool color_mlp = false;    // the network is evaluated
   MlpWeights mlp_weights = MlpWeights::uniforms;
   bool view_direction = false;   // the network uses it

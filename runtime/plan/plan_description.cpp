@@ -18,10 +18,10 @@ std::string margin_of(const AppliedSpecialisation& applied) {
   if (applied.margin > 0)
     return " (changes colours by at most " + fixed_decimal(applied.margin, 3) +
            " of an 8-bit step)";
-  return applied.what == Specialisation::shading_pass ? " (exact but for rounding)" : " (exact)";
+  return applied.what == Specialisation::shading_pass ? " (exact up to rounding)" : " (exact)";
 }
 
-/// The replacement that is drawn or computed.
+/// The effect of a specialisation in English.
 std::string effect_of(const AppliedSpecialisation& applied) {
   const auto counted = [&](const char* what) {
     return part_of(applied.count, applied.total) + what;
@@ -36,7 +36,7 @@ std::string effect_of(const AppliedSpecialisation& applied) {
     case Specialisation::small_triangles:
       return "faces that cover no pixel's centre are found in each frame and not drawn";
     case Specialisation::shading_pass:
-      return "colours are written in the only pass, as they cost little";
+      return "colours are written in the only pass, because they cost little";
     case Specialisation::background:
       return "the depth test rejects background pixels before shading";
     case Specialisation::interpolation:
@@ -44,7 +44,7 @@ std::string effect_of(const AppliedSpecialisation& applied) {
     case Specialisation::harmonics_bands:
       return counted("harmonics bands are not evaluated");
     case Specialisation::color_mlp:
-      return "the color MLP never blends in and does not run";
+      return "the color MLP is never blended in and not evaluated";
     case Specialisation::view_direction:
       return "the color MLP ignores the view direction";
     case Specialisation::weight_uniforms:
@@ -101,13 +101,13 @@ std::vector<std::string> describe(const RenderPlan& plan) {
   if (plan.zero_weights > 0)
     add(std::to_string(plan.zero_weights) + " weights of zero are not computed (exact)");
   if (plan.lattice.refused_alpha_cell_bytes > 0)
-    add("alpha is stored by the texel: by the cell it would take " +
+    add("alpha is stored by texel: by cell it would need " +
         fixed_decimal(double(plan.lattice.refused_alpha_cell_bytes) / 1e6, 1) +
         " MB, which is more than allowed");
   if (plan.requested_stage == ShadingStage::compute)
     add(plan.shading_stage == ShadingStage::compute
             ? "shading runs as compute, as requested"
-            : "nothing is shaded as compute, as colours are written at once");
+            : "shading does not run as compute: colours are written in the only pass");
   return sentences;
 }
 

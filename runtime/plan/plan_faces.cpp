@@ -1,4 +1,4 @@
-// The geometry's part of a plan: which faces are drawn, in which buckets, and in what order.
+// The geometry's part of a plan: the drawn faces, their buckets and their order.
 #include <algorithm>
 
 #include "runtime/plan/face_alpha.hpp"
@@ -16,8 +16,8 @@ std::vector<std::uint32_t> drawable_faces(PlanDraft& draft) {
   return faces;
 }
 
-/// Of faces with the same corners the lowest index wins wherever it is opaque: those behind one
-/// that is so throughout never show. `faces` are sorted spatially.
+/// Of coincident faces, the lowest index wins wherever it is opaque. Faces behind a fully opaque
+/// one are therefore never visible. `faces`: sorted spatially.
 void skip_coincident_faces(PlanDraft& draft, const std::vector<FaceAlpha>& alpha,
                            std::vector<std::uint32_t>& faces) {
   std::vector<std::uint32_t> kept;
@@ -31,8 +31,8 @@ void skip_coincident_faces(PlanDraft& draft, const std::vector<FaceAlpha>& alpha
   faces = std::move(kept);
 }
 
-/// Of coincident faces the lower index must win, so both kinds of them are drawn in one bucket.
-/// `faces` are sorted spatially.
+/// Of coincident faces, the lower index must win, so opaque and cut-out ones are drawn in one
+/// bucket. `faces`: sorted spatially.
 void draw_coincident_faces_alike(const TriangleSoup& soup, std::span<const std::uint32_t> faces,
                                  std::vector<FaceAlpha>& alpha) {
   for (std::size_t i = 0; i < faces.size();) {
@@ -45,7 +45,7 @@ void draw_coincident_faces_alike(const TriangleSoup& soup, std::span<const std::
   }
 }
 
-/// Fewer faces than this are drawn in a few milliseconds anyway.
+/// Software renderers draw fewer faces than this in a few milliseconds.
 constexpr std::size_t min_culled_faces = 16384;
 
 void plan_small_triangles(PlanDraft& draft, const DeviceLimits& limits) {

@@ -1,4 +1,4 @@
-// The harmonics' part of a plan: bands that nobody sees.
+// The harmonics' part of a plan: the bands with a visible effect.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -11,7 +11,7 @@ namespace tureen {
 
 namespace {
 
-/// Entry l: how much the bands l and above of any element can together move a channel. |sum_m
+/// Entry l: upper bound of the change of a channel by bands l and above, over all elements. |sum_m
 /// Y_lm(d) c_m| <= sqrt((2l+1) / 4 pi) |c_l| for every direction (Cauchy-Schwarz and the addition
 /// theorem).
 std::vector<double> largest_from_band(const Harmonics& sh) {

@@ -1,4 +1,4 @@
-// The lattice's part of a plan: what the texels say about network and levels.
+// The lattice's part of a plan: the network and the levels, chosen from its texels.
 #include <algorithm>
 
 #include "runtime/plan/lattice_traits.hpp"
@@ -9,7 +9,7 @@ namespace tureen {
 
 namespace {
 
-/// Whether the network never blends in.
+/// Whether the network is never blended in, up to half a step of the colour.
 bool never_blends_in(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges& ranges) {
   if (!mlp.blend_channel || !draft.may(Specialisation::color_mlp)) return false;
   const FeatureRange& range = ranges[std::size_t(*mlp.blend_channel)];
@@ -19,8 +19,8 @@ bool never_blends_in(PlanDraft& draft, const ColorMlp& mlp, const FeatureRanges&
   return true;
 }
 
-/// Which faces are affine, and whether leaving their texels out is worth its while.
-/// `gain`: how much an error of the features may grow on its way to the colour.
+/// Finds the affine faces, and removes their inner texels if that pays. `gain`: upper bound of the
+/// error of the colour per error of the features.
 void plan_affine_texels(PlanDraft& draft, const LatticeTexture& texture,
                         const LatticeTraits& traits, double gain) {
   RenderPlan& plan = draft.plan;
@@ -39,8 +39,8 @@ void plan_affine_texels(PlanDraft& draft, const LatticeTexture& texture,
     if (affine) largest_error = std::max(largest_error, error);
   }
   const bool all_affine = affine_faces == count;
-  // Faces of unlike levels need a table read a fragment; a quarter of the texels saved pays for
-  // it, as does a scene that needs the table anyway.
+  // Faces of different levels need a table read a fragment. It pays if a quarter of the texels is
+  // saved, or if the scene needs the table anyway.
   const bool one_level = traits.lowest_level == traits.highest_level;
   const bool worth_it = all_affine || !one_level || kept < texels - texels / 4;
   if (kept == texels || !worth_it || traits.shares_texels) return;
@@ -53,7 +53,7 @@ void plan_affine_texels(PlanDraft& draft, const LatticeTexture& texture,
 
 namespace {
 
-/// At last, when levels are known. Faces that share cells are counted each.
+/// Called after the levels are chosen. Counts shared cells once for each face.
 void choose_alpha_storage(PlanDraft& draft, const LatticeTexture& texture) {
   RenderPlan& plan = draft.plan;
   if (plan.opaque_count == plan.faces.size() || plan.flat_colors) return;

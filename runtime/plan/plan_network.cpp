@@ -1,4 +1,4 @@
-// The color MLP's part of a plan: which of its inputs and neurons a scene can do without.
+// The color MLP's part of a plan: the inputs and neurons that a scene does not need.
 #include <algorithm>
 #include <cmath>
 
@@ -24,8 +24,8 @@ void plan_view_direction(PlanDraft& draft, const ColorMlp& mlp, const FeatureRan
   draft.apply({.what = Specialisation::view_direction, .margin = steps_of(moves)});
 }
 
-/// A range that is a single value makes the network's source use that value: widened where the
-/// caller wants to keep what that would leave out.
+/// Widens a range of a single value. The network's source then reads the feature instead of folding
+/// the value into the bias.
 void keep_reading(FeatureRange& range) {
   if (range.low == range.high) range.low = std::nextafter(range.low, -1.0f);
 }

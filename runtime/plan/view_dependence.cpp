@@ -16,7 +16,7 @@ double norm(const float* values, int count) {
   return std::sqrt(sum);
 }
 
-/// The largest absolute value of a neuron's sum over the direction, without the constant band.
+/// Largest absolute contribution of the direction to a neuron's sum, without the constant band.
 double direction_reach(DirectionEncoding encoding, const float* weights) {
   if (encoding == DirectionEncoding::none) return 0.0;
   if (encoding == DirectionEncoding::xyz) return norm(weights, 3);

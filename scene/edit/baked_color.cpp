@@ -11,8 +11,8 @@ namespace tureen {
 
 namespace {
 
-/// Which texels are a corner of a cell that has any visible point: the cells that touch an alpha of
-/// alpha_threshold or more.
+/// Whether each texel is a corner of a triangle with visible points, i.e. with an alpha of at least
+/// alpha_threshold at any corner.
 std::vector<bool> texels_that_show(const LatticeTexture& texture) {
   std::vector<bool> shows(texture.texel_count(), false);
   for (const LatticePatch& patch : texture.patches) {

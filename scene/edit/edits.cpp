@@ -42,8 +42,8 @@ std::optional<std::string> defect(const Edits& edits, const TriangleSoup& soup) 
     return "the lattice level is " + std::to_string(edits.lattice_level) + ", not 0 to 7";
   if (edits.keeps_face.empty()) return std::nullopt;
   if (edits.keeps_face.size() != soup.triangles.size())
-    return "the choice is among " + std::to_string(edits.keeps_face.size()) +
-           " triangles, and the scene has " + std::to_string(soup.triangles.size());
+    return "the selection has " + std::to_string(edits.keeps_face.size()) +
+           " triangles, but the scene has " + std::to_string(soup.triangles.size());
   if (std::count(edits.keeps_face.begin(), edits.keeps_face.end(), 0) ==
       std::ptrdiff_t(edits.keeps_face.size()))
     return "no triangle is kept";

@@ -16,7 +16,7 @@ namespace {
 constexpr int features = LatticeTexture::features;
 using Features = std::array<double, features>;
 
-/// Random texels of a soup, and what colour is made of their features.
+/// Random texels of a soup and the colour of their features.
 class Sampler {
  public:
   Sampler(const TriangleSoup& soup, std::span<const glm::dvec3> eyes,
@@ -31,7 +31,7 @@ class Sampler {
     if (shown_until_.empty()) return below(soup_.triangles.size());
     const double at = double(engine_()) * 0x1p-32 * shown_until_.back();
     const auto face = std::upper_bound(shown_until_.begin(), shown_until_.end(), at);
-    // Rounding may reach the sum itself.
+    // `at` may round up to the total.
     return std::min(std::size_t(face - shown_until_.begin()), shown_until_.size() - 1);
   }
   std::size_t random_texel(std::size_t face) {
@@ -46,14 +46,14 @@ class Sampler {
     for (int f = 0; f < features; ++f) result[std::size_t(f)] = double(texture_.value(texel, f));
     return result;
   }
-  /// From the middle of the face to one of the eyes.
+  /// The unit direction from the face's centroid to a random eye.
   glm::dvec3 random_direction(std::size_t face) {
     glm::dvec3 middle(0.0);
     for (int k = 0; k < 3; ++k)
       middle += glm::dvec3(soup_.positions[soup_.triangles[face][k]]) / 3.0;
     const glm::dvec3 way = eyes_[below(eyes_.size())] - middle;
     const double length = glm::length(way);
-    // An eye in the triangle, or a triangle that is nowhere: any direction.
+    // Any direction is valid if the eye is at the centroid or the centroid is not finite.
     return length > 0 && length < 1e300 ? way / length : glm::dvec3(0, 0, 1);
   }
   glm::dvec3 color(const Features& of, const glm::dvec3& to_eye) const {
@@ -62,13 +62,13 @@ class Sampler {
   }
 
  private:
-  /// Not a distribution of the standard library: those differ between libraries.
+  /// A random number below n. Standard distributions differ between libraries.
   std::size_t below(std::size_t n) { return std::size_t(engine_()) % n; }
 
   const TriangleSoup& soup_;
   const LatticeTexture& texture_;
   std::span<const glm::dvec3> eyes_;
-  std::vector<double> shown_until_;  // of each face and those before it
+  std::vector<double> shown_until_;  // running sum of `shown`, including each face
   std::mt19937 engine_{1};
 };
 
@@ -79,8 +79,8 @@ FeatureMatrix mean_sensitivity(const TriangleSoup& soup, std::span<const glm::dv
   FeatureMatrix sum{};
   if (soup.triangles.empty()) return sum;
   Sampler sampler(soup, eyes, shown);
-  // About what features lose in a compressed file: with the network's bends in between, the
-  // difference over it says more than the slope at the middle.
+  // Half the width of the central difference: about the error of features in a compressed file. The
+  // network is nonlinear, so a difference of this size predicts the loss better than a derivative.
   constexpr double reach = 12.0 / 255.0;
   int count = 0;
   for (int i = 0; i < samples; ++i) {
@@ -108,7 +108,7 @@ FeatureMatrix mean_sensitivity(const TriangleSoup& soup, std::span<const glm::dv
 
 std::vector<double> face_sensitivity(const TriangleSoup& soup, std::span<const glm::dvec3> eyes,
                                      std::span<const std::array<double, features>> steps) {
-  constexpr int samples = 8;  // of a face: 15,000 faces take a few seconds
+  constexpr int samples = 8;  // per face; 15,000 faces take a few seconds
   Sampler sampler(soup, eyes);
   std::vector<double> result(soup.triangles.size(), 0.0);
   for (std::size_t face = 0; face < result.size(); ++face)

@@ -11,10 +11,10 @@ namespace tureen {
 
 namespace {
 
-/// Which elements stay, in their order, and where each one goes.
+/// The kept elements, in their order, and their new indices.
 struct Selection {
   std::vector<std::uint32_t> kept;
-  std::vector<std::uint32_t> place;  // of those that stay
+  std::vector<std::uint32_t> place;  // new index of each kept element, by old index
 
   explicit Selection(const std::vector<std::uint8_t>& stays) : place(stays.size(), 0) {
     for (std::size_t i = 0; i < stays.size(); ++i) {
@@ -24,7 +24,7 @@ struct Selection {
     }
   }
 
-  /// `each` values an element.
+  /// The kept part of an array with `each` values an element.
   template <class T>
   std::vector<T> of(const std::vector<T>& values, std::size_t each = 1) const {
     std::vector<T> result;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int channels = LatticeTexture::channels;
 
-/// One face's texels as floats, features apart from alpha: what projections take.
+/// One face's texels as floats, with features and alpha separate, as arguments of projections.
 struct FaceTexels {
   std::vector<float> features, alpha;
 
@@ -40,7 +40,7 @@ struct FaceTexels {
   }
 };
 
-/// Projections are made once for each pair of levels.
+/// One projection for each pair of levels, created on first use.
 class Projections {
  public:
   const LatticeProjection& get(int from, int to) {
@@ -62,7 +62,7 @@ FaceTexels projected(const LatticeProjection& projection, const FaceTexels& fine
   return coarse;
 }
 
-/// At most some hundred calls, whatever the number of faces.
+/// Limits progress to about 100 calls (below 200), independent of the number of faces.
 class Pace {
  public:
   Pace(const LevelProgress& progress, std::size_t count) : progress_(progress), count_(count) {}
@@ -100,8 +100,8 @@ LatticeTexture with_levels(const LatticeTexture& texture, const std::vector<Valu
     const std::size_t first = texels.size() / channels;
     if (first + lattice::texel_count(levels[t]) > std::numeric_limits<std::uint32_t>::max())
       throw UsageError(
-          "faces share texels in part, and each with its own would have more than "
-          "32 bits can number");
+          "faces share some of their texels; with separate texels for each face, the number of "
+          "texels would exceed 32 bits");
     const auto [place, is_new] =
         known.try_emplace({patch.first_texel, patch.level, levels[t]}, std::uint32_t(first));
     result.patches.push_back({place->second, levels[t]});

@@ -25,9 +25,9 @@ void for_each_triangle(int level, const Visit& visit) {
     }
 }
 
-/// The integral of a product of two linear functions over a triangle is its area / 12 times (the
-/// sum over corners of u v + the sum of u times the sum of v). All triangles of a lattice are
-/// equal: only the sums are kept, and the factor is that of one fine triangle.
+/// The integral of u v, both linear on a triangle, is area / 12 (sum_k u_k v_k + sum_k u_k sum_k
+/// v_k) with corners k. All triangles of a lattice have equal area, so area / 12 is omitted. The
+/// unit is one fine triangle.
 constexpr double own = 2, other = 1;
 
 }  // namespace
@@ -40,7 +40,7 @@ LatticeProjection::LatticeProjection(int from, int to) : from_(from), to_(to) {
     Weighted result;
     for (int k = 0; k < 3; ++k) {
       result.texels[k] = at.texels[k];
-      result.weights[k] = float(at.weights[k]);  // of texels: multiples of 2^-7, exact
+      result.weights[k] = float(at.weights[k]);  // exact at texels: multiples of 2^-7
     }
     return result;
   };
@@ -71,14 +71,14 @@ void LatticeProjection::factorise() {
   const auto at = [&](int i, int j) -> double& {
     return factor_[std::size_t(i) * row + (j - i + band_)];
   };
-  const double area = double(1u << (2 * (from_ - to_)));  // of a coarse triangle, in fine ones
+  const double area = double(1u << (2 * (from_ - to_)));  // of a coarse triangle, in fine triangles
   for_each_triangle(to_, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     for (const std::uint32_t i : {a, b, c})
       for (const std::uint32_t j : {a, b, c})
         if (j <= i) at(int(i), int(j)) += area * (i == j ? own : other);
   });
-  // Cholesky's decomposition within the band. The matrix is positive definite and its condition
-  // number is below 20 at every level: no pivots.
+  // Cholesky decomposition within the band, without pivots: the matrix is positive definite and its
+  // condition number is below 20 at every level.
   for (int i = 0; i < size; ++i)
     for (int j = std::max(0, i - band_); j <= i; ++j) {
       double sum = at(i, j);
@@ -119,7 +119,7 @@ void LatticeProjection::project(int channels, std::span<const float> fine,
     std::copy(fine.begin(), fine.end(), coarse.begin());
     return;
   }
-  // <psi_j, f> for the hat functions psi_j of the fine texels ..
+  // <psi_j, f> for the hat functions psi_j of the fine texels.
   std::vector<double> moments(fine.size(), 0.0);
   for_each_triangle(from_, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     for (int k = 0; k < channels; ++k) {
@@ -131,7 +131,7 @@ void LatticeProjection::project(int channels, std::span<const float> fine,
       moments[c * channels + k] += sum + (own - other) * fc;
     }
   });
-  // .. and of them those of the coarse ones: phi_i is the sum of psi_j times what it is at texel j.
+  // <phi_i, f> for the coarse texels, since phi_i = sum_j phi_i(texel j) psi_j.
   std::vector<double> values(coarse.size(), 0.0);
   for (std::size_t j = 0; j < coarse_at_texel_.size(); ++j)
     for (int k = 0; k < 3; ++k) {
@@ -148,8 +148,8 @@ void LatticeProjection::project(int channels, std::span<const float> fine,
 LatticeProjection::Error LatticeProjection::error(int channels, int compared,
                                                   std::span<const float> fine,
                                                   std::span<const float> coarse) const {
-  // Both are linear on every fine triangle: the largest difference is at a texel, and the mean
-  // square follows from the texels, too.
+  // Both functions are linear on every fine triangle. The largest difference is therefore at a fine
+  // texel, and the texels also determine the mean square.
   Error result;
   std::vector<double> difference(coarse_at_texel_.size());
   for (int c = 0; c < compared; ++c) {
@@ -180,8 +180,8 @@ void LatticeProjection::for_each_centroid(std::span<const float> fine, const Vis
   });
 }
 
-/// The level at which a coarse alpha is cut: the part above it is what the fine one covers, but for
-/// `wrong` centroids.
+/// A threshold for the coarse alpha. The coarse cut-out differs from the fine one at `wrong`
+/// centroids.
 struct LatticeProjection::Cut {
   float level = alpha_threshold;
   std::size_t wrong = 0;
@@ -195,7 +195,7 @@ LatticeProjection::Cut LatticeProjection::best_cut(std::span<const float> fine,
   };
   std::vector<Sample> samples;
   samples.reserve(coarse_at_centroid_.size());
-  std::size_t wrong = 0;  // were all of the face covered
+  std::size_t wrong = 0;  // for a threshold below all values, i.e. a fully covered face
   for_each_centroid(fine, [&](float alpha, const Weighted& at) {
     float value = 0;
     for (int k = 0; k < 3; ++k) value += at.weights[k] * coarse[at.texels[k]];
@@ -207,16 +207,17 @@ LatticeProjection::Cut LatticeProjection::best_cut(std::span<const float> fine,
     return a.value != b.value ? a.value < b.value : a.covered < b.covered;
   });
   Cut best{samples.front().value - 1, wrong};
-  // A cut between two samples of different value; of equally good ones that nearest to 1/2.
+  // Tries a threshold between each pair of different values. Among equally good ones, the nearest
+  // to 1/2 wins.
   for (std::size_t i = 0; i < samples.size(); ++i) {
     wrong = samples[i].covered ? wrong + 1 : wrong - 1;
     const bool last = i + 1 == samples.size();
     if (!last && samples[i + 1].value == samples[i].value) continue;
-    // The alpha_threshold itself where it lies in the gap, else the gap's middle.
+    // alpha_threshold if it lies in the gap, else the middle of the gap.
     const float above = last ? samples[i].value + 1 : samples[i + 1].value;
     const bool holds_half = samples[i].value < alpha_threshold && alpha_threshold <= above;
     const float level = holds_half ? alpha_threshold : (samples[i].value + above) / 2;
-    if (!(level > samples[i].value)) continue;  // neighbours in float
+    if (!(level > samples[i].value)) continue;  // no float lies between the two values
     if (wrong < best.wrong || (wrong == best.wrong && std::abs(level - alpha_threshold) <
                                                           std::abs(best.level - alpha_threshold)))
       best = {level, wrong};
@@ -238,8 +239,8 @@ double LatticeProjection::project_alpha(std::span<const float> fine,
   project(1, fine, coarse);
   Cut cut = best_cut(fine, coarse);
 
-  // How far beyond the threshold an alpha lies says nothing about its edge; 1/8 keeps as much slope
-  // as tells the edge's place between two texels.
+  // An alpha far from the threshold has no information about the edge, so it is clamped. A reach of
+  // 1/8 keeps the slope that locates the edge between two texels.
   constexpr float reach = 0.125f;
   std::vector<float> near_edge(fine.begin(), fine.end()), sharp(coarse.size());
   for (float& alpha : near_edge)

@@ -24,9 +24,8 @@ bool is_finite(const glm::vec3& p) {
 bool is_degenerate(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const glm::dvec3 ab = b - a, ac = c - a, bc = c - b;
   const double longest_squared = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)});
-  // A float cannot hold a needle thinner than about 1e-7 of its length except by chance around
-  // the origin: 1e-12 is far below anything that was meant to have an area. Not `<`, so that all
-  // corners in one point count.
+  // Float coordinates cannot represent triangles thinner than about 1e-7 of their length, except
+  // near the origin. 1e-12 is far below any intended area. `<=` also accepts coincident corners.
   return glm::length(glm::cross(ab, ac)) <= 1e-12 * longest_squared;
 }
 
@@ -34,7 +33,7 @@ bool is_degenerate(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
 
 using Bits = std::array<std::uint32_t, 3>;
 
-/// The corners as bits in an order that does not depend on how the face names them.
+/// The corners' coordinates as bits, in an order that does not depend on the face's corner order.
 std::array<Bits, 3> canonical_corners(const TriangleSoup& soup, std::uint32_t face) {
   std::array<Bits, 3> corners;
   for (int k = 0; k < 3; ++k) {
@@ -46,7 +45,8 @@ std::array<Bits, 3> canonical_corners(const TriangleSoup& soup, std::uint32_t fa
 }
 
 std::uint64_t hash(const std::array<Bits, 3>& corners) {
-  // FNV-1a over words, with the multiplier's high bits folded down; equal hashes are compared.
+  // FNV-1a over words, with the product's high bits folded down. Faces with equal hashes are
+  // compared.
   std::uint64_t h = 14695981039346656037ull;
   for (const Bits& corner : corners)
     for (const std::uint32_t word : corner) {
@@ -74,8 +74,8 @@ void find_duplicates(const TriangleSoup& soup, const std::vector<bool>& ordinary
     end = begin + 1;
     while (end < entries.size() && entries[end].hash == entries[begin].hash) ++end;
     if (end - begin == 1) continue;
-    // Within a run of equal hashes nearly always all are equal: sort by corners, then by face, so
-    // that each group's first stays.
+    // Faces with equal hashes nearly always have equal corners. Sorted by corners and then by face,
+    // the first face of each group is not a duplicate.
     std::vector<std::pair<std::array<Bits, 3>, std::uint32_t>> run;
     for (std::size_t i = begin; i < end; ++i)
       run.emplace_back(canonical_corners(soup, entries[i].face), entries[i].face);
@@ -89,8 +89,8 @@ void find_duplicates(const TriangleSoup& soup, const std::vector<bool>& ordinary
 
 // --- Visibility -----------------------------------------------------------------------------
 
-/// Whether alpha stays below the threshold all over a face. Interpolation is convex, so it is
-/// enough that the corners, or the texels, stay below it.
+/// Whether alpha is below the threshold everywhere on a face. Interpolation is convex, so checking
+/// the corners or the texels is sufficient.
 struct NeverVisible {
   const TriangleSoup& soup;
   std::vector<bool> cut_out_materials;  // UV textures: no texel reaches the threshold
@@ -112,7 +112,7 @@ struct NeverVisible {
       largest = float(byte) / 255.0f;
     }
     if (!textures.mlp) largest *= material.factor[channel];
-    // A vertex colour above 1 could lift the mask over the threshold again.
+    // A vertex colour above 1 may raise the mask above the threshold.
     if (!textures.mlp && !textures.vertex_rgba.empty()) {
       float factor = 0.0f;
       for (const glm::vec4& color : textures.vertex_rgba) factor = std::max(factor, color[channel]);
@@ -192,7 +192,7 @@ std::string describe(const LintFinding& finding) {
       predicate = single ? "is used by no face" : "are used by no face";
       break;
     case LintFinding::Id::far_from_origin:
-      return "the vertices lie far from the origin for 32 bit floats: the extent is only " +
+      return "the vertices lie too far from the origin for 32-bit floats: the extent is only " +
              std::to_string(finding.extent_over_offset) +
              " of the largest coordinate (below 0.0002); store them relative to an origin";
   }
@@ -247,8 +247,8 @@ Lint lint(const TriangleSoup& soup) {
   double offset = 0;
   for (int c = 0; c < 3; ++c)
     offset = std::max({offset, std::abs(double(box.low[c])), std::abs(double(box.high[c]))});
-  // At 2e-4 a float's step at that offset is 1 / 3000 of the extent: about a pixel when the soup
-  // fills a screen (docs/numerics.md, G3b).
+  // At 2e-4 the spacing of floats at that offset is 1 / 3000 of the extent: about a pixel if the
+  // soup fills a screen (docs/numerics.md, G3b).
   constexpr double smallest_ratio = 2e-4;
   result.extent_over_offset = offset > 0 ? 2 * box.radius() / offset : 0;
   if (offset > 0 && result.extent_over_offset < smallest_ratio)

@@ -18,21 +18,21 @@ glm::vec3 clamped(const glm::vec3& c) {
   return {clamp(c.x), clamp(c.y), clamp(c.z)};
 }
 
-/// Barycentrics of the centroids of the 16 congruent triangles that a face is cut into.
+/// Barycentrics of the centroids in a subdivision of a face into 16 congruent triangles.
 std::vector<glm::vec3> subdivision_centroids() {
   constexpr int n = 4;
   std::vector<glm::vec3> points;
   for (int x = 0; x < n; ++x)
     for (int y = 0; x + y < n; ++y)
       for (const float third : {1.0f / 3.0f, 2.0f / 3.0f}) {
-        if (third > 0.5f && x + y + 1 >= n) continue;  // the upside-down one lies outside
+        if (third > 0.5f && x + y + 1 >= n) continue;  // the second triangle lies outside the face
         const float b0 = (float(x) + third) / n, b1 = (float(y) + third) / n;
         points.emplace_back(b0, b1, 1.0f - b0 - b1);
       }
   return points;
 }
 
-/// The mean of what is visible, or of everything where nothing is.
+/// The mean over the visible points, or over all points if none is visible.
 struct VisibleMean {
   glm::vec3 seen{0.0f}, all{0.0f};
   float seen_weight = 0.0f, all_weight = 0.0f;
@@ -107,8 +107,8 @@ struct MeanColors {
   }
 
   Colors operator()(const LatticeTexture& texture) const {
-    // A texel's share of the face's area: the integral of its hat function in units of a third
-    // of a cell, which is the number of cells that touch it.
+    // A texel's weight: the integral of its hat function, in units of a third of a lattice
+    // triangle's area. This equals the number of triangles at the texel.
     std::array<std::vector<float>, lattice::max_level + 1> areas;
     for (int level = 0; level <= lattice::max_level; ++level) {
       const int n = lattice::resolution(level);
@@ -191,14 +191,14 @@ struct MeanColors {
            255.0f;
   }
 
-  /// The nearest texel; a coordinate that is not finite takes the first.
+  /// The nearest texel; the first for a coordinate that is not finite.
   static int texel_index(float coordinate, int size, UvMaterial::Wrap wrap) {
     if (!std::isfinite(coordinate)) return 0;
     float u = coordinate;
     if (wrap == UvMaterial::Wrap::repeat) u -= std::floor(u);
     if (wrap == UvMaterial::Wrap::mirror)
       u = 1.0f - std::abs(u - 2.0f * std::floor(u / 2.0f) - 1.0f);
-    // Clamped as floats: casting a float outside int's range is undefined.
+    // Clamped before the cast, since casting a float outside int's range is undefined.
     return int(std::clamp(std::floor(u * float(size)), 0.0f, float(size - 1)));
   }
 };

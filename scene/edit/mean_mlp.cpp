@@ -11,7 +11,7 @@ namespace {
 std::vector<glm::vec3> directions_for(const ColorMlp& mlp) {
   std::vector<glm::vec3> result;
   for (const WeightedDirection& direction : lebedev26()) result.push_back(direction.d);
-  // Without a direction every direction gives the same.
+  // Without a direction input, all directions give the same colour.
   if (mlp.encoding == DirectionEncoding::none) result.resize(1);
   return result;
 }

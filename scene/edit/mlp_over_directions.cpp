@@ -32,7 +32,8 @@ MlpOverDirections::MlpOverDirections(const ColorMlp& mlp, std::span<const glm::v
 void MlpOverDirections::predict(std::span<const float> features,
                                 std::span<glm::vec3> colors) const {
   const DenseLayer& first = mlp_.layers.front();
-  // Directions innermost: compilers make vectors of them. What follows the last one is zero.
+  // The inner loops run over directions and vectorise. Entries after the last direction begin at
+  // zero and are not used.
   std::array<OfDirections, ColorMlp::max_width> activations[2];
   auto* x = &activations[0];
   auto* y = &activations[1];

@@ -1,10 +1,10 @@
-// Frame times of bench.html in Chromium, against the baseline in the same page, on both rasterisers that
-// draw without a GPU; the memory of a scene; and the time until the first image.
+// Frame times of bench.html in Chromium, compared with the baseline in the same page, on both rasterisers
+// that need no GPU; the memory of a scene; and the time until the first image.
 //
 //   node browser_benchmark.mjs OUT SCENE.glb.. [--quick]
 //
-// OUT gets SCENE-RASTERISER.json for `tureen report`; standard output gets the rest, a row of JSON a
-// line.
+// Writes OUT/SCENE-RASTERISER.json for `tureen report`, and everything else as lines of JSON on standard
+// output.
 
 import { copyFileSync, mkdirSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -21,10 +21,10 @@ if (!out || scenes.length === 0) {
 }
 
 const size = quick ? '160x90' : '1280x720', rounds = quick ? 1 : 5, openings = quick ? 1 : 7;
-/** Of one page. The baseline takes half a second a frame on two cores. */
+/** Time limit of one page, ms. The baseline takes half a second per frame on two cores. */
 const patience = 20 * 60_000;
-/** A new window and its spare processes are half a second of work on two cores, and so is closing the one
- *  before: visits begin when the browser is at rest, as people's do. */
+/** Pause before a visit, ms. Opening a window with its spare processes, and closing the previous one, take
+ *  half a second each on two cores; visits must begin with an idle browser. */
 const restMs = 2000;
 
 const median = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
@@ -40,15 +40,14 @@ async function inPage(browser, address, body) {
   }
 }
 
-/** What bench.html says when it is asked by a link. */
+/** The result of bench.html, started by a link. */
 const measured = (browser, site, query) => inPage(browser, `${site}bench.html?${query}&run=1`, async (page, open) => {
   await open();
   return page.evaluate(() => window.tureenBench);
 });
 
-/** Milliseconds from the beginning of the visit until a first image stands on the screen, and until the
- *  whole scene does, in a profile that has nothing stored. The page tells when; asking it again and again
- *  would make it draw. */
+/** Milliseconds from the beginning of the visit to the first image on the screen, and to the whole scene,
+ *  in an empty profile. The page itself takes the times, because polling would make it draw. */
 const opened = (browser, site, scene) => inPage(browser, `${site}?${scene}`, async (page, open) => {
   await page.addInitScript(() => {
     const images = {};
@@ -69,7 +68,7 @@ const opened = (browser, site, scene) => inPage(browser, `${site}?${scene}`, asy
   return page.evaluate(async () => ({ first: await window.images.first, whole: await window.images.whole }));
 });
 
-/** The site with the scenes beside it, and nothing else of the disk. */
+/** A folder with only the site and the scenes. */
 function siteWith() {
   const folder = mkdtempSync(join(tmpdir(), 'tureen-site-'));
   for (const name of readdirSync(join(built, 'site')))
@@ -78,7 +77,7 @@ function siteWith() {
   return folder;
 }
 
-/** Frame times beside the baseline's: of the scene's own cameras where it has some. */
+/** Frame times, also of the baseline, with the scene's cameras if it has any. */
 async function frames(browser, site, scene) {
   const ask = (set) => measured(browser, site, `${scene}&published=1&set=${set}:8&size=${size}&rounds=${rounds}`);
   try {
@@ -89,7 +88,7 @@ async function frames(browser, site, scene) {
   }
 }
 
-/** What the scene holds where nothing else is drawn. */
+/** The memory of the scene alone. */
 async function memory(browser, site, scene) {
   const { scenes: [alone] } = await measured(browser, site, `${scene}&published=0&set=hemisphere:1&size=16x16&rounds=1`);
   return { device: alone.configurations[0].device_bytes, wasm: alone.wasm_bytes };
@@ -101,7 +100,7 @@ async function openingTimes(browser, site, scene) {
   return { first: median(times.map(({ first }) => first)), whole: median(times.map(({ whole }) => whole)) };
 }
 
-/** A scene on a rasteriser: its file for `tureen report`, and its row. */
+/** Measures a scene on a rasteriser: writes its file for `tureen report`, and its row. */
 async function measureScene(browser, site, rasteriser, path) {
   const name = basename(path, extname(path)), file = encodeURIComponent(basename(path));
   console.error(`${name} on ${rasteriser}`);

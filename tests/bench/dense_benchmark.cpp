@@ -1,6 +1,6 @@
-// Frames of an opaque soup with a colour a face, the whole scene in view: our plan, the plan
-// without small-triangle culling and the generic one against a renderer as plain as they come, in
-// turns. Prints a row a renderer, as JSON. Only the ratios hold on another machine.
+// Frame times of an opaque soup with a colour per face, with the whole scene in view. Our plan, the
+// plan without small-triangle culling and the generic plan are compared with a minimal renderer, in
+// turns. Prints one row of JSON per renderer. Only the ratios apply to other machines.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
@@ -15,7 +15,7 @@
 namespace tureen::test {
 namespace {
 
-/// Eight views from all around, 20 degrees above the middle, that show the whole bounding sphere.
+/// Eight views around the soup, 20 degrees above the middle, that show the whole bounding sphere.
 std::vector<Camera> views_around(const TriangleSoup& soup, glm::dvec3 up, int width, int height) {
   const Bounds box = bounds(soup);
   const double field_of_view = 0.7;
@@ -38,8 +38,8 @@ std::vector<Camera> views_around(const TriangleSoup& soup, glm::dvec3 up, int wi
 int run(int argc, char** argv) {
   CLI::App app("Times an opaque soup against a plain renderer.");
   std::string path;
-  // 10 rounds of 8 views and 5 turns (four renderers, and the first against itself) are 400 frames:
-  // 60 s where a frame takes 0.15 s.
+  // 10 rounds with 8 views and 5 turns (four renderers, and the first a second time) are 400
+  // frames: 60 s at 0.15 s per frame.
   int rounds = 10, width = 1280, height = 720;
   bool processor_time = false;
   app.add_option("SOUP", path)->required();

@@ -28,7 +28,7 @@ glm::vec3 base_color(const TriangleSoup& base, std::size_t face) {
   return glm::vec3(0.8f);
 }
 
-/// Writes the triangles that `corners` becomes after `depth` splits.
+/// Writes the triangles of `corners` after `depth` splits.
 void split(const std::array<glm::vec3, 3>& corners, int depth, std::vector<glm::vec3>& out) {
   if (depth == 0) {
     out.insert(out.end(), corners.begin(), corners.end());

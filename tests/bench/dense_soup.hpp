@@ -1,4 +1,4 @@
-// A large soup out of a small one, always the same: for loading and for frames.
+// A large soup made from a small one, for benchmarks of loading and frames. Deterministic.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,11 @@
 
 namespace tureen::test {
 
-/// Splits every triangle of `base` at its edges' midpoints into four, again and again, until there
-/// are at least `triangles`. Vertices are unshared and each is moved by up to 2 % of its triangle's
-/// longest edge; colours are those of `base` (grey where it has none) varied by up to 24 / 255 a
-/// triangle, bytes / 255, alpha 1: nothing merges and every format holds it exactly.
+/// Splits every triangle of `base` at its edges' midpoints into four, repeatedly, until there are
+/// at least `triangles`. Vertices are not shared; each is moved by up to 2 % of its triangle's
+/// longest edge. Colours are those of `base` (grey if it has none), varied by up to 24 / 255 per
+/// triangle, as bytes / 255, with alpha 1. Thus no vertices merge, and every format stores the soup
+/// exactly.
 TriangleSoup dense_soup(const TriangleSoup& base, std::size_t triangles);
 
 }  // namespace tureen::test

@@ -17,13 +17,13 @@ constexpr double aspect = 16.0 / 9;
 
 /// Positions of all triangles, layer by layer from the front.
 std::vector<glm::vec3> corners_of(const LayeredSoupOptions& options) {
-  // Cells of about a square, two triangles each; the columns are rounded up.
+  // Approximately square cells with two triangles each; the columns are rounded up.
   const double cells = double(options.triangles) / (2.0 * options.layers);
   const int rows = std::max(1, int(std::lround(std::sqrt(cells / aspect))));
   const int columns = std::max(1, int(std::ceil(cells / rows)));
   std::vector<glm::vec3> corners;
   for (int layer = 0; layer < options.layers; ++layer) {
-    // Far enough apart for any depth buffer; what is further is larger by as much.
+    // Far enough apart for any depth buffer; farther layers are larger in proportion.
     const double depth = 2.0 + 0.05 * layer;
     const double half_height = layered_soup_fill * depth * std::tan(0.5 * field_of_view);
     const auto corner = [&](int row, int column) {

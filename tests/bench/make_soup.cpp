@@ -1,5 +1,5 @@
-// make_soup OUT: writes the large soups that `./dev bench` measures: a dense one, made of a small
-// soup by splitting its triangles, or layers whose cost is known.
+// make_soup OUT: writes the large soups for `./dev bench`: a small soup with its triangles split,
+// or layers with a known cost.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>

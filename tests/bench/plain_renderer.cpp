@@ -61,7 +61,7 @@ PlainRenderer::PlainRenderer(const TriangleSoup& soup)
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), nullptr);
   glEnableVertexAttribArray(1);
   glVertexAttribPointer(1, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(Vertex),
-                        // An offset, as GL wants it. NOLINTNEXTLINE(performance-no-int-to-ptr)
+                        // An offset, as GL requires. NOLINTNEXTLINE(performance-no-int-to-ptr)
                         reinterpret_cast<const void*>(sizeof(glm::vec3)));
   glBindVertexArray(0);
 }

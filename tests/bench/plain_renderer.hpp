@@ -1,5 +1,5 @@
-// A renderer as plain as they come, the baseline for large opaque soups: vertices of 16 bytes
-// (three floats and a colour), unshared, in file order, one draw call, one matrix.
+// A minimal renderer, the baseline for large opaque soups: unshared vertices of 16 bytes (three
+// floats and a colour), in file order, one draw call, one matrix.
 #pragma once
 
 #include "image/image.hpp"
@@ -12,12 +12,12 @@ namespace tureen::test {
 
 class PlainRenderer {
  public:
-  /// Of a soup with FaceColors. The context must be current, then and for every call.
+  /// For a soup with FaceColors. The context must be current, here and for every call.
   explicit PlainRenderer(const TriangleSoup& soup);
 
-  /// Into a target of its own, on black, with an ordinary 24-bit depth buffer.
+  /// Draws into a separate target, on black, with an ordinary 24-bit depth buffer.
   void draw(const Camera& camera);
-  /// What it drew last, rows from the top.
+  /// The last image, rows from the top.
   Image8 read_color() const;
 
  private:

@@ -1,7 +1,8 @@
-// The gain of each specialisation: a scene that has its trait, drawn by the whole plan and by the
-// plan without this one, frame by frame in turns; and the same for real scenes and whatever their
-// plans apply. Prints a row a line, as JSON. Only the ratios hold on another machine. Software
-// OpenGL is timed by the processor time of all its threads, which other programs disturb little.
+// The gain of each specialisation. A scene with its trait is drawn with the full plan and with the
+// plan without this specialisation, frame by frame in turns; also real scenes, for all
+// specialisations in their plans. Prints one row of JSON per line. Only the ratios apply to other
+// machines. Software OpenGL is timed by the processor time of all its threads, which other programs
+// hardly change.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
@@ -22,13 +23,13 @@ namespace tureen::test {
 namespace {
 
 struct Settings {
-  int rounds = 5;  // of the eight views
+  int rounds = 5;  // each with eight views
   int width = 1280, height = 720;
   std::vector<std::filesystem::path> scenes;
 };
 
-/// Frames of two plans that took turns, view by view. A disturbance meets both frames of a pair, so
-/// pairs show smaller differences than the medians of rounds do.
+/// Compares the frames of two plans that alternate view by view. A disturbance affects both frames
+/// of a pair, so pairs resolve smaller differences than the medians of rounds.
 nlohmann::json compared(const FrameTimes& with, const FrameTimes& without) {
   std::vector<double> ratios;
   std::size_t slower = 0;
@@ -36,8 +37,8 @@ nlohmann::json compared(const FrameTimes& with, const FrameTimes& without) {
     ratios.push_back(without.ms[i] / with.ms[i]);
     slower += ratios.back() > 1 ? 1 : 0;
   }
-  // The sign test: of n pairs that differ by chance alone, half are slower, and within 2.58 sqrt(n)
-  // / 2 of that 99 times in 100.
+  // The sign test: of n pairs with only random differences, half are slower, within 2.58 sqrt(n) /
+  // 2 with a probability of 99 %.
   const double n = double(ratios.size());
   const bool significant = std::abs(double(slower) - 0.5 * n) > 1.29 * std::sqrt(n);
   return {{"with_ms", statistics_of(with).median},
@@ -48,7 +49,8 @@ nlohmann::json compared(const FrameTimes& with, const FrameTimes& without) {
           {"significant", significant}};
 }
 
-/// Prints how much longer a frame takes by the plan that `without` asks for.
+/// Prints the ratio of frame times without and with the specialisation. `without` is the plan
+/// without it.
 void compare(const gl::Context& context, const Settings& settings, const char* what,
              const std::string& scene, const TriangleSoup& soup, std::span<const Camera> cameras,
              const PlanPreferences& without) {
@@ -84,8 +86,8 @@ bool is_of_the_network(Specialisation what) {
   }
 }
 
-/// A large scene with the trait. Lattices are those of the cut-out cloud; the others are small
-/// random triangles.
+/// A large scene with the trait. Lattices come from the cut-out cloud; the others are small random
+/// triangles.
 TriangleSoup large_soup(Specialisation what, const Scene& cloud) {
   const Kind kind = kind_of_trait(what);
   TriangleSoup soup;
@@ -93,7 +95,7 @@ TriangleSoup large_soup(Specialisation what, const Scene& cloud) {
     soup = std::get<TriangleSoup>(cloud.primitives);
     if (kind == Kind::lattice) std::get<LatticeTexture>(soup.appearance).mlp.reset();
   } else {
-    // Some pixels large; those that are to lie between pixels a tenth of that, when they are split.
+    // Several pixels large; a tenth of that for small triangles, once they are split.
     const double size = what == Specialisation::small_triangles ? 0.005 : 0.02;
     soup = random_soup(1, {.kind = kind, .faces = 200000, .size = size, .degree = 3});
   }
@@ -103,7 +105,7 @@ TriangleSoup large_soup(Specialisation what, const Scene& cloud) {
 
 void measure_traits(const gl::Context& context, const Settings& settings) {
   const Scene cloud = cutout_cloud({.width = settings.width, .height = settings.height});
-  // A network shows its cost where it runs for every pixel and little else is done.
+  // The network's cost is measured best where it runs for every pixel and little else is done.
   const Scene wall = cutout_cloud({.triangles = 1500,
                                    .level = 2,
                                    .coverage = CloudCoverage::all,
@@ -142,9 +144,9 @@ void measure_scene(const gl::Context& context, const Settings& settings,
 
 int run(int argc, char** argv) {
   Settings settings;
-  CLI::App app("What each specialisation gains.");
+  CLI::App app("Measures the gain of each specialisation.");
   app.add_option("scenes", settings.scenes, "real scenes to measure, too");
-  app.add_option("--rounds", settings.rounds, "how often the eight views are gone through")
+  app.add_option("--rounds", settings.rounds, "number of rounds over the eight views")
       ->check(CLI::PositiveNumber);
   app.add_option("--width", settings.width)->check(CLI::PositiveNumber);
   app.add_option("--height", settings.height)->check(CLI::PositiveNumber);

@@ -1,6 +1,6 @@
-// What a training step costs on the processor, stage by stage, and what a second thread gains.
-// Runs with one thread and with all are interleaved step by step, so that other programs disturb
-// them alike: only the ratios hold on another machine. Prints a stage a line, as JSON.
+// The cost of a training step on the processor, by stage, and the gain of more threads. Steps with
+// one thread and with all threads alternate, so that other programs affect both equally. Only the
+// ratios apply to other machines. Prints one stage per line, as JSON.
 //
 //   training_benchmark [WIDTH] [HEIGHT] [STEPS] [LEVEL]
 #include <algorithm>
@@ -42,7 +42,7 @@ struct Contender {
 struct Stage {
   const char* name;
   double StageTimes::*seconds;
-  std::uint64_t StageTimes::*work;  // what its time is divided by
+  std::uint64_t StageTimes::*work;  // the number of units of work in its time
   const char* unit;
 };
 
@@ -54,7 +54,7 @@ constexpr Stage stages[] = {
     {"faces", &StageTimes::faces, &StageTimes::fragments, "fragment"},
 };
 
-/// Images of another cloud: there is always something to learn.
+/// Images of another cloud, so that there is always something to learn.
 std::vector<trainer::TrainingView> images(const Scene& scene, const trainer::Config& config) {
   trainer::TrainingState state;
   state.model = trainer::from_scene(scene, {.min_level = 2, .max_level = 3});
@@ -84,7 +84,7 @@ int run(int width, int height, int steps, int level) {
   Contender contenders[2] = {{trainer::make_cpu_backend(views, config, 1), {}},
                              {trainer::make_cpu_backend(views, config, 0), {}}};
   for (Contender& contender : contenders) contender.backend->upload(state);
-  // Rates of 0: every step does the same work on the same soup. The first three fill caches.
+  // With rates of 0, every step does the same work on the same soup. The first three fill caches.
   for (int step = 1; step <= steps + 3; ++step)
     for (Contender& contender : contenders) {
       contender.backend->step(trainer::batch_of(step, 4, views.size(), 0),

@@ -111,12 +111,11 @@ TEST(UpAxis, ReadersReportWhatTheyAssumed) {
 }
 
 TEST(UpAxis, ReasonsInEnglish) {
-  EXPECT_EQ(describe({{0, -1, 0}, UpGuess::Reason::stored}), "the file says that -y is up");
-  EXPECT_EQ(
-      describe({{0, 0, 1}, UpGuess::Reason::cameras_near_axis, 24, 11.6}),
-      "the mean of the up axes of 24 cameras points 12 degrees from z, which is taken to be up");
+  EXPECT_EQ(describe({{0, -1, 0}, UpGuess::Reason::stored}), "the file stores -y as the up axis");
+  EXPECT_EQ(describe({{0, 0, 1}, UpGuess::Reason::cameras_near_axis, 24, 11.6}),
+            "the mean of the up axes of 24 cameras points 12 degrees from z, the assumed up axis");
   EXPECT_EQ(describe({{0, 0, 1}, UpGuess::Reason::flat}),
-            "the scene is flat along z, which is taken to be up; it may be -z");
+            "the scene is flat along z, the assumed up axis; it may also be -z");
 }
 
 TEST(UpAxis, AxesHaveNames) {

@@ -6,15 +6,18 @@
 
 #include "base/error.hpp"
 #include "base/output.hpp"
-#include "cli/bench_comparison.hpp"
-#include "cli/bench_reports.hpp"
-#include "cli/bench_words.hpp"
+#include "cli/bench/bench_comparison.hpp"
+#include "cli/bench/bench_reports.hpp"
+#include "cli/bench/bench_words.hpp"
+#include "jobs/results/bench_json.hpp"
+#include "jobs/results/comparison_json.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/support/errors.hpp"
 
 namespace tureen::cli {
 namespace bench_report_test {
 
+using results::Json;
 using test::Names;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
@@ -165,7 +168,7 @@ TEST(BenchComparison, SaysWhatElseChanged) {
   EXPECT_THAT(whats(comparison),
               ElementsAre(What::scene, What::machine, What::driver, What::commit));
   EXPECT_THAT(comparison.changes[3], changed(What::commit, "abc1234", "def5678"));
-  const Json json = to_json(comparison, "old.json");
+  const Json json = results::to_json(comparison, "old.json");
   EXPECT_EQ(json["changes"][3],
             (Json{{"what", "commit"}, {"then", "abc1234"}, {"now", "def5678"}}));
   EXPECT_TRUE(json["incomparable"].is_null());
@@ -180,7 +183,7 @@ TEST(BenchComparison, SoftwareAndHardwareAreNotCompared) {
   EXPECT_THAT(comparison.unmatched, IsEmpty());
   EXPECT_EQ(comparison.incomparable, Incomparable::software);
   EXPECT_THAT(comparison.changes, IsEmpty());
-  EXPECT_EQ(to_json(comparison, "old.json")["incomparable"], "software");
+  EXPECT_EQ(results::to_json(comparison, "old.json")["incomparable"], "software");
   // What nobody could judge has not passed.
   BenchReportOptions options;
   options.against = "old.json";
@@ -225,7 +228,7 @@ TEST(BenchReports, WritesTheFolderAndFailsOnlyWhereAsked) {
   const TemporaryFolder folder;
   BenchResult then = result();
   Output old(folder / "old.json");
-  old.write(to_json(then).dump());
+  old.write(results::to_json(then).dump());
   old.commit();
   BenchResult now = then;
   for (BenchMeasurement& m : now.measurements) m.frame_ms.min_of_medians *= 1.5;

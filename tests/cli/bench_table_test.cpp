@@ -1,10 +1,10 @@
 // What the terminal shows of a benchmark.
-#include "cli/bench_table.hpp"
+#include "cli/bench/bench_table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/bench_words.hpp"
+#include "cli/bench/bench_words.hpp"
 #include "tests/support/errors.hpp"
 
 namespace tureen::cli {

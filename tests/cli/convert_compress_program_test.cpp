@@ -95,7 +95,7 @@ TEST_F(ConvertCompress, PhotographsOfAnotherSceneAreRefused) {
   scene.info.background = glm::vec3(1) - background;
   soup.positions.assign(soup.positions.size(), glm::vec3(0));
   ASSERT_THAT(tureen::write_scene(scene, folder / "other.glb"), IsEmpty());
-  const auto compressed = [&] {
+  const auto compress = [&] {
     return run({"convert", "part.glb", "compressed.glb", "--compress", "--photographs", "data",
                 "--max-error", "20", "--force", "--json"});
   };

@@ -1,4 +1,4 @@
-#include "cli/drawing_options.hpp"
+#include "cli/options/drawing_options.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

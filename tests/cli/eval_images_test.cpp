@@ -1,4 +1,4 @@
-#include "cli/eval_images.hpp"
+#include "cli/files/eval_images.hpp"
 
 #include <gmock/gmock.h>
 

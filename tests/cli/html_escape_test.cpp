@@ -1,4 +1,4 @@
-#include "cli/html_escape.hpp"
+#include "cli/files/html_escape.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

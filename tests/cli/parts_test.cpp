@@ -8,12 +8,13 @@
 #include "base/decimal_text.hpp"
 #include "base/error.hpp"
 #include "base/suggestion.hpp"
-#include "cli/contact_sheet.hpp"
-#include "cli/image_file.hpp"
+#include "cli/files/contact_sheet.hpp"
+#include "cli/files/image_file.hpp"
+#include "cli/options/values.hpp"
+#include "cli/options/view_options.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
-#include "cli/values.hpp"
-#include "cli/view_options.hpp"
+#include "cli/version.hpp"
 
 namespace tureen::cli {
 namespace parts_test {
@@ -200,6 +201,14 @@ TEST(Views, ReadTheFilesOfRealDataSets) {
   const Views lego = resolve_views(options, box_scene(), "");
   EXPECT_EQ(lego.cameras.size(), 25u);
   EXPECT_NEAR(lego.cameras[0].fx, 1111.111, 1e-3);
+}
+
+TEST(Version, SaysWhetherThisIsARelease) {
+#if defined NDEBUG && !defined __SANITIZE_ADDRESS__ && !defined __SANITIZE_THREAD__
+  EXPECT_STREQ(program_build(), "release");
+#else
+  EXPECT_STRNE(program_build(), "release");
+#endif
 }
 
 }  // namespace parts_test

@@ -1,6 +1,6 @@
 // The report page: the data is in it as it was, whatever it holds, and what is no result is
 // refused.
-#include "cli/report_page.hpp"
+#include "jobs/results/report_page.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,8 @@
 
 #include "base/error.hpp"
 #include "base/output.hpp"
-#include "cli/report_results.hpp"
+#include "cli/files/report_results.hpp"
+#include "cli/files/result_files.hpp"
 #include "tests/cli/tradeoff_fixture.hpp"
 #include "tests/formats/format_testing.hpp"
 #include "tests/support/errors.hpp"
@@ -72,7 +73,7 @@ class ReportPage : public ::testing::Test {
     return (folder / name).string();
   }
   json shown(const std::string& path) const {
-    return data_of(report_page(read_results(path), folder / "page.html"));
+    return data_of(results::report_page(read_results(path), folder / "page.html"));
   }
   std::optional<test::Refusal> refusal(const std::string& text) const {
     const std::string path = file("bad.json", text);
@@ -112,7 +113,7 @@ TEST_F(ReportPage, OfALogHoldsItsCompleteLines) {
 }
 
 TEST_F(ReportPage, OfADownloadOfThePageHoldsResultsOfBench) {
-  const json data = shown(std::string(TUREEN_SOURCE_DIR) + "/tests/cli/web_bench.json");
+  const json data = shown(std::string(TUREEN_SOURCE_DIR) + "/tests/jobs/web_bench.json");
   EXPECT_EQ(data[0]["kind"], "bench");
   EXPECT_EQ(data[0]["data"]["device"]["renderer"], "Adreno (TM) 740");
   EXPECT_THAT(data[0]["data"]["measurements"], SizeIs(3));

@@ -1,11 +1,10 @@
 // The JSON of a study, which is made up.
-#include "cli/tradeoff_report.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "cli/tradeoff/tradeoff_tables.hpp"
 #include "jobs/tradeoff/model_errors.hpp"
 #include "jobs/tradeoff/reference.hpp"
 #include "tests/support/errors.hpp"
@@ -13,6 +12,7 @@
 namespace tureen::cli {
 namespace tradeoff_report_test {
 
+using results::Json;
 using test::Names;
 using testing::ElementsAre;
 
@@ -84,7 +84,7 @@ TradeoffReport report() {
 }
 
 TEST(TradeoffReport, SaysWhatWasMeasured) {
-  const Json json = to_json(report());
+  const Json json = results::to_json(report());
   const Json& configurations = json["drawing"]["configurations"];
   EXPECT_EQ(configurations[2]["knobs"], (Json{{"lattice_level", "2"}, {"texel_bits", "8"}}));
   EXPECT_EQ(configurations[2]["ms_p95"], 1.2 * 8);

@@ -7,9 +7,9 @@
 #include <fstream>
 
 #include "base/error.hpp"
-#include "cli/config_options.hpp"
+#include "cli/files/train_files.hpp"
+#include "cli/options/config_options.hpp"
 #include "cli/progress.hpp"
-#include "cli/train_files.hpp"
 #include "tests/support/errors.hpp"
 #include "trainer/diffsoup/config_fields.hpp"
 

@@ -1,4 +1,4 @@
-// The parts of the example's generator that could be wrong without looking wrong.
+// The parts of the example's generator whose errors would be hard to see.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ struct SlowHit {
   glm::dvec2 uv;
 };
 
-/// Signed volumes: nothing shared with the ray caster but the geometry.
+/// By signed volumes: shares only the geometry with the ray caster.
 std::optional<SlowHit> slow_hit(const Face& face, glm::dvec3 o, glm::dvec3 d) {
   const auto &a = face.corners[0], &b = face.corners[1], &c = face.corners[2];
   const double va = glm::dot(d, glm::cross(b - o, c - o));
@@ -42,7 +42,7 @@ std::optional<SlowHit> slow_hit(const Face& face, glm::dvec3 o, glm::dvec3 d) {
 TEST(RayCaster, FindsWhatTryingEveryFaceFinds) {
   constexpr std::uint64_t seed = 4;
   SCOPED_TRACE("seed 4");
-  // The porcelain and the lemons: nothing with holes, which the slow way does not know.
+  // Only the porcelain and the lemons: slow_hit() does not support holes.
   Model solid;
   for (const Surface& surface : model().surfaces)
     if (!surface.cut_out) solid.add(surface);
@@ -64,7 +64,7 @@ TEST(RayCaster, FindsWhatTryingEveryFaceFinds) {
     ++hits;
     const auto hit = slow_hit(solid.faces[found->face], origin, direction);
     ASSERT_TRUE(hit) << "ray " << i;
-    EXPECT_NEAR(hit->distance, nearest, 1e-9) << "ray " << i;  // rounding of two ways to compute it
+    EXPECT_NEAR(hit->distance, nearest, 1e-9) << "ray " << i;  // rounding in two different methods
     EXPECT_LT(glm::distance(hit->uv, found->uv), 1e-9) << "ray " << i;
   }
   EXPECT_GT(hits, 100);
@@ -87,7 +87,7 @@ TEST(RayCaster, HolesLetARayPass) {
 }
 
 TEST(StillLife, TurnedSurfacesHaveNoCracks) {
-  // Every edge inside a closed surface belongs to two faces, to the last bit.
+  // Every edge inside a closed surface belongs to two faces, exactly.
   using Point = std::tuple<float, float, float>;
   const auto point = [](const glm::dvec3& p) { return Point(p.x, p.y, p.z); };
   int closed = 0;
@@ -104,7 +104,7 @@ TEST(StillLife, TurnedSurfacesHaveNoCracks) {
       EXPECT_LE(count, 2) << "surface " << s;
       open += count == 1;
     }
-    EXPECT_LE(open, 2 * surface.columns) << "surface " << s;  // two rims at most
+    EXPECT_LE(open, 2 * surface.columns) << "surface " << s;  // at most two rims
     ++closed;
   }
   EXPECT_GT(closed, 8);

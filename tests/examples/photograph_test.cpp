@@ -1,4 +1,4 @@
-// The photographs that the example is trained from.
+// The photographs for training the example.
 #include "examples/photograph.hpp"
 
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ TEST(InParallel, DoesEveryPieceOnceAndPassesOnWhatIsThrown) {
                std::runtime_error);
 }
 
-/// The unit sphere, in one paint.
+/// The unit sphere with a uniform paint.
 Model sphere(const Paint& paint) {
   std::vector<glm::dvec3> half_circle;
   for (int i = 0; i <= 32; ++i) {
@@ -74,7 +74,7 @@ TEST(LightMap, IsTheLightAtItsPointsAndCloseToItBetween) {
     const glm::dvec3 exact = light.falling(0, model.point(0, uv));
     return glm::distance(approximate.falling(0, uv), exact) / glm::length(exact);
   };
-  EXPECT_LT(error(map, {0, 0}), 1e-6);  // kept as floats
+  EXPECT_LT(error(map, {0, 0}), 1e-6);  // stored as floats
   EXPECT_LT(error(map, {1, 1}), 1e-6);
   double sum = 0, fine_sum = 0;
   for (int i = 0; i < 100; ++i) {
@@ -83,8 +83,8 @@ TEST(LightMap, IsTheLightAtItsPointsAndCloseToItBetween) {
     sum += error(map, uv) / 100;
     fine_sum += error(fine, uv) / 100;
   }
-  // Nothing casts a shadow on a sphere that stands alone: light falls as the cosine, whose bend
-  // over a cell of 0.1 is 0.1^2 / 8 in either direction.
+  // A single sphere has no shadows. Light follows the cosine, whose deviation from linear over a
+  // cell of 0.1 is 0.1^2 / 8 in each direction.
   EXPECT_LT(sum, 2 * 0.1 * 0.1 / 8);
   EXPECT_LT(fine_sum, 0.5 * sum);
 }
@@ -100,15 +100,15 @@ TEST(Photograph, IsTheSameFromAnyNumberOfThreads) {
 }
 
 TEST(Photograph, AlphaIsThePartThatIsCovered) {
-  // The square's right half is cut away, and the camera shifted so that its left border and the
-  // cut fall on quarters of pixels: on borders of the strata.
+  // The square's right half is cut away. The camera is shifted so that the left border and the cut
+  // are at quarters of pixels, the borders of the strata.
   Model model;
   model.add(square([](const SurfacePoint& at) {
     return Paint{.albedo = {0.5, 0.3, 0.1}, .hole = at.position.x > 0};
   }));
   const Studio small(std::move(model), draft_light);
   Camera camera = from_above(32);
-  camera.fx = camera.fy = 80;  // 8 pixels a unit
+  camera.fx = camera.fy = 80;  // 8 pixels per unit
   camera.cx = 16.25;           // x = -1 at 8.25, x = 0 at 16.25
   const Image8 image = small.photograph(camera, 4);
   EXPECT_EQ(image.at(7, 16).a, 0);
@@ -117,8 +117,7 @@ TEST(Photograph, AlphaIsThePartThatIsCovered) {
   EXPECT_EQ(image.at(15, 16).a, 255);
   EXPECT_EQ(image.at(16, 16).a, 64);  // 1/4
   EXPECT_EQ(image.at(17, 16).a, 0);
-  // Straight: the colour of what is there does not fade with the coverage, and light on a square
-  // that stands alone is the same everywhere.
+  // Straight alpha: colours do not fade with the coverage. Light on a single square is uniform.
   EXPECT_EQ(glm::u8vec3(image.at(8, 16)), glm::u8vec3(image.at(12, 16)));
   EXPECT_EQ(glm::u8vec3(image.at(16, 16)), glm::u8vec3(image.at(12, 16)));
   EXPECT_GT(image.at(12, 16).r, image.at(12, 16).g);
@@ -126,7 +125,7 @@ TEST(Photograph, AlphaIsThePartThatIsCovered) {
 }
 
 /// The normal of the unit sphere where its photograph from `direction` is brightest: the mean over
-/// the pixels that are nearly as bright as the brightest.
+/// pixels with nearly the largest brightness.
 glm::dvec3 brightest_normal(const Studio& studio_of_sphere, glm::dvec3 direction) {
   const Camera camera = look_at(8.0 * direction, {0, 0, 0}, {0, 1, 0}, 0.28, 96, 96);
   const Image8 image = studio_of_sphere.photograph(camera, 4);
@@ -155,7 +154,7 @@ TEST(Photograph, TheHighlightMovesWithTheEye) {
        {glm::dvec3(0, 0.3, 1), glm::dvec3(-1, 0.2, -0.2), glm::dvec3(0.3, 1, 0.3)}) {
     const glm::dvec3 eye = glm::normalize(seen_from);
     const glm::dvec3 found = brightest_normal(dark, eye);
-    // A pixel is 0.024 wide, and the sky behind the spot has a slope.
+    // A pixel is 0.024 wide, and the sky's reflection has a gradient.
     EXPECT_LT(glm::distance(found, glm::normalize(eye + window)), 0.05);
   }
 }
@@ -181,14 +180,14 @@ TEST(ExampleCameras, HoldTheWholeStillLifeFromEverySide) {
     EXPECT_EQ(on_the_border, 0) << camera.name;
     EXPECT_GT(covered, size * size / 6) << camera.name;
   }
-  // The views to test on are none of those to train on, whatever the counts.
+  // For any counts, test views differ from training views.
   for (const int count : {4, 24})
     for (const Camera& test : example_cameras(count, size, 0.5))
       for (const Camera& camera : cameras)
         EXPECT_GT(glm::distance(test.eye(), camera.eye()), 0.1) << test.name << ' ' << camera.name;
   EXPECT_LT(lowest, 0.1);
   EXPECT_GT(highest, 0.9);
-  EXPECT_LT(std::hypot(mean.x, mean.z), 0.1);  // no side is left out
+  EXPECT_LT(std::hypot(mean.x, mean.z), 0.1);  // directions are distributed evenly
 }
 
 TEST(Transforms, AreReadAsTheSameCamerasWithZUp) {

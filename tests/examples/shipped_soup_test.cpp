@@ -1,5 +1,5 @@
-// The example soup inside the repository is one that was trained from its generator's photographs.
-// Training takes long and is not repeated; photographs that it has not seen are taken again.
+// The example soup in the repository was trained on its generator's photographs. Training takes
+// long and is not repeated; this compares the soup with new photographs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -51,8 +51,8 @@ TEST(ShippedSoup, LooksLikePhotographsThatItWasNotTrainedOn) {
                       example::with_z_up(camera), {.supersampling = 3, .background = background});
     mean_squared += mean_squared_error(photograph, drawn.color) / double(cameras.size());
   }
-  // Measured: 34.5, drawn with nine samples a pixel. Less than 33 is another soup, or another
-  // scene; the same still life lying on its side reaches 10.5.
+  // Measured: 34.5 dB, with nine samples per pixel. Less than 33 dB means another soup or another
+  // scene; the same still life on its side has 10.5 dB.
   EXPECT_GT(psnr_from_mse(mean_squared), 33.0);
 }
 

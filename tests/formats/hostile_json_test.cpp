@@ -10,8 +10,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "base/json_file.hpp"
-#include "base/json_view.hpp"
+#include "base/json/json_file.hpp"
+#include "base/json/json_view.hpp"
 #include "formats/scene_file.hpp"
 #include "tests/formats/dataset/dataset_fixture.hpp"
 #include "tests/formats/hostile_bounds.hpp"

@@ -361,7 +361,7 @@ TEST_F(HostileNames, OfPhotographsDoNotLeadOutOfTheDataset) {
     EXPECT_THAT(error_of([&] { read_dataset(folder / "scene"); }), Names(name)) << name;
     fs::remove(folder / "scene/transforms.json");
     test::ColmapFixture model = test::upright_colmap(2);
-    for (auto& image : model.images) image.name = std::string("../") + name;
+    for (auto& each : model.images) each.name = std::string("../") + name;
     test::write_text(folder / "scene/sparse/0", model);
     fs::create_directories(folder / "scene/images");
     EXPECT_THAT(error_of([&] { read_dataset(folder / "scene"); }),

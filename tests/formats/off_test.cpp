@@ -238,7 +238,7 @@ TEST(Off, SaysWhatWritingLosesInEnglish) {
   scene.primitives = soup;
   TemporaryFolder folder;
   EXPECT_THAT(write_off(scene, folder / "a.off"),
-              ElementsAre("OFF knows no up axis; readers will assume (0, 0, 1).",
+              ElementsAre("OFF stores no up axis; readers assume (0, 0, 1).",
                           "OFF holds no background colour.", "OFF holds no cameras.",
                           "OFF holds no origin: positions are written relative to it.",
                           "OFF holds colours in 8 bits: they are rounded."));

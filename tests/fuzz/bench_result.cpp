@@ -1,13 +1,12 @@
 // A result of `tureen bench`, which --against reads.
-#include "cli/bench_result.hpp"
-
+#include "jobs/results/bench_json.hpp"
 #include "tests/fuzz/targets.hpp"
 
 namespace tureen::fuzz {
 
 void bench_result(Bytes bytes) {
   const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  cli::to_json(cli::bench_result_from_json(text, "fuzz.json"));
+  results::to_json(results::bench_result_from_json(text, "fuzz.json"));
 }
 
 }  // namespace tureen::fuzz

@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "cli/bench_result.hpp"
-#include "cli/web_bench.hpp"
 #include "formats/dataset/camera_file.hpp"
 #include "formats/mesh/off.hpp"
 #include "formats/mesh/ply.hpp"
 #include "formats/tureen_glb/compressed_geometry.hpp"
 #include "formats/tureen_glb/compressed_texels.hpp"
 #include "formats/tureen_glb/tureen_glb_compressed.hpp"
+#include "jobs/results/bench_json.hpp"
+#include "jobs/results/web_bench.hpp"
 #include "tests/formats/dataset/dataset_fixture.hpp"
 #include "tests/formats/torch_fixture.hpp"
 #include "tests/formats/tureen_glb/tureen_glb_kinds.hpp"
@@ -376,10 +376,11 @@ constexpr char settings_text[] =
 // ---- Benchmarks
 
 void add_benchmarks(Collection& all) {
-  const std::filesystem::path page = TUREEN_SOURCE_DIR "/tests/cli/web_bench.json";
+  const std::filesystem::path page = TUREEN_SOURCE_DIR "/tests/jobs/web_bench.json";
   Content bytes = Input::open(page).read_rest();
   Input input = Input::memory("web_bench.json", bytes);
-  all.add("bench_result", "bench.json", cli::to_json(cli::read_web_bench(input).at(0)).dump());
+  all.add("bench_result", "bench.json",
+          results::to_json(results::read_web_bench(input).at(0)).dump());
   all.add("web_bench", "web_bench.json", std::move(bytes));
 }
 

@@ -1,5 +1,5 @@
 // What bench.html measured in a browser.
-#include "cli/web_bench.hpp"
+#include "jobs/results/web_bench.hpp"
 
 #include "tests/fuzz/targets.hpp"
 
@@ -7,7 +7,7 @@ namespace tureen::fuzz {
 
 void web_bench(Bytes bytes) {
   Input input = Input::memory("fuzz.json", bytes);
-  for (const BenchResult& result : cli::read_web_bench(input)) cli::to_json(result);
+  for (const BenchResult& result : results::read_web_bench(input)) results::to_json(result);
 }
 
 }  // namespace tureen::fuzz

@@ -14,7 +14,7 @@ namespace png_rows_test {
 namespace fs = std::filesystem;
 
 /// Noise, which no filter helps, beside ramps, for each of which one does.
-Image8 image(int width, int height, unsigned seed) {
+Image8 made_image(int width, int height, unsigned seed) {
   std::mt19937 random(seed);
   Image8 image(width, height);
   for (int y = 0; y < height; ++y)
@@ -44,7 +44,7 @@ TEST(PngRows, ComeBackHoweverTheyAreCut) {
   const fs::path path = fs::path(testing::TempDir()) / "tureen_png_rows.png";
   for (const auto& [width, height] : {std::pair(1, 1), {1, 50}, {50, 1}, {300, 211}})
     for (const int band : {1, 7, 64, 1000}) {
-      const Image8 image = image(width, height, 1);
+      const Image8 image = made_image(width, height, 1);
       const Image8 back = written_and_read(image, band, path);
       ASSERT_EQ(back.width, width);
       ASSERT_EQ(back.height, height);
@@ -68,7 +68,7 @@ TEST(PngRows, ManyChunksComeBack) {
 /// It is no larger than what the encoder of whole images makes of it, but for the chunks' frames.
 TEST(PngRows, AreAsSmallAsWholeImages) {
   const fs::path path = fs::path(testing::TempDir()) / "tureen_png_size.png";
-  const Image8 image = image(400, 300, 3);
+  const Image8 image = made_image(400, 300, 3);
   written_and_read(image, 50, path);
   EXPECT_LE(double(fs::file_size(path)), 1.05 * double(encode_png(image).size()));
   fs::remove(path);

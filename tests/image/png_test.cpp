@@ -24,7 +24,7 @@ using test::ErrorIn;
 using test::Refusal;
 using Bytes = std::vector<std::byte>;
 
-Image8 image(int width, int height, const std::function<unsigned(int, int, int)>& value) {
+Image8 made_image(int width, int height, const std::function<unsigned(int, int, int)>& value) {
   Image8 image(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
@@ -39,11 +39,11 @@ TEST(Png, EveryKindOfImageComesBack) {
   for (const auto& [width, height] :
        {std::pair(1, 1), std::pair(1, 9), std::pair(9, 1), std::pair(7, 5), std::pair(130, 67)}) {
     const std::vector<std::pair<const char*, Image8>> images = {
-        {"noise", image(width, height, [&](int, int, int) { return unsigned(random()); })},
-        {"flat", image(width, height, [](int, int, int c) { return 50u + unsigned(c); })},
-        {"ramp", image(width, height, [](int x, int y, int c) { return 3 * x + 5 * y + c; })},
-        {"columns", image(width, height, [](int x, int, int) { return x * x * 37u; })},
-        {"rows", image(width, height, [](int, int y, int) { return y * y * 37u; })},
+        {"noise", made_image(width, height, [&](int, int, int) { return unsigned(random()); })},
+        {"flat", made_image(width, height, [](int, int, int c) { return 50u + unsigned(c); })},
+        {"ramp", made_image(width, height, [](int x, int y, int c) { return 3 * x + 5 * y + c; })},
+        {"columns", made_image(width, height, [](int x, int, int) { return x * x * 37u; })},
+        {"rows", made_image(width, height, [](int, int y, int) { return y * y * 37u; })},
     };
     for (const auto& [name, image] : images) {
       const auto back = decode_image(encode_png(image), "test.png");
@@ -67,7 +67,7 @@ std::optional<Refusal> refusal(const Bytes& png) {
 
 /// stb does not check them; other readers do.
 TEST(Png, ChunksCarryTheirSums) {
-  const Bytes png = encode_png(image(9, 9, [](int x, int y, int c) { return x * y + c; }));
+  const Bytes png = encode_png(made_image(9, 9, [](int x, int y, int c) { return x * y + c; }));
   std::string types;
   for (std::size_t place = 8; place < png.size();) {
     const std::size_t size = big_endian(png, place);
@@ -80,7 +80,7 @@ TEST(Png, ChunksCarryTheirSums) {
 }
 
 TEST(Png, NoBitOfAImageIsReadAsAnotherOne) {
-  const Bytes png = encode_png(image(9, 9, [](int x, int y, int c) { return x * y + c; }));
+  const Bytes png = encode_png(made_image(9, 9, [](int x, int y, int c) { return x * y + c; }));
   ASSERT_EQ(refusal(png), std::nullopt);
   // The last chunk ends the file whatever length it claims.
   const std::size_t end = png.size() - 12;
@@ -101,7 +101,7 @@ TEST(Png, NoBitOfAImageIsReadAsAnotherOne) {
 
 /// Others do not care for the sums of what is no part of an image; transparency is one.
 TEST(Png, OnlyChunksOfTheImageCount) {
-  const Bytes png = encode_png(image(9, 9, [](int x, int y, int c) { return x * y + c; }));
+  const Bytes png = encode_png(made_image(9, 9, [](int x, int y, int c) { return x * y + c; }));
   const auto with_chunk = [&](const char* type, std::uint32_t sum) {
     Bytes longer = png;
     Bytes chunk(12);  // without content
@@ -119,7 +119,7 @@ TEST(Png, OnlyChunksOfTheImageCount) {
 
 TEST(Png, SmoothImagesShrink) {
   // A slope in both directions: whatever filter is chosen leaves next to nothing.
-  const Image8 image = image(256, 256, [](int x, int y, int c) { return x + 2 * y + c; });
+  const Image8 image = made_image(256, 256, [](int x, int y, int c) { return x + 2 * y + c; });
   EXPECT_LT(encode_png(image).size(), image.pixels.size() * 4 / 100);
 }
 

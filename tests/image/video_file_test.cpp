@@ -99,19 +99,20 @@ TEST_F(Video, ShowsTheFramesThatWereWritten) {
     for (int i = 0; i < count; ++i) video.add(frame(width, height, i));
     EXPECT_FALSE(fs::exists(folder / name)) << "whole or not at all";
     video.commit();
-    const Decoded video = decode(folder / name);
+    const Decoded decoded = decode(folder / name);
     const bool webm = std::string(name) == "video.WebM";
-    EXPECT_EQ(video.description,
+    EXPECT_EQ(decoded.description,
               (webm ? "vp9" : "h264") + std::string(",66,48,yuv420p,bt709,25/1\n"));
-    ASSERT_EQ(video.rgb.size(), std::size_t(3) * 66 * 48 * count);
+    ASSERT_EQ(decoded.rgb.size(), std::size_t(3) * 66 * 48 * count);
     // Away from the edges, where colours are mixed: the middle of each quarter, each frame. 4 steps
     // of 8 bits: the range of 219 levels, the matrix and the coding each cost about one.
     for (int i = 0; i < count; ++i) {
       const Image8 expected = frame(width, height, i);
       for (const auto& [x, y] : {std::pair(12, 10), {50, 10}, {12, 36}, {50, 36}})
         for (int channel = 0; channel < 3; ++channel)
-          EXPECT_NEAR(video.rgb[std::size_t(3) * (std::size_t(i) * 66 * 48 + y * 66 + x) + channel],
-                      expected.at(x, y)[channel], 4)
+          EXPECT_NEAR(
+              decoded.rgb[std::size_t(3) * (std::size_t(i) * 66 * 48 + y * 66 + x) + channel],
+              expected.at(x, y)[channel], 4)
               << name << " frame " << i;
     }
   }

@@ -1,5 +1,4 @@
-// The clouds that speed is measured on: what our plan gains in time over the baseline is
-// not paid for in error.
+// On the clouds of the speed benchmarks, our plan's error is not larger than the baseline's.
 #include <gtest/gtest.h>
 
 #include "image/metrics.hpp"
@@ -16,8 +15,8 @@ TEST_P(BaselineError, IsNoSmallerThanOurs) {
   const auto& soup = std::get<TriangleSoup>(scene.primitives);
   gl::Context context = gl::Context::create({});
   double ours = 0, baseline = 0;
-  // Every second one. A view has one to eight pixels that fall to the other side of an edge, in
-  // either pipeline: a small image has too few of them for a mean.
+  // Every second view. In either pipeline, one to eight pixels of a view fall to the other side of
+  // an edge. A small image has too few of them for a mean.
   for (const std::size_t view : {1, 3, 5, 7}) {
     const Camera& camera = scene.cameras[view];
     const ImageF exact = composited(test::snapped_oracle(soup, {}, camera).color, glm::vec3(0));
@@ -30,7 +29,7 @@ TEST_P(BaselineError, IsNoSmallerThanOurs) {
   RecordProperty("ours_db", std::to_string(psnr_from_mse(ours)));
   RecordProperty("baseline_db", std::to_string(psnr_from_mse(baseline)));
   EXPECT_LE(ours, baseline);
-  // Both are images of this cloud: 40 dB is what 3 pixels in 10^4 leave that are off by 0.6.
+  // Both must be images of this cloud. 40 dB correspond to 3 of 10^4 pixels with an error of 0.6.
   EXPECT_GT(psnr_from_mse(baseline), 40);
 }
 

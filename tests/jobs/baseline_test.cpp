@@ -1,4 +1,4 @@
-// The baseline: what it plans and says, what it refuses, and that its frames are right.
+// The baseline: its plan and description, what it rejects, and its frames.
 #include "jobs/baseline/baseline.hpp"
 
 #include <gmock/gmock.h>
@@ -55,7 +55,7 @@ TEST(BaselinePlan, RefusesWhatTheBaselineCannotDraw) {
 
 class BaselineOracle : public testing::TestWithParam<int> {};
 
-// Features pass through 8 bits once more than the texels do, before the network.
+// Features are quantised to 8 bits once more than the texels, before the network.
 TEST_P(BaselineOracle, AgreesAtThisLevel) {
   gl::Context context = gl::Context::create({});
   const std::uint64_t seed = 200 + std::uint64_t(GetParam());
@@ -63,12 +63,12 @@ TEST_P(BaselineOracle, AgreesAtThisLevel) {
   Random random(seed);
   const Camera camera = random_camera(random, 320, 240);
   Drawn baseline = draw_baseline(context, soup, {}, camera);
-  // It names no faces; it rasterises as the generic plan with ordinary depth does.
+  // It has no face buffer; its rasterisation is the generic plan's with ordinary depth.
   baseline.faces =
       draw(context, soup, {}, camera,
            {.specialise = false, .reversed_depth = false, .site = ShadingSite::deferred})
           .faces;
-  // Measured before this was written: 54 to 61 dB for rounded texels through an 8-bit G-buffer.
+  // Measured before this test was written: 54 to 61 dB for rounded texels with an 8-bit G-buffer.
   expect_agreement(snapped_oracle(soup, {}, camera), baseline, "baseline", {.min_psnr = 53.0});
 }
 
@@ -96,7 +96,7 @@ TEST(Baseline, TellsWhatItsTargetsTake) {
   EXPECT_EQ(renderer.target_bytes(), (4 + 3 * 4) * 160u * 120u);
 }
 
-TEST(Baseline, NamesNoFacesAndNoPoints) {
+TEST(Baseline, HasNoFacesAndNoPointsToRead) {
   const gl::Context context = gl::Context::create(osmesa);
   Renderer renderer = make_renderer(context, one_level(), {}, PipelineKind::baseline);
   renderer.draw(look_at({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 0.8, 160, 120));

@@ -1,4 +1,4 @@
-// The timing protocol, driven by cases and a clock of the test's own.
+// The timing protocol, with simulated cases and a simulated clock.
 #include "jobs/timing/benchmark.hpp"
 
 #include <gmock/gmock.h>
@@ -16,11 +16,11 @@ namespace benchmark_test {
 using testing::Each;
 using testing::ElementsAre;
 
-/// A device on which time passes only while it draws. Work is handed in by draw and done in finish.
+/// A device whose clock advances only for drawing: draw() queues work, finish() does it.
 struct Machine {
   double seconds = 0;
   double pending = 0;
-  std::string log;  // the names of the cases, frame by frame; '|' where somebody waits
+  std::string log;  // the names of the cases, one per frame; '|' for each finish()
 
   BenchmarkCase benchmark_case(const std::string& name,
                                std::function<double(const Camera&)> frame_ms) {
@@ -57,7 +57,7 @@ TEST(Benchmark, CasesTakeTurnsAfterTheFirstHasMetItself) {
   const std::vector<BenchmarkCase> cases{machine.benchmark_case("A", always(1)),
                                          machine.benchmark_case("B", always(2))};
   run_benchmark(cases, cameras(2), machine.options(2));
-  // Three frames of warm-up each, then rounds of two views: A A, and A B.
+  // Three frames of warm-up per case. Then, for two views in each of two rounds: A A, then A B.
   EXPECT_EQ(machine.log,
             "|A||A||A|"
             "|B||B||B|"
@@ -80,7 +80,7 @@ TEST(Benchmark, FramesAreTimedToTheirEndViewByView) {
   EXPECT_EQ(result.cases[0].name, "A");
   EXPECT_TRUE(result.cases[0].stable);
   EXPECT_EQ(result.cases[0].times.views, 3u);
-  // Differences of a clock in doubles.
+  // Differences between clock readings in doubles are rounded.
   using testing::DoubleNear;
   EXPECT_THAT(result.cases[0].times.ms,
               ElementsAre(DoubleNear(10, 1e-9), DoubleNear(20, 1e-9), DoubleNear(30, 1e-9),
@@ -94,7 +94,7 @@ TEST(Benchmark, WarmUpLastsUntilTheTimesAreStable) {
   const std::vector<BenchmarkCase> cases{machine.benchmark_case(
       "A", [&](const Camera&) { return ++frame <= 6 ? 100.0 / frame : 10.0; })};
   const BenchmarkResult result = run_benchmark(cases, cameras(1), machine.options(1));
-  EXPECT_EQ(result.cases[0].warm_up_frames, 9);  // six that fall, three that are alike
+  EXPECT_EQ(result.cases[0].warm_up_frames, 9);  // six with falling times, three equal
   EXPECT_TRUE(result.cases[0].stable);
 }
 
@@ -127,7 +127,7 @@ TEST(Benchmark, WarmUpCanBeMadeToLast) {
   BenchmarkOptions options = machine.options(1);
   options.min_warm_up_seconds = 0.25;
   options.max_warm_up_frames = 20;
-  // A clock in doubles may need one frame more.
+  // With a clock in doubles, one frame more may be needed.
   EXPECT_NEAR(run_benchmark(cases, cameras(1), options).cases[0].warm_up_frames, 250, 1);
 }
 
@@ -156,7 +156,7 @@ TEST(Benchmark, TimeThatIsUpEndsItAfterWholeRounds) {
   BenchmarkOptions options = machine.options(1000);
   options.max_seconds = 5;
   const BenchmarkResult result = run_benchmark(cases, cameras(3), options);
-  // 0.6 s of warm-up; a round of all four turns takes 1.2 s.
+  // 0.6 s of warm-up; a round with all four frames per view takes 1.2 s.
   EXPECT_EQ(result.rounds, 3);
   EXPECT_EQ(result.cases[1].times.ms.size(), 9u);
   EXPECT_LE(result.seconds, 5);
@@ -185,11 +185,11 @@ TEST(Benchmark, ProcessorTimePassesWithWorkAndNotWithWaiting) {
   const double start = processor_seconds();
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   const double waited = processor_seconds();
-#ifndef _WIN32  // which counts the time of the wall
+#ifndef _WIN32  // there it returns wall-clock time
   EXPECT_LT(waited - start, 0.05);
 #endif
   double worked = waited;
-  while (worked < waited + 0.01) worked = processor_seconds();  // would never end otherwise
+  while (worked < waited + 0.01) worked = processor_seconds();  // endless otherwise
   EXPECT_GE(waited, start);
 }
 

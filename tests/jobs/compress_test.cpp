@@ -1,4 +1,4 @@
-// The search for a compressed file: what it promises holds, and what it is allowed to lose it uses.
+// The search for a compressed file: it stays within its bounds and uses them.
 #include "jobs/compress/compress.hpp"
 
 #include <gmock/gmock.h>
@@ -14,7 +14,7 @@
 namespace tureen {
 namespace compressed_test {
 
-/// The first faces of the example, from some of its cameras at a fifth of their size.
+/// The first faces of the example, with some of its cameras at a fifth of their size.
 Scene part_of_the_example(std::size_t faces, std::size_t cameras = 8) {
   Scene scene = read_scene(std::string(TUREEN_SOURCE_DIR) + "/examples/soup.glb");
   auto& soup = std::get<TriangleSoup>(scene.primitives);
@@ -32,7 +32,7 @@ Scene with_cameras(Scene scene, std::vector<Camera> cameras) {
   return scene;
 }
 
-/// The scene's own images, every pixel off by `off` one way or the other.
+/// The scene's own images, with every channel changed by `off`, up or down.
 std::vector<Photograph> own_photographs(const Scene& scene, int off) {
   const gl::Context context = gl::Context::create({});
   Renderer renderer(context, std::get<TriangleSoup>(scene.primitives), scene.origin,
@@ -57,15 +57,15 @@ TEST(Compress, KeepsWithinItsBoundAndUsesIt) {
   EXPECT_LE(large.loss.db, 0.1);
   EXPECT_LE(small.loss.db, 1);
   EXPECT_GT(large.loss.render_psnr_db, small.loss.render_psnr_db);
-  // A step of the scan is half a percent of the step of colour; half of what is allowed is far
-  // beyond that.
+  // A step of the search is half a percent of the colour step, so the loss must exceed half of the
+  // bound.
   EXPECT_GT(large.loss.db, 0.05);
   EXPECT_GT(small.loss.db, 0.5);
   EXPECT_LT(small.soup.texels.size(), large.soup.texels.size());
   EXPECT_LE(small.position_bits, large.position_bits);
   EXPECT_EQ(large.views, (CompressViews{.cameras = 8, .recorded = 8}));
 
-  // What is in the file loses just that.
+  // The decoded file has exactly the reported loss.
   const gl::Context context = gl::Context::create({});
   const CompressJudge judge(context, scene, {});
   EXPECT_EQ(judge.loss(decode_compressed(small.soup, small.kept)).db, small.loss.db);
@@ -78,15 +78,15 @@ TEST(Compress, MeasuresAgainstPhotographsWhereThereAreSome) {
       compress(scene, {.max_loss_db = 0.05, .photographs = own_photographs(scene, 40)});
   EXPECT_LE(result.loss.db, 0.05);
   EXPECT_EQ(result.views, CompressViews{.photographs = 8});
-  // They are far from the scene, so much may be lost before it shows against them.
+  // The photographs differ strongly from the scene, so a large loss hardly changes the error.
   EXPECT_LT(result.model_db, 30);
   EXPECT_LT(result.loss.render_psnr_db, 45);
 }
 
-TEST(Compress, LeavesOutWhatNoViewSees) {
+TEST(Compress, OmitsWhatNoViewSees) {
   Scene scene = part_of_the_example(300);
   auto& soup = std::get<TriangleSoup>(scene.primitives);
-  // Three faces that are points.
+  // Three degenerate faces.
   auto& texture = std::get<LatticeTexture>(soup.appearance);
   for (int i = 0; i < 3; ++i) {
     soup.triangles.push_back(glm::uvec3(soup.triangles[0].x));
@@ -99,7 +99,7 @@ TEST(Compress, LeavesOutWhatNoViewSees) {
   const CompressResult all = compress(scene, {.max_loss_db = 1, .keep_unseen = true});
   EXPECT_EQ(all.unseen, 0u);
   EXPECT_EQ(all.kept.triangles, soup.triangles);
-  // Nobody knows from where it is seen.
+  // Without cameras, views of the scene are unknown.
   const auto photographs = own_photographs(scene, 8);
   scene.cameras.clear();
   EXPECT_EQ(compress(scene, {.max_loss_db = 1, .photographs = photographs}).unseen, 0u);
@@ -109,7 +109,7 @@ TEST(Compress, TexelsThatNoViewShowsTakeLittle) {
   Scene scene = part_of_the_example(300);
   const CompressResult before = compress(scene, {.max_loss_db = 0.1, .keep_unseen = true});
   EXPECT_EQ(before.weighing_views, 8u);
-  // Behind the eyes of all cameras: the same faces once more.
+  // Behind the eyes of all cameras: a copy of the same faces.
   auto& soup = std::get<TriangleSoup>(scene.primitives);
   auto& texture = std::get<LatticeTexture>(soup.appearance);
   std::size_t texels = 0;
@@ -126,7 +126,7 @@ TEST(Compress, TexelsThatNoViewShowsTakeLittle) {
     texture.patches.push_back(
         {std::uint32_t(bytes.size() / LatticeTexture::channels), patch.level});
     texels += lattice::texel_count(int(patch.level));
-    // Noise, so that they are nobody's copies; nothing is as dear to keep.
+    // Noise, so that these texels are no copies; noise is also the most expensive to store.
     for (std::size_t i = 0; i < lattice::texel_count(int(patch.level)); ++i)
       for (int c = 0; c < LatticeTexture::channels; ++c)
         bytes.push_back(std::uint8_t(c == LatticeTexture::features ? 255 : random.below(256)));
@@ -134,11 +134,11 @@ TEST(Compress, TexelsThatNoViewShowsTakeLittle) {
   const CompressResult after = compress(scene, {.max_loss_db = 0.1, .keep_unseen = true});
   EXPECT_GE(after.unseen_texels, before.unseen_texels + texels * 9 / 10);
   EXPECT_LE(after.loss.db, 0.1);
-  // Noise of seven channels takes 7 bytes a texel where it is kept to the byte.
+  // Noise in seven channels takes 7 bytes per texel if stored exactly.
   const double more = double(after.soup.texels.size()) - double(before.soup.texels.size());
   EXPECT_LT(more, 0.3 * 7 * double(texels));
 
-  // Fewer cameras do not say that nobody looks there.
+  // With too few cameras, unseen texels are not assumed to be invisible.
   scene.cameras.resize(7);
   const CompressResult few = compress(scene, {.max_loss_db = 0.1, .keep_unseen = true});
   EXPECT_EQ(few.unseen_texels, 0u);
@@ -159,8 +159,8 @@ TEST(Compress, TrainingCamerasJoinTheRecordedOnes) {
   EXPECT_EQ(lent.unseen, recorded.unseen);
   EXPECT_EQ(lent.seeing_views, 8u + 64u);
 
-  // What the camera sees that the file keeps has to stay: here, a face far from all others, too
-  // small for who looks at all of them.
+  // Faces seen by the file's own camera must stay. This face is far from all others, and too small
+  // for views of the whole scene.
   TriangleSoup& soup = std::get<TriangleSoup>(scene.primitives);
   const auto first = std::uint32_t(soup.positions.size());
   for (const glm::vec3 corner : {glm::vec3(-1, -1, 0), glm::vec3(1, -1, 0), glm::vec3(0, 1, 0)})
@@ -204,7 +204,7 @@ TEST(Compress, PhotographsOfAnotherSceneAreRefused) {
   EXPECT_THROW(compress(scene, request), UsageError);
 }
 
-// A camera that sees nothing of the scene cannot make it lose nothing.
+// A camera that sees nothing of the scene must not make its loss 0.
 TEST(Compress, OneCameraDoesNotSpeakForAll) {
   Scene scene = part_of_the_example(100, 1);
   scene.cameras[0] = look_at({0, 0, 50}, {0, 0, 100}, {0, 1, 0}, 0.7, 64, 48);
@@ -214,7 +214,7 @@ TEST(Compress, OneCameraDoesNotSpeakForAll) {
   EXPECT_EQ(result.seeing_views, 0u);
   EXPECT_EQ(result.unseen_texels, 0u);
   EXPECT_GT(result.loss.render_psnr_db, 40);
-  EXPECT_LT(result.loss.render_psnr_db, 60) << "somebody sees it";
+  EXPECT_LT(result.loss.render_psnr_db, 60) << "some view must see the scene";
 }
 
 TEST(Compress, FacesOfOneColorHaveOneTexelACorner) {
@@ -269,7 +269,7 @@ TEST(Compress, ViewsAreRecordedCamerasOrAround) {
   scene.cameras[0] = resized(scene.cameras[0], 4000, 2000);
   EXPECT_EQ(compress_views(scene, scene.cameras, 1)[0].width, 800);
   EXPECT_EQ(compress_views(scene, scene.cameras, 1)[0].height, 400);
-  // Too few to tell: others join them.
+  // Too few cameras: views around the scene are added.
   scene.cameras.resize(7);
   EXPECT_EQ(compress_views(scene, scene.cameras, 5).size(), 5u);
   EXPECT_EQ(compress_views(scene, scene.cameras, 9).size(), 9u);

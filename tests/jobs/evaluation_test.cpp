@@ -1,4 +1,4 @@
-// The parts of an evaluation that need no dataset on the disk.
+// The parts of an evaluation that need no dataset files.
 #include "jobs/eval/evaluation.hpp"
 
 #include <gmock/gmock.h>
@@ -11,7 +11,7 @@
 namespace tureen {
 namespace evaluation_test {
 
-/// A grey triangle that covers all of the view, and a camera that looks at it.
+/// A grey triangle that fills the view of the camera in photograph().
 TriangleSoup grey_wall(glm::u8vec4 color) {
   TriangleSoup soup;
   soup.positions = {{-50, -50, 0}, {50, -50, 0}, {0, 90, 0}};
@@ -39,10 +39,10 @@ TEST(Evaluate, GivesEachViewItsNumbersAndTheirMean) {
   EXPECT_EQ(result.views[0].psnr_db, 100);
   EXPECT_NEAR(result.views[0].ssim, 1, 1e-12);
   EXPECT_EQ(result.views[0].flip, 0);
-  // 51 / 255 is one fifth: -20 log10 0.2. Floats hold the values to 6e-8.
+  // 51 / 255 is one fifth: -20 log10 0.2. Float rounding of the values is 6e-8.
   EXPECT_NEAR(result.views[1].psnr_db, 13.979400086720377, 1e-5);
   EXPECT_GT(result.views[1].flip, 0);
-  // A clear photograph is the white background.
+  // A transparent photograph shows the white background.
   EXPECT_NEAR(result.views[2].psnr_db, -20 * std::log10(155.0 / 255), 1e-5);
   for (double ViewMetrics::*value : {&ViewMetrics::psnr_db, &ViewMetrics::ssim, &ViewMetrics::flip})
     EXPECT_NEAR(result.mean.*value,

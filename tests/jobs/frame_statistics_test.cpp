@@ -1,4 +1,4 @@
-// Statistics of frame times, on series whose answers are known.
+// Statistics of frame times, for series with known results.
 #include "jobs/timing/frame_statistics.hpp"
 
 #include <gtest/gtest.h>
@@ -16,11 +16,11 @@ TEST(FrameStatistics, MedianOfOddAndEvenCounts) {
 }
 
 TEST(FrameStatistics, TheGeometricMeanIsThatOfTheInverseInverted) {
-  constexpr double rounding = 1e-14;  // of logarithms of about 1, and so of what they are of
+  constexpr double rounding = 1e-14;  // of logarithms of about 1, so also relative
   EXPECT_NEAR(geometric_mean(std::vector<double>{2, 8}), 4, rounding);
   EXPECT_NEAR(geometric_mean(std::vector<double>{1 / 2.0, 1 / 8.0}), 1 / 4.0, rounding);
   EXPECT_NEAR(geometric_mean(std::vector<double>{7}), 7, rounding);
-  // Their products would not be doubles any more; logarithms of 690 have steps of 1e-13.
+  // The products would overflow; logarithms of 690 have steps of 1e-13.
   EXPECT_NEAR(geometric_mean(std::vector<double>{1e300, 1e300, 1e-300}) / 1e100, 1, 1e-12);
 }
 
@@ -54,7 +54,7 @@ TEST(FrameStatistics, FewFramesHaveOneSlowest) {
 }
 
 TEST(FrameStatistics, MinOfMediansIgnoresTheDisturbedRound) {
-  // Medians 5, 6, 50, 5.5: the second smallest of four is the first quartile, the third the third.
+  // Medians 5, 6, 50, 5.5: of four, the third quartile is the third smallest, 6.
   const FrameTimes times{.views = 3, .ms = {5, 5, 9, 6, 1, 7, 50, 50, 50, 5.5, 5.5, 5.5}};
   const FrameStatistics statistics = statistics_of(times);
   EXPECT_EQ(statistics.min_of_medians, 5);
@@ -72,11 +72,11 @@ TEST(FrameStatistics, ASeriesDoesNotDifferFromItself) {
 }
 
 TEST(FrameStatistics, ALuckyPairOfMinimaHidesNoSpread) {
-  // Both reach 10, but round by round they lie 20 % apart.
+  // Both series reach 10, but each round differs by 20 %.
   const FrameTimes first{.views = 1, .ms = {10, 12, 12}};
   const FrameTimes second{.views = 1, .ms = {12, 10, 10}};
   EXPECT_DOUBLE_EQ(series_spread(first, second), 0.2);
-  // And one pair of rounds that agree does not hide that the minima are apart.
+  // One equal pair of rounds must not hide the difference of the minima.
   const FrameTimes third{.views = 1, .ms = {15, 15, 10}};
   const FrameTimes fourth{.views = 1, .ms = {15, 15, 15}};
   EXPECT_DOUBLE_EQ(series_spread(third, fourth), 0.5);
@@ -96,7 +96,7 @@ TEST(FrameStatistics, AHundredSamplesTellTheSlowestPercent) {
   std::vector<double> ms(99, 10.0);
   ms[50] = 60;
   const FrameStatistics few = statistics_of({.views = 1, .ms = ms});
-  EXPECT_EQ(few.p99, 60) << "the slowest sample and nothing else";
+  EXPECT_EQ(few.p99, 60) << "the slowest sample";
   EXPECT_FALSE(tells_slowest_percent(few));
   ms.push_back(10);
   const FrameStatistics enough = statistics_of({.views = 1, .ms = ms});
@@ -108,7 +108,7 @@ TEST(Verdicts, TwiceTheSpreadIsADifference) {
   EXPECT_EQ(verdict_on(best(103), best(100), 0.02), Verdict::equal);
   EXPECT_EQ(verdict_on(best(105), best(100), 0.02), Verdict::slower);
   EXPECT_EQ(verdict_on(best(100), best(105), 0.02), Verdict::faster);
-  EXPECT_EQ(verdict_on(best(100), best(100), 0), Verdict::equal) << "nothing is twice no spread";
+  EXPECT_EQ(verdict_on(best(100), best(100), 0), Verdict::equal) << "equal times without a spread";
 }
 
 TEST(Verdicts, TheLargestSpreadCounts) {

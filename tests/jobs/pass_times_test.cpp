@@ -1,5 +1,5 @@
-// Timers of the device: that they say which pass is which, where they are refused, and what the
-// ceilings draw.
+// Timers of the device: the times of passes, the reasons to reject them, and the images of the
+// ceilings.
 #include "jobs/timing/pass_times.hpp"
 
 #include <gmock/gmock.h>
@@ -54,7 +54,7 @@ TEST(BelievedPasses, SayWhereTheyAreTheLesserPartOfAFrame) {
   const PassTimes little = believed({{"forward", 0.1}}, 3.0);
   EXPECT_EQ(little.gap, PassTimesGap::partial);
   EXPECT_THAT(little.reason, Names("0.100 ms", "3.000 ms"));
-  ASSERT_EQ(little.ms.size(), 1u) << "the processor may be what the frame waits for";
+  ASSERT_EQ(little.ms.size(), 1u) << "the processor may be the bottleneck";
   EXPECT_DOUBLE_EQ(little.gpu_ms.value_or(0), 0.1);
 }
 
@@ -135,7 +135,7 @@ TEST_P(Ceilings, TrianglesWithoutColoursLeaveTheBackground) {
   EXPECT_TRUE(renderer.read_faces().empty());
 }
 
-TEST_P(Ceilings, TheCopyIsAImagesWorthOfPixels) {
+TEST_P(Ceilings, TheCopyIsAnImagesWorthOfPixels) {
   const gl::Context context = gl::Context::create(GetParam().request);
   CopyCeiling copy(context);
   for (const int width : {64, 200, 37}) {
@@ -143,7 +143,7 @@ TEST_P(Ceilings, TheCopyIsAImagesWorthOfPixels) {
     const Image8 image = copy.read_copy();
     ASSERT_EQ(image.width, width);
     ASSERT_EQ(image.height, 48);
-    // Row 0 of the image is the highest of 64 rows of cells that grow greener upwards.
+    // Row 0 of the image is the top one of 64 rows of cells; green increases upwards.
     EXPECT_GT(image.at(0, 0).g, 240);
     EXPECT_LT(image.at(0, 47).g, 10);
     EXPECT_GT(image.at(width - 1, 0).r, 240);

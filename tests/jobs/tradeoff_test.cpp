@@ -1,5 +1,4 @@
-// The arithmetic of error against time: fronts, their area, the choice, and which configurations
-// are measured.
+// Error against time: Pareto fronts, their area, the choice, and the measured configurations.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -48,21 +47,21 @@ TEST(ParetoFront, KeepsWhatNothingBeats) {
 }
 
 TEST(ParetoFront, OfEqualsTakesTheSimpler) {
-  // Equally fast within the spread of either, equally good within 0.1 dB.
+  // Times within either point's spread are equal, and so are errors within 0.1 dB.
   EXPECT_THAT(pareto_front(std::vector<Point>{
                   {.ms = 1.00, .spread_ms = 0.1, .psnr_db = 50.05, .departures = 2},
                   {.ms = 1.08, .spread_ms = 0.0, .psnr_db = 50.00, .departures = 1}}),
               ElementsAre(1));
-  // Better by more than that: complexity is no argument.
+  // If the difference is larger, complexity does not matter.
   EXPECT_THAT(pareto_front(std::vector<Point>{
                   {.ms = 1.00, .spread_ms = 0.1, .psnr_db = 50.2, .departures = 2},
                   {.ms = 1.08, .psnr_db = 50.0, .departures = 1}}),
               ElementsAre(0));
-  // A tenth of a decibel is no reason to be slower.
+  // A tenth of a decibel does not justify a slower configuration.
   EXPECT_THAT(
       pareto_front(std::vector<Point>{{.ms = 1, .psnr_db = 50}, {.ms = 2, .psnr_db = 50.09}}),
       ElementsAre(0));
-  // But small steps add up.
+  // But several small steps do.
   EXPECT_THAT(
       pareto_front(std::vector<Point>{
           {.ms = 1, .psnr_db = 50}, {.ms = 2, .psnr_db = 50.09}, {.ms = 3, .psnr_db = 50.18}}),
@@ -70,7 +69,7 @@ TEST(ParetoFront, OfEqualsTakesTheSimpler) {
 }
 
 TEST(ParetoFront, AChainOfTiesDoesNotDrift) {
-  // Each is tied with the next, the first is not with the last. (Quarters are exact.)
+  // Neighbours are tied, the first and the last are not. (Quarters are exact.)
   EXPECT_THAT(pareto_front(std::vector<Point>{{.ms = 1.00, .spread_ms = 0.25, .psnr_db = 50},
                                               {.ms = 1.25, .spread_ms = 0.25, .psnr_db = 51},
                                               {.ms = 1.50, .spread_ms = 0.25, .psnr_db = 52}}),
@@ -110,8 +109,8 @@ TEST(ParetoFront, WithTiesItRisesAndCoversTheRest) {
       ASSERT_TRUE(std::any_of(front.begin(), front.end(),
                               [&](std::size_t i) {
                                 const Point& kept = points[i];
-                                // The fastest of its group may be another point yet: the largest
-                                // spread bounds both.
+                                // Another point may be the fastest of its group; the largest spread
+                                // bounds the difference.
                                 return kept.ms <= point.ms + 1.5 &&
                                        kept.psnr_db >= point.psnr_db - psnr_tie_db;
                               }))
@@ -125,7 +124,7 @@ TEST(Hypervolume, OfOneAndTwoPoints) {
   EXPECT_DOUBLE_EQ(
       hypervolume(std::vector<Point>{{.ms = 10, .psnr_db = 50}, {.ms = 1, .psnr_db = 30}}),
       1 * 30 + 1 * 10);
-  // Behind the corner.
+  // Points beyond the corner add nothing.
   EXPECT_EQ(hypervolume(std::vector<Point>{{.ms = 100, .psnr_db = 50}, {.ms = 1, .psnr_db = 20}}),
             0);
   EXPECT_EQ(hypervolume(std::vector<Point>{}), 0);
@@ -137,7 +136,7 @@ TEST(Hypervolume, IsTheAreaThatDartsFind) {
   test::Random random(seed);
   for (int round = 0; round < 10; ++round) {
     const std::vector<Point> points = random_points(random, 12, false);
-    // Over three decades and 80 dB, which hold all of it.
+    // Random samples over three decades and 80 dB, which contain the whole area.
     const int darts = 20000;
     int hits = 0;
     for (int dart = 0; dart < darts; ++dart) {
@@ -147,7 +146,7 @@ TEST(Hypervolume, IsTheAreaThatDartsFind) {
       });
     }
     const double p = double(hits) / darts;
-    // Five standard errors of the mean of the darts, and one dart for p = 0.
+    // Five standard errors of the samples' mean, plus one sample for p = 0.
     const double allowed = 240 * (5 * std::sqrt(p * (1 - p) / darts) + 1.0 / darts);
     EXPECT_NEAR(hypervolume(points), 240 * p, allowed) << "round " << round;
   }
@@ -203,7 +202,7 @@ TEST(SettingRanges, CompareEachSettingWithTheDefaults) {
   EXPECT_DOUBLE_EQ(ranges[0].time_ratio, 1.5);
   EXPECT_DOUBLE_EQ(ranges[0].psnr_db, 5);
   EXPECT_TRUE(ranges[0].matters());
-  // Without a time it cannot matter, whatever its error.
+  // A setting without a time does not matter, whatever its error.
   EXPECT_DOUBLE_EQ(ranges[1].time_ratio, 1);
   EXPECT_DOUBLE_EQ(ranges[1].psnr_db, 15);
   EXPECT_FALSE(ranges[1].matters());
@@ -240,12 +239,12 @@ TEST(Factorial, WithTheStarIsEveryCombinationOnce) {
   EXPECT_EQ(all.size(), 3u * 4 * 2 * 3);
 }
 
-TEST(Factorial, SaysWhatItsLimitsLeaveOut) {
+TEST(Factorial, ReportsWhatItsLimitsOmit) {
   const std::vector<int> value_counts{3, 3, 3, 3, 3};
   std::vector<SettingRange> ranges;
   for (std::size_t setting = 0; setting < 5; ++setting)
     ranges.push_back({setting, 1.1 + 0.1 * double(setting), 2});
-  // Four of three values are 81, of which the star has 9.
+  // Four settings with three values have 81 combinations; the star contains 9.
   const FactorialLimits limits{.max_configurations = 71};
   const Design design = factorial(value_counts, ranges, nothing_refused, limits);
   EXPECT_EQ(design.reduction.mattering, 5u);
@@ -253,7 +252,7 @@ TEST(Factorial, SaysWhatItsLimitsLeaveOut) {
   EXPECT_EQ(design.reduction.configurations, 72u);
   EXPECT_EQ(design.reduction.combined, 3u);
   EXPECT_THAT(describe(design.reduction, limits), ElementsAre(Names(5, 4), Names(4, 72, 71, 3)));
-  // The three that move most are left: 27 less 7.
+  // The three settings with the largest effect remain: 27 combinations minus 7.
   EXPECT_THAT(design.configurations, SizeIs(20));
   for (const Configuration& c : design.configurations) EXPECT_EQ(c[0] + c[1], 0);
   EXPECT_THAT(
@@ -281,9 +280,9 @@ TEST(Factorial, SaysOnceWhatCannotBeDrawnTogetherAndDoesNotCountIt) {
     if (c[1] != 0 && c[2] != 0) return "fewer and more";
     return {};
   };
-  // Of 7 combinations 4 change both of the settings that exclude each other.
+  // Of the 7 combinations, 4 change both exclusive settings.
   const std::vector<Configuration> drawn{{1, 0, 1}, {1, 1, 0}, {1, 2, 0}};
-  for (const double last_ratio : {1.1, 1.9}) {  // the third setting comes last, then first
+  for (const double last_ratio : {1.1, 1.9}) {  // the third setting is ranked last, then first
     const std::vector<SettingRange> ranges{{0, 1.5, 5}, {1, 1.4, 5}, {2, last_ratio, 5}};
     const Design design = factorial(value_counts, ranges, refuse, {.max_configurations = 3});
     EXPECT_THAT(design.configurations, testing::UnorderedElementsAreArray(drawn));

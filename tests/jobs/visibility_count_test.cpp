@@ -1,4 +1,4 @@
-// Counting what is seen.
+// Counts of visible pixels and texels.
 #include "jobs/visibility/visibility_count.hpp"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ TEST(VisibilityCount, IsThePixelsThatTheOracleNames) {
     total += expected[t];
   }
   EXPECT_GT(total, 1000);
-  // The budget of tests/support/agreement.hpp, of all pixels, for ties of depth and threshold.
+  // The bound of tests/support/agreement.hpp, over all pixels, for ties of depth and threshold.
   EXPECT_LE(double(difference), 2e-4 * 3 * 160 * 120);
   EXPECT_EQ(counted, count_visible_pixels(context(), soup, glm::dvec3(0), views));
 }
@@ -57,7 +57,7 @@ TEST(VisibilityCount, TexelsOfAFaceComeToItsPixels) {
   const auto pixels = count_visible_pixels(context(), soup, glm::dvec3(0), views);
   const auto texels = count_visible_texels(context(), soup, glm::dvec3(0), views);
   ASSERT_EQ(texels.size(), texture.texel_count());
-  // By patch, as faces may share theirs.
+  // By patch, because faces may share patches.
   std::map<std::uint32_t, std::pair<double, double>> patches;
   for (std::size_t t = 0; t < pixels.size(); ++t) {
     const LatticePatch& patch = texture.patches[t];
@@ -69,7 +69,7 @@ TEST(VisibilityCount, TexelsOfAFaceComeToItsPixels) {
   }
   double total = 0, missing = 0;
   for (const auto& [first, counts] : patches) {
-    // Weights of a pixel come to one, but for the rounding of as many floats.
+    // The weights of a pixel sum to one, up to the rounding of this many floats.
     EXPECT_LE(counts.second, counts.first * (1 + 1e-5)) << "patch at " << first;
     total += counts.first;
     missing += counts.first - counts.second;
@@ -80,7 +80,7 @@ TEST(VisibilityCount, TexelsOfAFaceComeToItsPixels) {
 }
 
 TEST(VisibilityCount, TexelsBehindOthersAreNotShown) {
-  // Two faces of level 2, and before the second a third one that hides a part of it.
+  // Two faces of level 2, and a third in front of the second that hides a part of it.
   TriangleSoup soup;
   soup.positions = {{-2, 0, 0}, {-1, 0, 0},     {-2, 1, 0},     {0, 0, 0},    {1, 0, 0},
                     {0, 1, 0},  {-.5, -.5, .1}, {2.1, -.5, .1}, {-.5, .8, .1}};
@@ -94,12 +94,12 @@ TEST(VisibilityCount, TexelsBehindOthersAreNotShown) {
   for (std::size_t i = 0; i < 15; ++i) EXPECT_GT(shown[i], 100.0f) << i;
   int hidden = 0;
   for (std::size_t i = 0; i < 15; ++i) {
-    // Texel (x, y) of the second face lies at the world's (y/4, 1 - x/4 - y/4); what is hidden lies
-    // under the line from (2.1, -.5) to (-.5, .8).
+    // Texel (x, y) of the second face is at world position (y/4, 1 - x/4 - y/4). The third face
+    // hides the area below the line from (2.1, -.5) to (-.5, .8).
     const auto at = lattice::texel_coordinates(std::uint32_t(i));
     const double across = at.y / 4.0, up = 1 - at.x / 4.0 - at.y / 4.0;
     const double above = up - (0.55 - 0.5 * across);
-    // A texel reaches a quarter to each side: pixels within it take some of it.
+    // A texel's weight extends over a quarter on each side: pixels there add to it.
     if (above > 0.05) {
       EXPECT_GT(shown[15 + i], 1.0f) << i;
     } else if (above < -0.26) {
@@ -128,8 +128,8 @@ TEST(VisibilityCount, TheMostVisibleAreKeptStably) {
   EXPECT_EQ(most_visible({}, 0.5), Keeps());
 }
 
-// What no view shows changes no view.
-TEST(VisibilityCount, LeavingOutWhatIsNotSeenChangesNothing) {
+// Removing faces that no view shows changes no view.
+TEST(VisibilityCount, OmittingWhatIsNotSeenChangesNothing) {
   SCOPED_TRACE("seed 803");
   const TriangleSoup soup = test::random_soup(803, {.kind = test::Kind::lattice_mlp});
   const auto views = cameras(803, 2);
@@ -142,7 +142,7 @@ TEST(VisibilityCount, LeavingOutWhatIsNotSeenChangesNothing) {
   for (const Camera& view : views) {
     const auto all = test::draw(context(), soup, glm::dvec3(0), view);
     const auto some = test::draw(context(), fewer, glm::dvec3(0), view);
-    // Other clusters, the same images.
+    // The clusters differ, the images do not.
     EXPECT_TRUE(all.color.pixels == some.color.pixels);
   }
 }

@@ -1,4 +1,4 @@
-// Cameras at their extremes: the rows C1 to C4.
+// Extreme cameras: cases C1 to C4.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace tureen::test {
 namespace camera_test {
 
-/// How the device is held against the oracle at what a camera is stressed by.
+/// Compares the device with the oracle for stressed cameras.
 class Comparison {
  public:
   Comparison(const std::string& stressed, const std::string& parameter)
@@ -28,9 +28,9 @@ class Comparison {
                  .unit = "error of a channel beyond half a step of 8 bits, where it is nearest to "
                          "its bound"}) {}
 
-  /// `moved`: how far roundings may move a corner, in pixels. Edges sweep the centres of twice that
-  /// part of the pixels along them in the mean, for the reasons that swept() of relations_test.cpp
-  /// has; chance has more, but not more than the 1e-4 of the image that H10 has for everything.
+  /// `moved`: distance in pixels that roundings may move a corner. On average, an edge then sweeps
+  /// over the centres of 2 `moved` of the pixels along it (see swept() in relations_test.cpp).
+  /// Chance allows more, but at most H10's bound for everything, 1e-4 of the image.
   void add(double at, const TriangleSoup& soup, const Camera& camera, double moved) {
     const OracleImage expected = snapped_oracle(soup, glm::dvec3(0), camera);
     const Drawn drawn = draw(shared_context(), soup, glm::dvec3(0), camera);
@@ -48,7 +48,7 @@ class Comparison {
                 .tolerance = std::min(most_of(mean), mean + 1e-4 * pixels) / pixels});
     const ColorError colors = color_error(soup, glm::dvec3(0), camera, expected, drawn);
     EXPECT_GE(colors.compared, AgreementLimits().min_compared)
-        << at << ": there is hardly anything";
+        << at << ": too few pixels to compare";
     colors_.add({.at = at, .ours = colors.beyond, .tolerance = colors.allowed});
   }
 
@@ -61,13 +61,14 @@ TEST(Numerics, C1_FieldsOfViewFromATenthTo179Degrees) {
   constexpr int width = 320, height = 240;
   for (const double degrees : {0.1, 1.0, 10.0, 60.0, 120.0, 170.0, 179.0}) {
     const double half = glm::radians(degrees) / 2;
-    // From where the unit ball fills the image, or else from within it.
+    // The eye is where the unit ball fills the image, or inside the ball.
     const double distance = std::max(1.1 / std::tan(half), 0.05);
     Random random(1);
     const Camera camera =
         look_at(distance * random.direction(), {0, 0, 0}, {0, 0, 1}, 2 * half, width, height);
     const TriangleSoup soup = random_soup(71, {.kind = Kind::lattice, .size = 0.2});
-    // A corner less the eye is rounded as the distance is large, and seen at that distance.
+    // Subtracting the eye rounds a corner in proportion to the distance; it is seen from that
+    // distance.
     const double in_pixels = camera.fy * std::max(1.0, std::tan(half));
     comparison.add(degrees, soup, camera, vertex_rounding(in_pixels));
   }
@@ -77,7 +78,7 @@ TEST(Numerics, C2_PrincipalPointsOutsideTheImage) {
   Comparison comparison("principal points outside of the image",
                         "its distance from the middle / widths");
   constexpr int width = 320, height = 240;
-  // With a network, which sees where it is seen from.
+  // With a network, whose colours depend on the view direction.
   const TriangleSoup soup = random_soup(72, {.kind = Kind::lattice_mlp, .size = 0.2});
   for (const double widths : {0.0, 0.6, 1.0, 3.0, 10.0}) {
     Camera camera = look_at({0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 0.7, width, height);
@@ -85,20 +86,21 @@ TEST(Numerics, C2_PrincipalPointsOutsideTheImage) {
     const double shift = widths * width;
     camera.cx += shift;
     camera.view_from_world[3] += glm::dvec4(-shift / camera.fx * 4, 0, 0, 0);
-    // What a corner's place beside the axis and what the principal point make of its x are `shift`
-    // each, and nearly cancel: five roundings of both. Those of its depth are of what lies in the
-    // image, those of the corner less the eye of `shift`. All together they are at most as many
-    // of a coordinate of shift + width.
+    // x is the sum of two terms of about `shift` that nearly cancel: the corner's distance from the
+    // axis, and the principal point. Each has five roundings. The roundings of w scale with the
+    // position in the image, those of the corner minus the eye with `shift`. Together they are at
+    // most the roundings of a coordinate of shift + width.
     comparison.add(widths, soup, camera, vertex_rounding(shift + width));
   }
 }
 
-// What lies far off the axis is far away and yet near in depth: planes of depth know only the axis.
+// A point far off the axis is far away but has a small depth. Depth planes use only the depth along
+// the axis.
 TEST(Numerics, C2b_WhatLiesFarOffTheAxisIsNotClipped) {
   Recorder recorder({.stressed = "a plate at a depth of 5, far off the axis: device and oracle",
                      .parameter = "angle off the axis / degrees",
                      .unit = "of 1024 pixels missing or too many",
-                     .naive = "near by the distance to the eye, in the trainer"});
+                     .naive = "near plane by the distance to the eye, in the trainer"});
   constexpr int side = 64;
   for (const bool reversed : {true, false})
     for (const double degrees : {0.0, 45.0, 70.0, 80.0, 85.0, 89.0, 89.9}) {
@@ -112,12 +114,12 @@ TEST(Numerics, C2b_WhatLiesFarOffTheAxisIsNotClipped) {
                                          corner(-a, -a), corner(a, a), corner(-a, a)});
       const double device = shown_pixels(faces_of_device(soup, camera, reversed));
       const double in_oracle = shown_pixels(faces_of_oracle(soup, camera));
-      // Of nothing but the plate there is nothing to clip but by a plane that is too far away.
+      // The scene is the plate alone, so only a near plane that is too far away clips anything.
       const Bounds box = bounds(soup);
       const double by_distance = 0.95 * (glm::length(box.centre()) - box.radius());
       const double clipped = shown_pixels(faces_of_trainer(soup, camera, by_distance, 1e5));
-      // Corners are floats of `off` and the principal point is as far away: their roundings move
-      // the borders of the plate, two of 32 pixels each.
+      // Corners are floats near `off`, and the principal point is as far away. Their roundings move
+      // the plate's four borders of 32 pixels.
       const double moved = vertex_rounding(camera.fx * off / 5) + camera.fx / 5 * off * epsilon;
       recorder.add({.at = degrees,
                     .naive = std::abs(clipped - 1024),
@@ -132,7 +134,7 @@ TEST(Numerics, C3_ImagesOfOnePixelAndOfOneRow) {
     int width, height;
   };
   const TriangleSoup soup = random_soup(73, {.kind = Kind::lattice, .size = 0.3});
-  // Aimed at a face, so that the one pixel shows one.
+  // Aimed at a face, so that the single pixel shows a face.
   Camera narrow;
   double shown = 0;
   for (std::size_t t = 0; t < soup.triangles.size() && shown == 0; ++t) {
@@ -144,9 +146,9 @@ TEST(Numerics, C3_ImagesOfOnePixelAndOfOneRow) {
     shown = shown_pixels(faces_of_oracle(soup, resampled(narrow, 1, 1)));
   }
   for (const auto& [width, height] : {Size{1, 1}, Size{1, 4096}, Size{4096, 1}, Size{16384, 16}}) {
-    // The very same image on other pixels.
+    // The same image on another pixel grid.
     const Camera camera = resampled(narrow, width, height);
-    // A coordinate's roundings are of the side that it is counted along; edges run either way.
+    // A coordinate's rounding scales with the image side along its axis; edges have all directions.
     comparison.add(double(width) * height, soup, camera,
                    vertex_rounding(std::max(camera.width, camera.height)));
   }
@@ -155,14 +157,14 @@ TEST(Numerics, C3_ImagesOfOnePixelAndOfOneRow) {
 TEST(Numerics, C4_SomethingVeryFarHidesNothingNear) {
   Recorder recorder({.stressed = "one face very far away behind a scene of size 1 about the eye: "
                                  "reversed depth",
-                     .parameter = "its distance / distance of what is near",
-                     .unit = "fraction of the pixels of what is near that are lost",
-                     .naive = "24 bits, near at a thousandth of the whole: the documented limit"});
+                     .parameter = "its distance / distance of the near face",
+                     .unit = "fraction of the near face's pixels that are lost",
+                     .naive = "24 bits, near at a thousandth of the radius: the documented limit"});
   constexpr int side = 64;
   const Camera camera = straight_camera(side, side, side);
   for (const float far : {1e1f, 1e3f, 1e5f, 1e6f, 1e7f, 1e8f}) {
     const float a = 0.3f;
-    // At a distance of 1, around it, and the one that is far.
+    // A face at distance 1, a face around the eye, and the far face.
     const std::vector<glm::vec3> corners = {{-a, -a, -1},       {a, -a, -1},       {0, a, -1},
                                             {2, 2, 2},          {2, 1, 2},         {1, 2, 2},
                                             {-far, -far, -far}, {far, -far, -far}, {0, far, -far}};
@@ -178,8 +180,8 @@ TEST(Numerics, C4_SomethingVeryFarHidesNothingNear) {
     const double naive = std::abs(near_face(faces_of_device(soup, camera, false)) - expected);
     recorder.add(
         {.at = double(far), .naive = naive / expected, .ours = ours / expected, .tolerance = 0});
-    // The limit as it is documented: a near plane at a thousandth of the radius hides what is
-    // nearer, all of it, and nothing else.
+    // The documented limit: a near plane at a thousandth of the radius hides everything nearer, and
+    // nothing else.
     const double near = 1e-3 * bounds(soup).radius();
     EXPECT_EQ(naive, near > 1 ? expected : 0) << far;
   }

@@ -1,4 +1,4 @@
-// Depth precision: the rows D1 and D2.
+// Depth precision: cases D1 and D2.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,10 +16,10 @@ namespace tureen::test {
 namespace depth_test {
 
 constexpr int side = 16;
-constexpr float extent = 60;  // of the scene, so that the eye is within it
+constexpr float extent = 60;  // of the scene; the eye is inside it
 
-/// Two squares at z = 0 and z = -apart that fill any image, and something at the scene's ends.
-/// Faces 0 and 1 are the rear one's where `rear_first`.
+/// Two squares at z = 0 and z = -apart that fill any image, and small faces at the scene's ends.
+/// Faces 0 and 1 are the rear square if `rear_first`.
 TriangleSoup two_walls(float apart, bool rear_first) {
   std::vector<glm::vec3> corners;
   for (const bool rear : {rear_first, !rear_first}) {
@@ -33,7 +33,7 @@ TriangleSoup two_walls(float apart, bool rear_first) {
   return soup_of(corners);
 }
 
-/// Of the eye from the wall in front. Of five to each, most are held by no float.
+/// Distances from the eye to the front wall: five around each. Most are not exact in floats.
 std::vector<double> distances() {
   std::vector<double> all;
   for (const double distance : {1, 2, 5, 10, 20, 50})
@@ -41,14 +41,14 @@ std::vector<double> distances() {
   return all;
 }
 
-constexpr int steps_per_octave = 4;  // of the gaps that are tried
+constexpr int steps_per_octave = 4;  // of the tested gaps
 
-/// For each of the distances the least gap of those that are tried from which on no pixel shows the
-/// rear wall, whichever comes first.
+/// For each distance, the smallest tested gap from which on no pixel shows the rear wall, in either
+/// drawing order.
 std::vector<double> min_gaps(bool reversed) {
   const std::vector<double> from = distances();
   std::vector<double> gaps(from.size());
-  // From 4 units down to 2^-27, which no float tells from 0 beside 1.
+  // From 4 units down to 2^-27, which floats cannot distinguish from 0 next to 1.
   for (int k = 2 * steps_per_octave; k >= -27 * steps_per_octave; --k) {
     const auto apart = float(std::exp2(double(k) / steps_per_octave));
     for (const bool rear_first : {false, true}) {
@@ -68,28 +68,28 @@ std::vector<double> min_gaps(bool reversed) {
   return gaps;
 }
 
-/// Half a unit in the last place of a float, which rounding to it may be off by.
+/// Half a unit in the last place of a float: the largest error of rounding to it.
 double half_unit(double x) {
   const auto held = float(x);
   return (double(std::nextafter(held, INFINITY)) - double(held)) / 2;
 }
 
-/// By how much roundings may bring two walls nearer to each other that are seen from so far away,
-/// in reversed depth with its far plane at infinity: near * (1 / w).
+/// The largest decrease of the gap between two walls by roundings, seen from this distance, in
+/// reversed depth with the far plane at infinity: near * (1 / w).
 double rounding_of_reversed(double distance, double near) {
-  // The corner less the high half of the eye, less its low half; the first is exact for the wall at
-  // 0. w is that: with the walls across the axis nothing is added to it.
+  // The corner minus the eye's high half, minus its low half. The first difference is exact for the
+  // wall at 0. w is the result: the walls are perpendicular to the axis, so nothing is added.
   const double of_corners = 3 * half_unit(distance);
-  // The inverse and its product with near, of both walls. What is 1 / w, and near / w, changes by
-  // so much where the distance changes by 1.
+  // The inverse and its product with near, for both walls. These derivatives convert an error in 1
+  // / w or near / w to a distance.
   const double inverse_per_unit = 1 / (distance * distance);
   const double of_inverses = 2 * half_unit(1 / distance) / inverse_per_unit;
   const double of_depths = 2 * half_unit(near / distance) / (near * inverse_per_unit);
   return of_corners + of_inverses + of_depths;
 }
 
-/// What a unit of 24 bits is in the world with the far plane far beyond: of depth that is
-/// 1 - near / distance, which changes by near / distance^2 a unit.
+/// The distance that one unit of 24 bits covers, with the far plane far beyond: depth is 1 - near /
+/// distance, with derivative near / distance^2.
 double unit_of_fixed(double distance, double near) { return distance * distance / near * epsilon; }
 
 TEST(Numerics, D1_TwoWallsAreToldApart) {
@@ -97,11 +97,11 @@ TEST(Numerics, D1_TwoWallsAreToldApart) {
   Recorder recorder({.stressed = "two walls one behind the other within a scene of radius 104: "
                                  "reversed depth in floats",
                      .parameter = "distance / units",
-                     .unit = "least gap / units",
+                     .unit = "smallest resolved gap / units",
                      .naive = "24 bits, near at a thousandth of the radius"});
   Recorder elsewhere({.stressed = "the same without clip control: 24 bits, as documented",
                       .parameter = "distance / units",
-                      .unit = "least gap / units"});
+                      .unit = "smallest resolved gap / units"});
   const Bounds scene = bounds(two_walls(0, false));
   const double documented_near = 1e-3 * scene.radius();
   const double step = std::exp2(1.0 / steps_per_octave);
@@ -111,21 +111,21 @@ TEST(Numerics, D1_TwoWallsAreToldApart) {
     ASSERT_GT(fixed[i], 0) << "no gap is too small";
     const double near =
         clip_range(scene, {0, 0, from[i]}, {0, 0, -1}, DepthStorage::reversed_float).near;
-    // What is more than the roundings is told apart; the first gap that is tried beyond them may be
-    // a step larger.
+    // A gap larger than the roundings is resolved. The first tested gap beyond them may be one step
+    // larger.
     recorder.add({.at = from[i],
                   .naive = fixed[i],
                   .ours = reversed[i],
                   .tolerance = step * rounding_of_reversed(from[i], near)});
-    // Four units of depth, of which one lets two values differ at all and the others are roundings
-    // of half a unit for each wall: of the corner less the eye, of the product, of the quotient.
+    // Four units of depth: one so that two values can differ, and roundings of half a unit for each
+    // wall from the corner minus the eye, the product and the quotient.
     elsewhere.add({.at = from[i],
                    .ours = fixed[i],
                    .tolerance = 4 * unit_of_fixed(from[i], documented_near)});
   }
 }
 
-/// What sorts fragments in DiffSoup's rasteriser.
+/// The sorting key in DiffSoup's rasteriser.
 float published_key(double z, double near, double far) {
   const auto ndc =
       float((far + near) / (far - near) - 2 * far * near / ((far - near) * double(float(z))));
@@ -138,7 +138,7 @@ TEST(Numerics, D2_WinnersDoNotDependOnTheNearPlane) {
                          "and at 0.5",
                      .parameter = "gap between layers / depth",
                      .unit = "of 4096 pixels show another layer",
-                     .naive = "keys float(z_ndc + 2), the published ones"});
+                     .naive = "the baseline's keys, float(z_ndc + 2)"});
   constexpr int pixels = 64;
   const Camera camera = straight_camera(pixels, pixels, pixels);
   for (const double gap : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
@@ -146,13 +146,13 @@ TEST(Numerics, D2_WinnersDoNotDependOnTheNearPlane) {
     constexpr int layers = 8;
     for (int i = 0; i < layers; ++i) {
       const auto z = float(-10 * (1 + gap * ((i * 3 + 5) % layers)));
-      // Leaning, so that depths are many.
+      // Tilted, so that each face has many depths.
       corners.insert(corners.end(), {{-20, -20, z}, {20, -20, z * 1.1f}, {0, 30, z * 0.9f}});
     }
     const TriangleSoup soup = soup_of(corners);
     const double ours =
         differing(faces_of_trainer(soup, camera, 0.01), faces_of_trainer(soup, camera, 0.5));
-    // Depths in double, keys in floats: the first of equal ones stays.
+    // Depths in double, keys in floats. The first of several equal keys wins.
     std::vector<std::uint32_t> winners[2];
     for (const double near : {0.01, 0.5}) {
       std::vector<float> best(pixels * pixels, 1e9f);
@@ -171,7 +171,8 @@ TEST(Numerics, D2_WinnersDoNotDependOnTheNearPlane) {
             });
     }
     const double naive = differing(winners[0], winners[1]);
-    // A tenth of the catalogue's step of a key at this depth, 1.2e-3 of 10: many layers share one.
+    // A tenth of a key's step at this depth in the catalogue, 1.2e-3 at 10: many layers share a
+    // key.
     if (gap < 1.2e-5) {
       EXPECT_GT(naive, 0) << gap;
     }

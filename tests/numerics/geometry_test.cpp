@@ -1,4 +1,4 @@
-// Geometry and projection: the rows G1 to G9.
+// Geometry and projection: cases G1 to G9.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ using Faces = std::vector<std::uint32_t>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Pixels in floats, as a naive projection has them: x, y and the depth.
+/// Pixel coordinates in floats, as in a naive projection: x, y and the depth.
 glm::vec3 float_pixel(const Camera& camera, const glm::vec3& p) {
   const glm::vec3 v(glm::mat4(camera.view_from_world) * glm::vec4(p, 1));
   const float w = -v.z;
@@ -47,8 +47,8 @@ float float_edge(const glm::vec3& a, const glm::vec3& b, float x, float y) {
 
 // -- G1 -----------------------------------------------------------------------------------------
 
-/// Three corners on a line to the bit, two that coincide, three that do, and corners that are no
-/// numbers, all about `middle` and `size` large.
+/// Faces with three corners exactly on a line, with two or three coincident corners, and with
+/// corners that are not finite; about `middle`, with extent `size`.
 std::vector<glm::vec3> faces_without_area(Random& random, glm::vec3 middle, float size) {
   std::vector<glm::vec3> corners;
   const auto point = [&] {
@@ -70,11 +70,11 @@ std::vector<glm::vec3> faces_without_area(Random& random, glm::vec3 middle, floa
 
 TEST(Numerics, G1_FacesWithoutAreaShowNothing) {
   Recorder recorder({.stressed =
-                         "faces without area, or with corners that are no numbers, before a "
+                         "faces without area, or with corners that are not finite, before a "
                          "wall: oracle, device and trainer",
                      .parameter = "their size / units",
                      .unit = "pixels changed",
-                     .naive = "barycentrics divided by the area, wherever they are not outside"});
+                     .naive = "barycentrics divided by the area, accepted if not outside"});
   Random random(11);
   constexpr int side = 96;
   for (const float size : {0.0625f, 1.0f, 16.0f, 256.0f}) {
@@ -88,7 +88,7 @@ TEST(Numerics, G1_FacesWithoutAreaShowNothing) {
     ours += differing(faces_of_oracle(wall, camera), faces_of_oracle(both, camera));
     ours += differing(faces_of_device(wall, camera), faces_of_device(both, camera));
     ours += differing(faces_of_trainer(wall, camera), faces_of_trainer(both, camera));
-    // A renderer that divides first and asks afterwards whether a barycentric is outside.
+    // A renderer that first divides, then checks whether a barycentric is outside.
     std::size_t naive = 0;
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < side; ++x) {
@@ -120,7 +120,7 @@ TEST(Numerics, G2_NeedlesThatShareEdgesCoverEveryCentreOnce) {
                      .parameter = "aspect of the needles",
                      .unit = "pixel centres not covered exactly once",
                      .naive = "each face's own edge functions in floats, >= 0"});
-  Recorder cracks({.stressed = "the same in the trainer, whose faces own all of their edges",
+  Recorder cracks({.stressed = "the same in the trainer, where a face covers all of its edges",
                    .parameter = "aspect of the needles",
                    .unit = "pixel centres not covered at all"});
   constexpr int side = 256;
@@ -130,8 +130,8 @@ TEST(Numerics, G2_NeedlesThatShareEdgesCoverEveryCentreOnce) {
   };
   const glm::vec3 apex = at_pixel(32, 32);
   const double length = 192 * std::sqrt(2.0);
-  // Along the line opposite to the apex, from its middle, which lies on the diagonal through
-  // pixel centres.
+  // Along the line opposite the apex, from its middle, which lies on the diagonal through pixel
+  // centres.
   const auto opposite = [&](double pixels) {
     return at_pixel(224.3 + pixels * std::sqrt(0.5), 224.3 - pixels * std::sqrt(0.5));
   };
@@ -147,7 +147,7 @@ TEST(Numerics, G2_NeedlesThatShareEdgesCoverEveryCentreOnce) {
       corners.insert(corners.end(), {apex, opposite(places[i]), opposite(places[i + 1])});
     const TriangleSoup soup = soup_of(corners);
 
-    // A pixel within the border whatever is rounded.
+    // Far enough from the border that roundings do not matter.
     const auto well_within = [&](double x, double y) {
       const double along = (x - 32) + (y - 32), across = std::abs((x - 32) - (y - 32));
       return along < 2 * 192.3 - 4 && across < along * 150 / (192.3 * std::sqrt(2.0)) - 4;
@@ -209,16 +209,16 @@ TEST(Numerics, G3_VerticesFarFromTheOriginStayInPlace) {
   Recorder recorder({.stressed = "soup and camera far from the origin, 1920x1080: geometry.vert",
                      .parameter = "offset / units",
                      .unit = "pixels",
-                     .naive = "one matrix in floats, translation and all",
-                     // The catalogue measured 6e-3 pixels here, and ten times as many for every
-                     // ten times the offset.
+                     .naive = "one matrix in floats, including the translation",
+                     // The catalogue measured 6e-3 pixels here, growing in proportion to the
+                     // offset.
                      .naive_fails_from = 100});
   Random random(3);
   for (int k = 0; k <= 20; ++k) {
     const double offset = std::ldexp(1.0, k);
     const glm::dvec3 shift = offset * glm::dvec3(1, -0.5, 0.75);
     Camera camera = look_at(shift + glm::dvec3(5, 1.3, 0.4), shift, {0, 0, 1}, 0.9, 1920, 1080);
-    std::vector<glm::vec3> positions;  // as the file holds them: rounded where they are
+    std::vector<glm::vec3> positions;  // rounded at their place, as in a file
     for (int i = 0; i < 1000; ++i)
       positions.emplace_back(
           shift + glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
@@ -236,20 +236,20 @@ TEST(Numerics, G3_VerticesFarFromTheOriginStayInPlace) {
       ours = worse(ours, glm::length(pixel(clip[i]) - truth));
       naive = worse(naive, glm::length(pixel(in_floats * glm::vec4(positions[i], 1)) - truth));
     }
-    // x of a clip position is three products of rounded factors and two sums, at most five
-    // roundings of a value whose terms add up to 2 w; so is w; then the difference to the eye is
-    // rounded, three axes, before. A half width of 960 pixels for 2 w + 2 w + sqrt(3) w.
+    // x of a clip position is three products of rounded factors and two sums: at most five
+    // roundings of a value whose terms add up to 2 w. The same holds for w. Before that, the
+    // difference to the eye is rounded on three axes. Half the width, 960 pixels, corresponds to w;
+    // the sum is 2 w + 2 w + sqrt(3) w.
     const double tolerance = 960 * (5 * 2 + 5 * 2 + std::sqrt(3.0)) * epsilon;
     recorder.add({.at = offset, .naive = naive, .ours = ours, .tolerance = tolerance});
   }
 }
 
 TEST(Numerics, G3b_CoarseVerticesAreToldOf) {
-  Recorder recorder(
-      {.stressed = "vertices stored far from the origin: what `lint` does not tell of",
-       .parameter = "offset / extents",
-       .unit = "rounding of a vertex / extents",
-       .naive = "nothing is said"});
+  Recorder recorder({.stressed = "vertices stored far from the origin, unless `lint` reports them",
+                     .parameter = "offset / extents",
+                     .unit = "rounding of a vertex / extents",
+                     .naive = "no report"});
   Random random(4);
   for (int k = 0; k <= 22; k += 2) {
     const double offset = std::ldexp(1.0, k);
@@ -261,8 +261,8 @@ TEST(Numerics, G3b_CoarseVerticesAreToldOf) {
       rounding = std::max(rounding, std::abs(double(corners.back().x) - p.x));
     }
     const bool told = lint(soup_of(corners)).find(LintFinding::Id::far_from_origin);
-    // The bounds of the unit cube measure sqrt(3); at a ratio of 2e-4 half a step of floats, which
-    // is at most 2^-24 of the offset, is 1 / 3355 of that.
+    // The bounds of the unit cube measure sqrt(3). At a ratio of 2e-4, half a step of floats, at
+    // most 2^-24 of the offset, is 1 / 3355 of that.
     recorder.add({.at = offset,
                   .naive = rounding,
                   .ours = told ? 0 : rounding,
@@ -276,13 +276,13 @@ TEST(Numerics, G4_AFloorThroughTheCameraIsClippedNotDropped) {
   Recorder recorder({.stressed =
                          "a floor that begins behind the eye: device and trainer against the "
                          "oracle",
-                     .parameter = "how far behind / units",
+                     .parameter = "distance behind the eye / units",
                      .unit = "pixels wrong away from edges",
                      .naive = "faces with a corner behind the eye are dropped"});
   constexpr int side = 128;
   const Camera camera = straight_camera(side, side, 100);
   for (const float behind : {1.0f, 30.0f, 1e3f, 1e5f}) {
-    // A wall at the far end, which the naive form shows through the floor, then the floor.
+    // A wall at the far end, which the naive form shows through the floor; then the floor.
     const std::vector<glm::vec3> wall = {{-90, -60, -61}, {90, -60, -61}, {0, 90, -61}};
     std::vector<glm::vec3> corners = wall;
     for (int i = -4; i < 4; ++i) {
@@ -317,9 +317,9 @@ TEST(Numerics, G5_CornersInTheEyesPlaneKeepTheirPixels) {
   constexpr int side = 64;
   const Camera camera = straight_camera(side, side, 64);
   const trainer::kernels::View view = trainer::view_of(camera, glm::dvec3(0), 1e-3, 100);
-  // Where edges cross the near plane is worked out in doubles, by a quotient and a sum of depths of
-  // at most 2, in four roundings; the oracle's depth has as many. What is nearer than so is neither
-  // before the plane nor behind it.
+  // The crossing of edges with the near plane is computed in doubles, from a quotient and a sum of
+  // depths of at most 2, with four roundings. The oracle's depth has as many. Closer to the plane,
+  // either side is acceptable.
   const double near = view.near + 2 * 4 * 2 * 0x1p-53;
   Random random(5);
   for (const float w : {0.0f, 1e-30f, 1e-7f, 1e-3f, 1.0f}) {
@@ -363,7 +363,7 @@ TEST(Numerics, G6_ADollyPastALargeFaceIsContinuous) {
                      .naive = "faces are dropped when their centroid is nearer than 0.2"});
   constexpr int side = 128;
   const Camera straight = straight_camera(side, side, 64);
-  // Walls on the left: each a square of 8 units, from behind the eye to far before it.
+  // Walls on the left: squares of 8 units, from behind the eye to far in front of it.
   std::vector<glm::vec3> corners = {{-1, -4, 4}, {-1, 4, 4},  {-1, -4, -4},
                                     {-1, 4, 4},  {-1, 4, -4}, {-1, -4, -4}};
   TriangleSoup soup = soup_of(corners);
@@ -395,8 +395,8 @@ TEST(Numerics, G6_ADollyPastALargeFaceIsContinuous) {
       for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]) / double(a.size());
       return sum;
     };
-    // Of the wall's outline only the far end moves, an upright line a unit off the axis: it crosses
-    // the pixels of so many columns, and of one more, as their centres lie.
+    // Only the far end of the wall's outline moves. It is an upright line one unit off the axis: it
+    // crosses the pixels of this many columns, and of one more, depending on their centres.
     const double end = eye + 4;  // its depth
     const double columns = straight.fx / end - straight.fx / (end + stride) + 1;
     if (step > 0)
@@ -417,7 +417,7 @@ TEST(Numerics, G7_TrianglesBelowAPixelKeepTheirShareOfTheLight) {
   Random random(7);
   constexpr int side = 512, small = side / 4;
   for (const double pixels : {0.5, 1.0, 2.0, 4.0}) {
-    // At a quarter of the size they are so large.
+    // The size at a quarter of the resolution.
     const int cells = int(side / (4 * pixels));
     std::vector<glm::vec3> corners;
     for (int y = 0; y < cells; ++y)
@@ -435,7 +435,7 @@ TEST(Numerics, G7_TrianglesBelowAPixelKeepTheirShareOfTheLight) {
       return shown_pixels(faces_of_device(of, straight_camera(size, size, size))) / size / size;
     };
     const double full = intensity(soup, side), quarter = intensity(soup, small);
-    // Those whose box is less than a pixel wide or high become points, which show nothing.
+    // Triangles whose box is less than a pixel wide or high become points, which cover nothing.
     std::vector<glm::vec3> large = corners;
     const Camera small_camera = straight_camera(small, small, small);
     for (std::size_t t = 0; t < large.size(); t += 3) {
@@ -446,9 +446,9 @@ TEST(Numerics, G7_TrianglesBelowAPixelKeepTheirShareOfTheLight) {
       if (std::min(box.x, box.y) < 1) large[t + 1] = large[t + 2] = large[t];
     }
     const double without_small = intensity(soup_of(large), small);
-    // The catalogue's 2 %. It is neither loose nor out of reach: if samples were independent, a
-    // mean of 16384 of 0 or 1 had a deviation of 0.4 %, of a mean of one half 0.8 %, of which 2 %
-    // are 2.6; that the wall's triangles lie in rows makes it less, and the seed is fixed.
+    // The catalogue's bound of 2 %. If samples were independent, a mean of 16384 zeros and ones
+    // would have a deviation of 0.4 %, or 0.8 % of a mean of one half; 2 % is 2.6 times that. The
+    // wall's triangles lie in rows, which reduces the deviation, and the seed is fixed.
     recorder.add({.at = pixels,
                   .naive = std::abs(without_small / full - 1),
                   .ours = std::abs(quarter / full - 1),
@@ -486,7 +486,7 @@ TEST(Numerics, G8_DepthKeysAreInTheOrderOfDepths) {
     double ours = 0, naive = 0;
     for (std::size_t i = 1; i < depths.size(); ++i) {
       ours += depths[i] > depths[i - 1] && key(depths[i]) <= key(depths[i - 1]);
-      // Of equal depths the lower face is nearer.
+      // Of two equal depths the lower face is nearer.
       ours += trainer::cuda::visible_key(depths[i], 7) <= trainer::cuda::visible_key(depths[i], 8);
     }
     for (std::size_t i = 1; i < signed_depths.size(); ++i)
@@ -494,7 +494,7 @@ TEST(Numerics, G8_DepthKeysAreInTheOrderOfDepths) {
                bits(signed_depths[i]) <= bits(signed_depths[i - 1]);
     recorder.add({.at = decades, .naive = naive, .ours = ours, .tolerance = 0});
   }
-  // What becomes a key is above 0: of faces through the eye's plane and of those far away.
+  // Inverse depths that become keys are above 0, for faces through the eye's plane and far away.
   const Camera camera = straight_camera(64, 64, 64);
   for (const float near : {1e-6f, 0.01f, 1.0f}) {
     int fragments = 0;
@@ -512,7 +512,7 @@ TEST(Numerics, G8_DepthKeysAreInTheOrderOfDepths) {
   }
 }
 
-/// A buffer of depths that lets equal ones pass: the last face to arrive wins, in this order.
+/// A depth buffer that accepts equal depths: in this order, the last face wins.
 Faces last_of_equals(const std::vector<glm::vec3>& corners, const Camera& camera,
                      const std::vector<std::uint32_t>& order) {
   const trainer::kernels::View view = trainer::view_of(camera, glm::dvec3(0), 0.01, 100);
@@ -533,27 +533,27 @@ Faces last_of_equals(const std::vector<glm::vec3>& corners, const Camera& camera
 TEST(Numerics, G9_OfCoincidentFacesTheLowerOneShowsEveryTime) {
   Recorder recorder({.stressed = "coincident faces, 100 frames each: device and trainer",
                      .parameter = "faces at one place",
-                     .unit = "pixels of 100 frames that show another face than the oracle's, and "
+                     .unit = "pixels of 100 frames that show another face than the oracle, and "
                              "than in the first frame",
                      .naive = "the last to arrive wins, in an order that changes"});
   Random random(9);
   constexpr int side = 48;
   for (const int copies : {2, 5, 20}) {
-    // No centre is nearer to an edge than 0.03 pixels, far beyond the grid of the device and what
-    // floats round: on an edge the trainer and the oracle have owners of their own.
+    // No centre is nearer to an edge than 0.03 pixels, far more than the device's grid and
+    // roundings of floats. On an edge, the trainer and the oracle choose different owners.
     std::vector<glm::vec3> corners;
     for (int i = 0; i < copies; ++i)
       corners.insert(corners.end(),
                      {{-0.91f, -1.06f, -2}, {0.95f, -0.8f, -2.5f}, {0.28f, 0.94f, -1.7f}});
     const TriangleSoup soup = soup_of(corners);
     const Camera camera = straight_camera(side, side, side);
-    // On the grid of the device and off it; the lowest face wherever there is one.
+    // On the device's grid and off it; the lowest face wherever a face covers the centre.
     const Faces on_grid = faces_of_oracle(soup, camera);
     const Faces exact = faces_of_oracle(soup, camera, oracle::Coverage::exact);
     ASSERT_GT(std::count(on_grid.begin(), on_grid.end(), 0u), side * side / 8);
     ASSERT_EQ(std::count(on_grid.begin(), on_grid.end(), 0u), shown_pixels(on_grid));
-    // As frames are, where opaque faces hide the copies behind them before anything is drawn, and
-    // with all copies drawn.
+    // With normal frames, where opaque faces hide the copies behind them before anything is drawn,
+    // and with all copies drawn.
     Renderer renderer(shared_context(), soup, glm::dvec3(0),
                       {.plan = {.site = ShadingSite::deferred}});
     Renderer of_all(shared_context(), soup, glm::dvec3(0),

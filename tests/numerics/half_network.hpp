@@ -1,5 +1,5 @@
-// Arithmetic in 16-bit floats, as a device with medium precision may compute: what tests of
-// numerics hold our shaders against.
+// Arithmetic in 16-bit floats, as on a device where mediump is 16 bits. Tests of numerics compare
+// our shaders with it.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,8 @@ inline glm::dvec3 evaluate_in_halves(const ColorMlp& mlp, std::span<const double
     const bool last = &layer == &mlp.layers.back();
     for (std::size_t o = 0; o < std::size_t(layer.outputs); ++o) {
       float sum = rounded_to_half(layer.biases[o]);
-      // Products of halves are exact in float: one rounding a step, as a fused multiply-add has.
+      // Products of halves are exact in float, so each step has one rounding, like a fused
+      // multiply-add.
       for (std::size_t i = 0; i < inputs; ++i)
         sum = rounded_to_half(sum + rounded_to_half(layer.weights[o * inputs + i]) * x[i]);
       y[o] = last ? 1.0f / (1.0f + std::exp(-sum)) : std::max(sum, 0.0f);

@@ -1,4 +1,4 @@
-// Names of faces that floats do not hold: the row T7b. (What texels such a face has is T7.)
+// Face indices that floats cannot represent: case T7b. T7 covers the texels of such a face.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -17,8 +17,8 @@
 namespace tureen::test {
 namespace large_faces_test {
 
-/// Draws one vertex as a point, the way faces are drawn, and reads which face it belongs to. There
-/// are no buffers, so that faces may be as many as they like: vertices are all at the origin.
+/// Draws one vertex as a point, as faces are drawn, and reads its face's index. There are no
+/// buffers, so face indices may be arbitrarily large; all vertices are at the origin.
 class NamedByDevice {
  public:
   NamedByDevice()
@@ -55,11 +55,12 @@ class NamedByDevice {
   gl::VertexArray nothing_ = gl::VertexArray::create();
 };
 
-/// The place of a face's first texel at level 0, as its appearance looks it up, counted again.
+/// The index of a face's first texel at level 0: computes the shader's texel position and converts
+/// it back to an index.
 class TexelOnDevice {
  public:
   std::uint64_t first_texel_of(std::uint32_t face) const {
-    // Numbers above 2^24 travel in halves of 16 bits.
+    // Numbers above 2^24 are passed as two halves of 16 bits.
     const glm::vec4 place =
         probe_.run({glm::vec4(float(face >> 16), float(face & 0xffffu), 0, 0)}).front();
     return std::uint64_t(place.x) + (std::uint64_t(place.y) << row_bits) +
@@ -84,15 +85,15 @@ class TexelOnDevice {
 };
 
 TEST(Numerics, T7b_FacesBeyondTwoToThe24KeepTheirNames) {
-  Recorder recorder({.stressed = "the name of a face from its vertex to the image: geometry.vert "
+  Recorder recorder({.stressed = "the index of a face from its vertex to the image: geometry.vert "
                                  "and visibility.frag; on to its texels at level 0; and in a key "
                                  "of the trainer on a GPU",
                      .parameter = "face",
-                     .unit = "of the three that end at another face",
-                     .naive = "names that pass through a float"});
+                     .unit = "of the three indices that arrive changed",
+                     .naive = "indices that pass through a float"});
   const NamedByDevice device;
   const TexelOnDevice texel;
-  // The last one that OpenGL counts the vertices of, too.
+  // The last index is the largest whose vertices OpenGL can count.
   for (const std::uint32_t face :
        {0u, (1u << 24) - 1, (1u << 24) + 1, (1u << 25) + 1, 0x7fffffffu / 3 - 1}) {
     const std::uint32_t in_key = trainer::cuda::face_of(trainer::cuda::visible_key(1.0f, face));

@@ -1,4 +1,4 @@
-// Stochastic masking: the rows S1 to S5.
+// Stochastic masking: cases S1 to S5.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,8 +23,8 @@ float logit_of(double alpha) {
   return alpha <= 0 ? -200.0f : alpha >= 1 ? 200.0f : float(std::log(alpha / (1 - alpha)));
 }
 
-/// Standard errors that a mean of hundreds of draws or more may be off: a normal deviate is further
-/// off once in 16,000 times. Seeds are fixed, so a test that passes once always does.
+/// Allowed error of a mean of hundreds of draws or more, in standard errors. A normal deviate
+/// exceeds it once in 16,000 times. Seeds are fixed, so results repeat.
 constexpr double max_standard_errors = 4;
 
 struct Moments {
@@ -41,16 +41,16 @@ struct Moments {
 };
 
 TEST(Numerics, S1_TheScoreStaysBoundedForEveryOpacity) {
-  Recorder recorder({.stressed =
-                         "how much one draw's gradient by opacity scatters: the score by the "
-                         "logit, with the trainer's draws",
-                     .parameter = "1 - alpha (0 stands at 1e-9)",
+  Recorder recorder({.stressed = "scatter of one draw's gradient by opacity: the score by the "
+                                 "logit, with the trainer's draws",
+                     .parameter = "1 - alpha (0 is plotted at 1e-9)",
                      .unit = "standard deviation for a loss of 0 or 1",
                      .naive = "the score by alpha, 1 / alpha and 1 / (1 - alpha)"});
   for (const double alpha : {0.0, 1e-7, 0.1, 0.5, 0.9, 0.99, 0.999, 0.9999, 1 - 1e-7, 1.0}) {
     const auto a = float(alpha);
-    // Within 2^-23 of an alpha of 1 a draw is lost so rarely: so many, that some are. At 1 none is,
-    // and the naive form, which would divide by 0 then, does not scatter either.
+    // Within 2^-23 of an alpha of 1, draws are rarely lost; this many draws contain some. At 1 no
+    // draw is lost, and the naive form, which would divide by 0 for a lost draw, does not scatter
+    // either.
     const int draws = a < 1 && 1 - a < 0x1p-20f ? 1 << 26 : 1 << 20;
     Moments by_logit, by_alpha;
     for (int i = 0; i < draws; ++i) {
@@ -63,10 +63,10 @@ TEST(Numerics, S1_TheScoreStaysBoundedForEveryOpacity) {
       by_alpha.add(loss * (won ? 1 / double(a) : -1 / (1 - double(a))));
     }
     const double truth = -double(a) * (1 - double(a));
-    // Draws are multiples of 2^-24: a probability is known to that. What happens less than once in
-    // all these draws is not seen. Either way another fragment shows or does not, for a score of
-    // alpha. Next to 1, where one draw in 2^23 is lost, this bounds the mean and does not tell its
-    // sign; next to 0 it does.
+    // Draws are multiples of 2^-24, which limits the precision of a probability. An event rarer
+    // than once in all these draws is not seen. Both change whether a fragment shows, which changes
+    // the score by alpha. Next to alpha = 1, where one draw in 2^23 is lost, this bounds the mean
+    // but does not determine its sign; next to 0 it does.
     EXPECT_NEAR(by_logit.mean(), truth,
                 max_standard_errors * by_logit.standard_error() + a * (0x1p-24 + 1.0 / draws))
         << alpha;
@@ -79,7 +79,7 @@ TEST(Numerics, S1_TheScoreStaysBoundedForEveryOpacity) {
 }
 
 TEST(Numerics, S2_NothingShowsAtAnAlphaOfZero) {
-  Recorder recorder({.stressed = "draws that accept an alpha of 0, or refuse one of 1",
+  Recorder recorder({.stressed = "draws that accept an alpha of 0, or reject an alpha of 1",
                      .parameter = "draws",
                      .unit = "wrong draws",
                      .naive = "uniform numbers of [0, 1)"});
@@ -89,7 +89,7 @@ TEST(Numerics, S2_NothingShowsAtAnAlphaOfZero) {
     for (; next < draws; ++next) {
       const float u = trainer::kernels::uniform_draw(2, next, 5);
       ours += !(u > 0) + !(u <= 1);
-      naive += 0.0f >= u - 0x1p-24f;  // the same bits, without the one that is added
+      naive += 0.0f >= u - 0x1p-24f;  // the same bits, before 2^-24 is added
     }
     recorder.add({.at = double(draws), .naive = naive, .ours = ours, .tolerance = 0});
   }
@@ -105,10 +105,10 @@ std::vector<glm::vec3> random_faces(Random& random, int count) {
 }
 
 TEST(Numerics, S3_DrawsDoNotDependOnTheOrderOfFragments) {
-  Recorder recorder({.stressed = "the same image with its tiles and faces taken in another order",
+  Recorder recorder({.stressed = "the same image with tiles and faces in another order",
                      .parameter = "faces",
                      .unit = "of 9216 pixels show another face",
-                     .naive = "a generator's numbers in the order of fragments"});
+                     .naive = "numbers from a generator in the order of fragments"});
   constexpr int side = 96;
   const Camera camera = straight_camera(side, side, side);
   Random random(3);
@@ -181,7 +181,7 @@ TEST(Numerics, S4_PixelsOfTheBackgroundTeachOpacity) {
       gradient.add(sum);
       naive.add(winners);
     }
-    // The three texels together: alpha's own derivative, of every pixel.
+    // The sum over the three texels is alpha's own derivative, summed over all pixels.
     const double truth = -alpha * (1 - alpha) * side * side;
     recorder.add({.at = alpha,
                   .naive = std::abs(naive.mean() - truth) / gradient.standard_error(),
@@ -222,7 +222,7 @@ TEST(Numerics, S5_LossAndScoreShareTheirDraw) {
       draw(step);
       take_loss();
       same.add(gathered());
-      draw(steps + step);  // and the loss of the draw before
+      draw(steps + step);  // with the loss of the previous draw
       other.add(gathered());
     }
     const double truth = (0.2 - 1) * alpha * (1 - alpha) * side * side;

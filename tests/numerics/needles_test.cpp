@@ -1,6 +1,6 @@
-// What needles show: G1b, their normals, and the row T1 where it is drawn. Interpolated at a
-// pixel's centre, barycentrics lie outside of a needle by many times its width where the samples
-// that it covers lie beside the centre, or where its corners are rounded to the grid within pixels.
+// Needles: their normals (G1b), and their texels when drawn (T1b). At a pixel's centre,
+// interpolated barycentrics can lie outside a needle by many times its width: where the covered
+// samples lie beside the centre, or where its corners are rounded to the subpixel grid.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,8 +26,8 @@ namespace needles_test {
 constexpr int side = 192;
 constexpr double low = 0.4, high = 0.6;  // of all features
 
-/// Shows sigmoid(4 (f - 1/2)) of each of the first three features: colour has the slope of its
-/// feature where that is 1/2, and less elsewhere.
+/// Shows sigmoid(4 (f - 1/2)) of each of the first three features. The colour has the feature's
+/// slope at 1/2, and a smaller slope elsewhere.
 ColorMlp one_channel_each() {
   ColorMlp mlp;
   mlp.encoding = DirectionEncoding::none;
@@ -38,8 +38,8 @@ ColorMlp one_channel_each() {
 
 double shown(double feature) { return 1 / (1 + std::exp(-4 * (feature - 0.5))); }
 
-/// A large triangle, face 0, before needles of this width in pixels. Every face goes from one end
-/// of the features' range to the other; every second needle is cut out somewhere along it.
+/// A large triangle, face 0, in front of needles with this width in pixels. Along every face,
+/// features go from one end of their range to the other. Every second needle is partly transparent.
 TriangleSoup soup_of_needles(double width) {
   Random random(1);
   std::vector<glm::vec3> corners;
@@ -81,8 +81,8 @@ TriangleSoup soup_of_needles(double width) {
   return soup;
 }
 
-/// Which face shows in each pixel and its colour there, as visibility.frag documents it: at the
-/// point of the face that simplex.glsl takes for what was interpolated.
+/// The expected face and colour of each pixel, as documented in visibility.frag: at the point of
+/// the face that simplex.glsl computes from the interpolated values.
 struct Expected {
   std::vector<std::uint32_t> faces;
   std::vector<glm::dvec3> colors;
@@ -103,19 +103,19 @@ Expected expected_of(const TriangleSoup& soup, const Camera& camera) {
   return result;
 }
 
-/// How far a channel is outside of what any point of any face shows.
+/// Distance of a channel outside the range that all points of all faces show.
 double beyond_all_texels(double channel) {
   return std::isfinite(channel) ? std::max({0.0, shown(low) - channel, channel - shown(high)})
                                 : std::numeric_limits<double>::infinity();
 }
 
-/// The same of the centres of the pixels that faces cover, where nothing is clamped.
+/// The same at the centres of the pixels that faces cover, without clamping.
 double beyond_without_clamp(const TriangleSoup& soup, const Camera& camera) {
   const auto& texture = std::get<LatticeTexture>(soup.appearance);
   double most = 0;
   const oracle::Rays rays(soup, glm::dvec3(0), camera, {.coverage = oracle::Coverage::snapped});
   rays.visit_faces(0, camera.height, [&](int column, int row, const oracle::Hit& hit) {
-    // All of a face is at one depth: barycentrics are affine in pixels.
+    // A face has a constant depth, so barycentrics are affine in pixels.
     const auto pixel = [&](std::size_t k) {
       const glm::dvec3 p(soup.positions[3 * std::size_t(hit.face) + k]);
       return glm::dvec2(camera.cx - camera.fx * p.x / p.z, camera.cy + camera.fy * p.y / p.z);
@@ -145,15 +145,15 @@ TEST(Numerics, T1b_NeedlesShowNothingBeyondTheirTexels) {
   for (const Path& path : paths) {
     Recorder recorder({.stressed = "needles whose barycentrics are extrapolated: " + path.what,
                        .parameter = "width of the needles / pixels",
-                       .unit = "how far a channel is outside of what all texels show",
-                       .naive = "sampling where interpolation arrives, without clamping"});
+                       .unit = "distance of a channel outside the range of all texels",
+                       .naive = "sampling at the interpolated point, without clamping"});
     for (const double width : {1e-3, 1e-2, 0.1, 1.0}) {
       const TriangleSoup soup = soup_of_needles(width);
       const Expected expected = expected_of(soup, camera);
       const std::vector<std::uint32_t> faces = faces_of_device(soup, camera);
       double ours = 0;
       for (const bool specialise : {true, false}) {
-        // Grey is within the range: what a needle covers a part of may show it, too.
+        // Grey is within the range, so a pixel that a needle partly covers may show it.
         const RenderOptions options{.plan = {.specialise = specialise, .site = path.site},
                                     .background = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f),
                                     .limits = {}};
@@ -167,7 +167,7 @@ TEST(Numerics, T1b_NeedlesShowNothingBeyondTheirTexels) {
           for (int x = 0; x < side; ++x) {
             const glm::u8vec4 pixel = image.at(x, y);
             for (int c = 0; c < 3; ++c) ours = worse(ours, beyond_all_texels(pixel[c] / 255.0));
-            // Right of the large face, whatever is not grey.
+            // Count pixels right of the large face that are not grey.
             by_needles += x > 75 && std::abs(pixel.r - 127.5) > 2;
             const std::size_t i = std::size_t(y) * side + std::size_t(x);
             const std::uint32_t face = expected.faces[i];
@@ -178,13 +178,13 @@ TEST(Numerics, T1b_NeedlesShowNothingBeyondTheirTexels) {
           }
         EXPECT_GT(by_needles, 20) << path.what << ' ' << width;
         EXPECT_GT(compared, 20);
-        // Half a step of 8 bits; two barycentrics of 16 bits, which the visibility buffer has; and
-        // the rounding of the planes of two barycentrics, which rise by 1 over the width of a
-        // needle, at the far side of the image.
+        // Half a step of 8 bits; two barycentrics of 16 bits in the visibility buffer; and, at the
+        // far side of the image, the rounding of two barycentrics' planes, whose slope is 1 /
+        // width.
         const double tolerance = 0.5 / 255 + (high - low) * (0x1p-16 + 2 * side / width * epsilon);
         EXPECT_LE(off, tolerance) << path.what << ' ' << width;
       }
-      // Half a step of 8 bits, and as much for the rounding of weights.
+      // Half a step of 8 bits, and the same again for the rounding of weights.
       recorder.add({.at = width,
                     .naive = beyond_without_clamp(soup, camera),
                     .ours = ours,
@@ -195,7 +195,7 @@ TEST(Numerics, T1b_NeedlesShowNothingBeyondTheirTexels) {
 
 TEST(Numerics, G1b_NeedlesHaveANormal) {
   Recorder recorder({.stressed = "the normal of needles whose edges have a product of 0 in floats, "
-                                 "though not exactly: face_corners.glsl",
+                                 "but not exactly: face_corners.glsl",
                      .parameter = "the edges' slope",
                      .unit = "the length's difference from 1",
                      .naive = "the product divided by its length",
@@ -212,7 +212,7 @@ TEST(Numerics, G1b_NeedlesHaveANormal) {
     while (needles.size() < 100) {
       const auto along = float(random.uniform(0.3, 0.9));
       const float across = slope * along;
-      if (double(across) == double(slope) * double(along)) continue;  // without area in truth, too
+      if (double(across) == double(slope) * double(along)) continue;  // the exact area is 0, too
       needles.emplace_back(slope, along, across, 0);
       const double length =
           glm::length(glm::normalize(glm::cross(glm::vec3(1, slope, 0), {along, across, 0})));
@@ -221,7 +221,7 @@ TEST(Numerics, G1b_NeedlesHaveANormal) {
     double ours = 0;
     for (const glm::vec4& normal : probe.run(needles))
       ours = worse(ours, std::abs(glm::length(glm::dvec3(normal)) - 1));
-    // As V1c, of a device that makes another number than 0 of the product, by one rounding of two.
+    // As in V1c, on a device that computes a non-zero product by rounding one of two terms.
     recorder.add({.at = slope, .naive = naive, .ours = ours, .tolerance = (3 * 0.5 + 3) * epsilon});
   }
 }

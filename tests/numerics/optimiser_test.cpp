@@ -1,4 +1,4 @@
-// The optimiser and the loss: the rows O1 to O7.
+// The optimiser and the loss: cases O1 to O7.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,12 +35,12 @@ kernels::AdamStep step_at(double t, float rate = 1) {
   return kernels::adam_step(rate, defaults.beta1, defaults.beta2, defaults.epsilon, t);
 }
 
-/// Adam on noise: a run's own schedule, moments and state, of gradients that are none of an image.
-/// Takes note of how long steps are.
+/// Adam on noise: a run's schedule, moments and state, with random gradients that come from no
+/// image. Records the length of steps.
 class NoiseBackend final : public trainer::Backend {
  public:
   struct Steps {
-    double mean = 0, deviation = 0;  // of |step| in rates, over all logits
+    double mean = 0, deviation = 0;  // of |step| over all logits, in units of the rate
   };
 
   explicit NoiseBackend(std::vector<Steps>& steps) : steps_(steps) {}
@@ -80,23 +80,22 @@ class NoiseBackend final : public trainer::Backend {
   Random random_{1};
 };
 
-// What becomes of the moments of faces that come and go:
-// Schedule.MomentsFollowTheirFacesThroughAResampling.
+// Schedule.MomentsFollowTheirFacesThroughAResampling covers the moments of new and removed faces.
 TEST(Numerics, O1_RestartedMomentsKick) {
   Recorder recorder({.stressed =
-                         "the mean step of noise after a run's resampling, against the steady "
+                         "the mean step of noise after a resampling, compared with the steady "
                          "state before it",
-                     .parameter = "steps since",
-                     .unit = "steps of the rate beyond the steady state",
-                     .naive = "moments begin again at every resampling"});
+                     .parameter = "steps since the resampling",
+                     .unit = "difference from the steady state / rates",
+                     .naive = "moments are reset at every resampling"});
   constexpr int faces = 100, steady_from = 1000, averaged = 100;
   trainer::Config config;
   config.steps = 2 * steady_from;
   config.resample_every = steady_from;
-  config.triangles = faces;  // the budget is met, so that no face is new
+  config.triangles = faces;  // already the budget, so no face is new
   config.turnover = 0;
   config.coarse_level = config.min_level = config.max_level = 0;
-  config.lift_at = 0;  // as moments begin again there
+  config.lift_at = 0;  // the lift resets moments, too
   std::vector<trainer::TrainingView> views(1);
   views[0].camera = straight_camera(8, 8, 8);
   views[0].target.assign(3 * 64, 0);
@@ -110,7 +109,7 @@ TEST(Numerics, O1_RestartedMomentsKick) {
     std::vector<NoiseBackend::Steps> steps;
     trainer::Trainer trainer(config, views, std::make_unique<NoiseBackend>(steps), state);
     while (trainer.steps_done() < steady_from) trainer.step();
-    // In another order, or nothing would have to follow.
+    // The order must change, otherwise the test would prove nothing.
     EXPECT_NE(trainer.state().model.positions, state.model.positions);
     EXPECT_EQ(trainer.state().model.faces(), std::size_t(faces));
     while (trainer.steps_done() < steady_from + averaged) trainer.step();
@@ -124,12 +123,12 @@ TEST(Numerics, O1_RestartedMomentsKick) {
   const double logits = double(state.model.logits.size());
   struct Row {
     int since;
-    double kick;  // the catalogue's mean step in rates after a restart, of two digits
+    double kick;  // the catalogue's mean step after a reset, in rates, two digits
   };
   for (const auto& [since, kick] : {Row{1, 1.00}, Row{2, 0.64}, Row{10, 0.27}, Row{100, 0.18}}) {
     const auto at = std::size_t(steady_from + since - 1);
-    // Four standard errors, which chance exceeds once in 16,000 times, of the difference of two
-    // means, each of all logits: the steady one, of many steps, is the better known.
+    // Four standard errors of the difference of two means over all logits; chance exceeds this once
+    // in 16,000 times. The steady mean averages many steps, so its error is smaller.
     const double standard_error = carried[at].deviation * std::sqrt(2 / logits);
     EXPECT_NEAR(restarted[at].mean, kick, 0.005 + 4 * restarted[at].deviation / std::sqrt(logits))
         << since;
@@ -141,12 +140,11 @@ TEST(Numerics, O1_RestartedMomentsKick) {
 }
 
 TEST(Numerics, O2_GradientsNextToNothingMoveNothing) {
-  Recorder recorder(
-      {.stressed = "gradients of next to nothing, the first step of Adam and VectorAdam",
-       .parameter = "gradient",
-       .unit = "step in rates",
-       .naive = "an epsilon of 1e-15"});
-  // The tolerance below is by this epsilon, whatever it is.
+  Recorder recorder({.stressed = "tiny gradients, the first step of Adam and VectorAdam",
+                     .parameter = "gradient",
+                     .unit = "step / rates",
+                     .naive = "an epsilon of 1e-15"});
+  // The tolerance below uses this epsilon.
   EXPECT_GE(defaults.epsilon, 1e-8f);
   for (const float gradient : {1e-44f, 1e-30f, 1e-20f, 1e-16f, 1e-14f, 1e-12f}) {
     float value = 0, first = 0, second = 0;
@@ -156,8 +154,8 @@ TEST(Numerics, O2_GradientsNextToNothingMoveNothing) {
     float naive = 0, naive_first = 0, naive_second = 0;
     kernels::adam(kernels::adam_step(1, defaults.beta1, defaults.beta2, 1e-15f, 1), gradient, naive,
                   naive_first, naive_second);
-    // Where the square is lost, what is left is gradient / epsilon; 1 - beta1 is known to 6e-7, and
-    // a first moment below the normal numbers to one of their steps.
+    // Where the square underflows, the step is gradient / epsilon. 1 - beta1 has a relative error
+    // of 6e-7; a subnormal first moment has an error of one of its steps.
     recorder.add({.at = double(gradient),
                   .naive = std::abs(double(naive)),
                   .ours = std::max(std::abs(double(value)), std::abs(double(vector[0]))),
@@ -167,7 +165,7 @@ TEST(Numerics, O2_GradientsNextToNothingMoveNothing) {
   }
 }
 
-/// Takes note of the rates that a Trainer asks for.
+/// Records the rates that a Trainer passes.
 class RatesBackend final : public trainer::Backend {
  public:
   explicit RatesBackend(std::vector<trainer::Rates>& rates) : rates_(rates) {}
@@ -224,9 +222,9 @@ TEST(Numerics, O3_RatesDecayToTheirEnd) {
     float multiplied = config.texture_rate;
     const float factor = std::pow(config.decay, 1.0f / float(steps));
     for (int i = 0; i < steps; ++i) multiplied *= factor;
-    // The first step has decayed once already.
+    // The first step has already decayed once.
     const double first = double(config.texture_rate) * std::pow(double(config.decay), 1.0 / steps);
-    // A double that becomes a float.
+    // A double rounded to a float.
     recorder.add({.at = double(steps),
                   .naive = std::abs(double(multiplied) / end - 1),
                   .ours = std::max(std::abs(double(rates.back().texture) / end - 1),
@@ -236,7 +234,7 @@ TEST(Numerics, O3_RatesDecayToTheirEnd) {
 }
 
 TEST(Numerics, O4_StepsTurnWithTheAxes) {
-  Recorder recorder({.stressed = "200 steps of a corner, in axes that are turned: VectorAdam",
+  Recorder recorder({.stressed = "200 steps of a corner, in rotated axes: VectorAdam",
                      .parameter = "angle / degrees",
                      .unit = "units, at steps of 0.01",
                      .naive = "Adam, coordinate by coordinate"});
@@ -267,26 +265,26 @@ TEST(Numerics, O4_StepsTurnWithTheAxes) {
       naive = worse(naive, off(plain[0], plain[1]));
       length += 0.01;
     }
-    // A step of at most 0.01 has its gradient rounded, moments and a quotient, six roundings; the
-    // value, at most the way so far, is rounded once a step. Two trajectories, and roundings of
-    // either sign add up as the root of their number.
+    // A step of at most 0.01 has six roundings: its gradient, moments and a quotient. Each step
+    // also rounds the value, which is at most the sum of the steps so far. There are two
+    // trajectories; roundings with random signs add up as the root of their number.
     const double tolerance = 2 * std::sqrt(3.0) * std::sqrt(200.0) * (6 * 0.01 + length) * epsilon;
     recorder.add({.at = degrees, .naive = naive, .ours = ours, .tolerance = tolerance});
   }
 }
 
-// What becomes of the weights: R3b, and CpuStep in tests/trainer.
+// R3b, and CpuStep in tests/trainer, cover the weights.
 TEST(Numerics, O5_APixelThatIsNoNumberIsMaskedAndCounted) {
   Recorder recorder({.stressed =
-                         "the network's gradient where pixels are no numbers, against that of "
+                         "the network's gradient where pixels are not finite, against that of "
                          "the same images without them: both backends",
-                     .parameter = "pixels that are none, of 1280",
-                     .unit = "largest difference of a derivative, in the largest of them",
-                     .naive = "the derivatives of all pixels added up"});
+                     .parameter = "non-finite pixels of 1280",
+                     .unit = "largest difference of a derivative / largest derivative",
+                     .naive = "the sum of all pixels' derivatives"});
   constexpr int width = 40, height = 32, strips = 8;
   const Camera camera = straight_camera(width, height, height);
-  // Strips side by side, opaque whatever is drawn, so that pixels that a caller leaves out are
-  // those of the same faces.
+  // Strips side by side, opaque for every draw, so that the pixels ignored by a view belong to the
+  // same faces.
   trainer::TrainingState state;
   for (int i = 0; i < strips; ++i)
     for (int half = 0; half < 2; ++half) {
@@ -342,7 +340,7 @@ TEST(Numerics, O5_APixelThatIsNoNumberIsMaskedAndCounted) {
     double ours = 0;
     for (const bool kernels : {false, true}) {
       const Step masked = step_of(kernels, bad, view), expected = step_of(kernels, state, without);
-      // And the textures of those faces, whose gradient is none.
+      // Each bad face's texture has a non-finite gradient and is counted, too.
       EXPECT_EQ(masked.non_finite, std::uint64_t(bad_pixels) + bad_faces) << kernels;
       EXPECT_EQ(expected.non_finite, 0u) << kernels;
       double largest = 0, most = 0;
@@ -353,7 +351,7 @@ TEST(Numerics, O5_APixelThatIsNoNumberIsMaskedAndCounted) {
       ASSERT_GT(largest, 0) << kernels;
       ours = worse(ours, most / largest);
     }
-    // One of these pixels, added to the others.
+    // The naive form: the derivatives of one bad pixel, added to the sum.
     trainer::MlpParameters sum{};
     kernels::NetworkState<float> pixel{};
     pixel.input[trainer::blend_channel] = std::numeric_limits<float>::quiet_NaN();
@@ -363,7 +361,7 @@ TEST(Numerics, O5_APixelThatIsNoNumberIsMaskedAndCounted) {
     kernels::shade_backward(state.model.mlp.data(), pixel, by_color, sum.data(), by_features);
     double naive = 0;
     for (const float derivative : sum) naive = worse(naive, double(derivative));
-    // The same sums, with zeros where those pixels are: nothing is rounded otherwise.
+    // The same sums with zeros for those pixels, so there is no other rounding.
     recorder.add({.at = bad_pixels, .naive = naive, .ours = ours, .tolerance = 0});
   }
 }
@@ -372,7 +370,7 @@ TEST(Numerics, O6_SumsDoNotDependOnTheirOrder) {
   Recorder recorder(
       {.stressed = "a sum of gradients in two orders: fixed point of the CUDA backend",
        .parameter = "terms",
-       .unit = "relative difference of the two",
+       .unit = "relative difference of the two sums",
        .naive = "atomic additions of floats"});
   Random random(6);
   for (const int terms : {100, 10'000, 1'000'000}) {
@@ -400,7 +398,8 @@ TEST(Numerics, O6_SumsDoNotDependOnTheirOrder) {
                   .naive = std::abs(in_floats(gradients) - in_floats(shuffled)) / magnitude,
                   .ours = std::abs(fixed(gradients) - fixed(shuffled)) / magnitude,
                   .tolerance = 0});
-    // And it is the sum: a unit of the scale for each term, of which one is 2^-50.
+    // The result is also the correct sum: each term has an error of at most one unit of the scale,
+    // 2^-50.
     const double truth = std::accumulate(gradients.begin(), gradients.end(), 0.0);
     EXPECT_NEAR(fixed(gradients), truth, terms * 0x1p-50 + std::abs(truth) * epsilon);
   }
@@ -415,7 +414,7 @@ TEST(Numerics, O7_FlatImagesHaveNoNegativeVariance) {
   constexpr int side = 24;
   for (const int level : {1, 32, 128, 200, 254}) {
     std::vector<float> rendered(3 * side * side), gradient(3 * side * side);
-    // Brighter by a step, and by so little noise that its variance is lost in floats.
+    // Brighter by one step, with noise so small that its variance is lost in floats.
     Random random(9000u + std::uint32_t(level));
     std::vector<std::uint8_t> target(3 * side * side, std::uint8_t(level));
     for (float& value : rendered) value = (float(level) + 1 + 1e-3f * float(random.normal())) / 255;
@@ -460,20 +459,19 @@ TEST(Numerics, O7_FlatImagesHaveNoNegativeVariance) {
           ++windows;
         }
     naive /= windows;
-    // The photograph's byte is rounded, by half a unit of its brightness: so many units of a
-    // difference of 1/255, and twice as many of its square.
+    // The photograph's byte / 255 is rounded, by half a unit of its brightness. Relative to a
+    // difference of 1/255 this is `level` times as much, and twice that for the square.
     const double of_bytes = 2 * level;
-    // The variance of d, which is next to nothing, is the difference of two means about d^2 that
-    // are rounded some 50 times (three numbers weighed by eleven and eleven), of either sign, by
-    // sqrt(1/3) of a unit in the mean; it counts B1 / C2 times as much as d^2, and chance takes
-    // most of it out of the mean over the windows: four deviations.
+    // The variance of d is close to 0. It is the difference of two means of about d^2, which have
+    // about 50 roundings (three numbers weighted eleven times, twice), with random signs and
+    // sqrt(1/3) of a unit each. Its weight is B1 / C2 times that of d^2. The mean over the windows
+    // reduces it; the bound is four deviations.
     const double brightness = (2 * level + 1) / 255.0, b1 = brightness * brightness / 2 + c1;
     const double of_variances = 4 * std::sqrt(50 / 3.0) * b1 / double(c2) / std::sqrt(windows);
-    // What else there is, factors of d^2 / B1, are twice the 32 roundings of means in each square
-    // and a dozen of their own.
+    // The other factors of d^2 / B1 have twice the 32 roundings of means in each square, and a
+    // dozen of their own.
     const double others = 2 * 2 * 32 + 12;
-    // Of bright images four deviations are more than 3 x 255, which was allowed before this was
-    // worked out and has been enough.
+    // For bright images, four deviations exceed 3 x 255, the earlier bound, which has been enough.
     const double tolerance = std::min(of_bytes + of_variances + others, 3.0 * 255) * epsilon;
     recorder.add({.at = level / 255.0,
                   .naive = std::abs(naive / truth - 1),

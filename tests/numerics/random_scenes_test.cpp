@@ -1,4 +1,5 @@
-// Random scenes that mix what can go wrong with geometry, drawn by all that draw: the row H10.
+// Random scenes that mix geometric hazards, drawn by the oracle, the device and the trainer: case
+// H10.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,10 +24,10 @@ namespace random_scenes_test {
 
 constexpr int width = 240, height = 180;
 
-/// Before the nearest pixel of any of the scenes, as the oracle's is.
+/// Nearer than the nearest pixel of any scene, like the oracle's near plane.
 constexpr float trained_near = 1e-6f;
 
-/// What the trainer draws of a model, its colours in 8 bits as the device has them.
+/// The trainer's image of a model, with 8-bit colours as on the device.
 Drawn drawn_by_trainer(const trainer::Model& model, const Camera& camera) {
   trainer::Config config;
   config.near = trained_near;
@@ -55,7 +56,7 @@ Drawn drawn_by_trainer(const trainer::Model& model, const Camera& camera) {
   return drawn;
 }
 
-/// Whether an edge of a face, or the line that goes on from it, passes within a pixel of a place.
+/// Whether an edge of a face, or its extension, passes within a pixel of a point.
 bool at_outline(const HazardousScene& scene, std::uint32_t face, glm::dvec2 place) {
   if (face == no_face) return false;
   // Homogeneous: no division by a depth of 0.
@@ -68,9 +69,9 @@ bool at_outline(const HazardousScene& scene, std::uint32_t face, glm::dvec2 plac
   return false;
 }
 
-/// Pixels with different faces that no rounding of corners explains: neither does another face
-/// show next to them, nor has one of the two its outline there, as a face below a pixel has it
-/// everywhere.
+/// The number of pixels with different faces that no rounding of corners explains: no neighbour
+/// shows another face, and neither face has its outline there. (A face below a pixel has its
+/// outline everywhere.)
 double differing_away_from_outlines(const HazardousScene& scene,
                                     const std::vector<std::uint32_t>& expected,
                                     std::vector<std::uint32_t> drawn) {
@@ -85,14 +86,14 @@ double differing_away_from_outlines(const HazardousScene& scene,
   return differing_away_from_edges(expected, drawn, width, height);
 }
 
-/// How one of those that draw is held against the oracle.
+/// Compares one renderer with the oracle.
 class Comparison {
  public:
   explicit Comparison(const std::string& who)
       : faces_({.stressed = "random scenes that mix G1 to G9: " + who,
                 .parameter = "seed",
-                .unit = "fraction of pixels that one alone covers, or that show another face, "
-                        "whichever is larger"}),
+                .unit = "fraction of pixels that only one covers, or that show another face, "
+                        "the larger of the two"}),
         away_({.stressed = "the same, away from edges: " + who,
                .parameter = "seed",
                .unit = "pixels that show another face"}),
@@ -109,18 +110,18 @@ class Comparison {
       for (int c = 0; c < 4; ++c) ASSERT_TRUE(std::isfinite(pixel[c])) << seed;
     const AgreementLimits limits;
     const Agreement found = agreement(expected, drawn);
-    ASSERT_GE(found.compared, limits.min_compared) << seed << ": there is hardly anything";
-    // The catalogue's 1e-4, four pixels here. Roundings of a corner, vertex_rounding of
-    // 240 pixels, may move an edge across 3e-4 of the pixels at edges, which are up to a
-    // quarter of the image: three. A needle's are an edge on both sides, and some alphas and
-    // depths floats cannot tell apart.
+    ASSERT_GE(found.compared, limits.min_compared) << seed << ": too few pixels to compare";
+    // The catalogue's bound of 1e-4 is four pixels here. Roundings of a corner (vertex_rounding of
+    // 240 pixels) may move an edge across 3e-4 of the pixels at edges. These are up to a quarter of
+    // the image, so three pixels change. A needle has an edge on both sides, and floats cannot
+    // distinguish some alphas and depths.
     faces_.add({.at = double(seed),
                 .ours = std::max(found.coverage_mismatch, found.face_mismatch),
                 .tolerance = 1e-4});
     away_.add({.at = double(seed),
                .ours = differing_away_from_outlines(scene, expected.face, drawn.faces),
                .tolerance = 0});
-    // That of 55 dB, for the reason that AgreementLimits has.
+    // The error at 55 dB; AgreementLimits gives the reason.
     colors_.add({.at = double(seed),
                  .ours = std::pow(10.0, -found.psnr / 20),
                  .tolerance = std::pow(10.0, -limits.min_psnr / 20)});
@@ -134,7 +135,7 @@ class Comparison {
 
 TEST(Numerics, H10_RandomScenesLookTheSameToAllThree) {
   Comparison device("device against oracle");
-  Comparison trained("trainer, of what it makes of the scene, against oracle");
+  Comparison trained("trainer, with its model of the scene, against oracle");
   std::map<Hazard, int> shown;  // pixels
   for (int seed = 1; seed <= 36; ++seed) {
     const Kind kind = all_kinds[std::size_t(seed) % all_kinds.size()];

@@ -34,7 +34,7 @@ void Recorder::add(const Measurement& measured) {
   measurements_.push_back(measured);
 }
 
-// NOLINTNEXTLINE(bugprone-exception-escape): what cannot be written ends the tests, as it should.
+// NOLINTNEXTLINE(bugprone-exception-escape): a failed write must end the tests.
 Recorder::~Recorder() {
   EXPECT_FALSE(measurements_.empty()) << case_.stressed << ": nothing was measured";
   if (!case_.naive.empty()) {

@@ -1,5 +1,5 @@
-// What may not change an image, and scenes at scale: the rows H1 to H7, which are
-// metamorphic relations (what is known of two images where neither is), H8 and H9.
+// Changes that must not change an image (H1 to H7), and scenes at scale (H8 and H9). H1 to H7 are
+// metamorphic relations: they compare two images whose correct pixels are both unknown.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,19 +24,19 @@ namespace relations_test {
 constexpr int width = 240, height = 180;
 constexpr double pixels = double(width) * height;
 
-/// Expects that a thousand pixels show a face: of empty images every relation holds.
+/// Expects at least a thousand pixels that show a face: every relation holds for empty images.
 Drawn drawn(const TriangleSoup& soup, const Camera& camera, glm::dvec3 origin = glm::dvec3(0)) {
   Drawn image = draw(shared_context(), soup, origin, camera);
   EXPECT_GT(shown_pixels(image.faces), 1000);
   return image;
 }
 
-/// Where roundings are others, colours are: by far less than a step of 8 bits, but of two such
-/// colours one may become the next byte. By two steps bytes differ only where a colour does by more
-/// than one, which is another face, or another texel, and no rounding.
+/// Different roundings change colours by far less than a step of 8 bits, but may change the
+/// resulting byte by one. A change of two steps means a colour change above one step: another face
+/// or another texel, not rounding.
 constexpr int one_step = 1;
 
-/// Fraction of pixels of which a channel differs by more than `steps` of 8 bits.
+/// Fraction of pixels with a channel that differs by more than `steps` of 8 bits.
 double changed(const Image8& a, const Image8& b, int steps = 0) {
   double count = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i) {
@@ -59,12 +59,12 @@ double edges(const Drawn& image) {
   return count / pixels;
 }
 
-/// The fraction of pixels that may change where corners are so many pixels apart in two images.
-/// An edge passes no more centres in the mean than the area that it sweeps, which is its length
-/// times that; and of an edge's length no more than 2 comes on each of the pixels along it that
-/// edges() counts (a diagonal has sqrt(2)). That corners are snapped to 1/256 of a pixel changes
-/// nothing in the mean: one that moved by a tenth of that is snapped elsewhere one time in ten.
-/// A pixel is added, as what is expected is often less than one, and those that changed are whole.
+/// The fraction of pixels that may change if corners move by `apart` pixels between two images. On
+/// average, an edge passes as many centres as the area that it sweeps, its length times `apart`.
+/// Each pixel along an edge that edges() counts contains an edge length of at most 2 (a diagonal
+/// has sqrt(2)). Snapping corners to 1/256 of a pixel does not change the average: a corner that
+/// moves by a tenth of a step snaps to another place one time in ten. One pixel is added because
+/// the expected number is often below one, and pixels are whole.
 double swept(double apart, const Drawn& image) { return 2 * apart * edges(image) + 1 / pixels; }
 
 /// Vertices on a grid of an eighth, so that shifts by powers of two up to 2^20 are exact.
@@ -90,7 +90,7 @@ TEST(Numerics, H1_TranslatedImagesAreTheSame) {
       const glm::vec3 shift = std::ldexp(1.0f, k) * glm::vec3(1, -1, 1);
       TriangleSoup moved = soup;
       for (glm::vec3& p : moved.positions) p += shift;
-      // Everything is exact, so that every number on the way is the same.
+      // All arithmetic is exact, so every intermediate number is the same.
       const Camera before = camera_about({0, 0, 0}, 1);
       Camera after = before;
       after.view_from_world =
@@ -103,17 +103,17 @@ TEST(Numerics, H1_TranslatedImagesAreTheSame) {
 
 const double moved_by_rounding = vertex_rounding(height);  // a vertex, in pixels
 
-/// How far the eye of a camera about a place so far away is off, in pixels of what lies 24 units
-/// before it: the camera's translation is three products of the offset, and so is the eye that is
-/// made of it: twelve roundings to doubles an axis.
+/// Error of the eye of a camera about a place at distance `offset`, in pixels of a point 24 units
+/// in front of it. The camera's translation is three products of the offset, and the eye is
+/// computed from it the same way: twelve roundings to doubles per axis.
 double eye_rounding(const Camera& camera, double offset) {
   return std::sqrt(3.0) * 12 * offset * 0x1p-53 / 24 * camera.fy;
 }
 
-// An eye that floats hold would not need its low half.
+// An eye exact in floats would not need its low half.
 TEST(Numerics, H1c_AnEyeBetweenFloatsSeesTheSame) {
   Recorder recorder({.stressed =
-                         "soup and camera moved by powers of two, from an eye that no floats hold: "
+                         "soup and camera moved by powers of two, from an eye not exact in floats: "
                          "whole images",
                      .parameter = "offset / units",
                      .unit = "fraction of pixels changed by more than a step of 8 bits"});
@@ -128,7 +128,7 @@ TEST(Numerics, H1c_AnEyeBetweenFloatsSeesTheSame) {
     Camera after = before;
     after.view_from_world =
         before.view_from_world * glm::translate(glm::dmat4(1), -glm::dvec3(shift));
-    // A vertex is rounded anew in both images, and the low half of the eye with it, to far less.
+    // Both images round a vertex again. The eye's low half is rounded by far less.
     const double apart = eye_rounding(before, std::ldexp(1.0, k)) + 2 * moved_by_rounding;
     recorder.add({.at = std::ldexp(1.0, k),
                   .ours = changed(expected.color, drawn(moved, after).color, one_step),
@@ -147,7 +147,8 @@ TEST(Numerics, H1b_AnOriginMovesNothing) {
     const glm::dvec3 shift = std::ldexp(1.0, k) * glm::dvec3(1, -1, 1);
     Camera after = before;
     after.view_from_world = before.view_from_world * glm::translate(glm::dmat4(1), -shift);
-    // The vertices are the same numbers in both: what the eye is off rounds them anew, once.
+    // The vertices are the same numbers in both images. The error of the eye rounds them again,
+    // once.
     const double apart = eye_rounding(before, std::ldexp(1.0, k)) + moved_by_rounding;
     recorder.add({.at = std::ldexp(1.0, k),
                   .ours = changed(expected.color, drawn(soup, after, shift).color, one_step),
@@ -175,16 +176,16 @@ TEST(Numerics, H2_ScaledImagesAreTheSame) {
   }
 }
 
-/// How far apart corners are in two images of a soup on a grid, of which one has its vertices
-/// rounded anew: each axis by half a unit of 8, at a distance of 15 and more; and either has the
-/// roundings on their way.
+/// Distance of corners between two images of a soup on a grid, one with its vertices rounded again.
+/// Rounding changes each axis by half a unit of 8, at a distance of at least 15. Each image adds
+/// the roundings of the transformation.
 double apart_by_new_vertices(const Camera& camera) {
   return std::sqrt(3.0) * 8 * epsilon / 15 * camera.fy + 2 * moved_by_rounding;
 }
 
-// Where nothing is a power of two, every number on the way is rounded anew.
+// No factor is a power of two, so every intermediate number is rounded differently.
 TEST(Numerics, H2b_ScaledByAnythingTheyAreAlmost) {
-  Recorder recorder({.stressed = "soup and camera scaled by no powers of two: whole images",
+  Recorder recorder({.stressed = "soup and camera scaled by other factors: whole images",
                      .parameter = "scale",
                      .unit = "fraction of pixels changed by more than a step of 8 bits"});
   const Camera before = camera_about({0, 0, 0}, 1);
@@ -209,7 +210,7 @@ TEST(Numerics, H2b_ScaledByAnythingTheyAreAlmost) {
 }
 
 TEST(Numerics, H3_TurnedImagesAreTheSame) {
-  Recorder recorder({.stressed = "soup and camera turned together: whole images",
+  Recorder recorder({.stressed = "soup and camera rotated together: whole images",
                      .parameter = "angle / degrees",
                      .unit = "fraction of pixels changed by more than a step of 8 bits"});
   const TriangleSoup soup = on_a_grid(Kind::lattice);
@@ -228,7 +229,7 @@ TEST(Numerics, H3_TurnedImagesAreTheSame) {
   }
 }
 
-/// The faces in another order, with what they own.
+/// The faces in another order, with their appearance.
 TriangleSoup permuted(const TriangleSoup& soup, const std::vector<std::uint32_t>& order) {
   TriangleSoup result = soup;
   for (std::size_t t = 0; t < order.size(); ++t) {
@@ -263,8 +264,8 @@ TEST(Numerics, H4_PermutedFacesMakeTheSameImage) {
   }
 }
 
-/// Every face cut at its edges' midpoints into four, each with the quarter of the lattice that it
-/// covers, a level lower: the very same texels at the very same places.
+/// Every face cut at its edges' midpoints into four. Each has the quarter of the lattice that it
+/// covers, one level lower: the same texels at the same places.
 TriangleSoup split_in_four(const TriangleSoup& soup) {
   const auto& from = std::get<LatticeTexture>(soup.appearance);
   TriangleSoup result;
@@ -273,7 +274,7 @@ TriangleSoup split_in_four(const TriangleSoup& soup) {
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
     const LatticePatch patch = from.patches[t];
     const int n = lattice::resolution(int(patch.level)), half = n / 2;
-    // Corners of the four as (x, y) on the parent's lattice: those with weight 1 of vertex 0, 1, 2.
+    // Corners of the four as (x, y) on the parent's lattice, in the order of vertices 0, 1, 2.
     const std::array<std::array<glm::ivec2, 3>, 4> children = {
         {{{{n, 0}, {half, half}, {half, 0}}},
          {{{half, half}, {0, n}, {0, half}}},
@@ -316,8 +317,8 @@ TEST(Numerics, H5_SplitFacesShowTheSameTexture) {
         {.kind = Kind::lattice, .faces = 40, .size = 0.5, .level = level, .float_texels = true});
     const Camera camera = look_at({4, 1.5, 1}, {0, 0, 0}, {0, 0, 1}, 0.8, width, height);
     const Drawn before = drawn(soup, camera);
-    // Midpoints are snapped to 1/256 of a pixel: an outline is off by half of that at most, and a
-    // quarter in the mean. Alpha's own edges move by roundings alone.
+    // Midpoints are snapped to 1/256 of a pixel: an outline moves by at most half of that, a
+    // quarter on average. The edges in alpha move by roundings alone.
     recorder.add({.at = double(level),
                   .ours = changed(before.color, drawn(split_in_four(soup), camera).color, one_step),
                   .tolerance = swept(0.25 / 256, before)});
@@ -325,8 +326,8 @@ TEST(Numerics, H5_SplitFacesShowTheSameTexture) {
 }
 
 TEST(Numerics, H6_TransparentDuplicatesChangeNothing) {
-  Recorder recorder({.stressed = "every face once more, before itself, with an alpha of 0: whole "
-                                 "pictures",
+  Recorder recorder({.stressed = "every face duplicated, the copy first, with an alpha of 0: whole "
+                                 "images",
                      .parameter = "faces",
                      .unit = "fraction of pixels changed"});
   for (const int faces : {20, 100, 400}) {
@@ -376,9 +377,9 @@ TEST(Numerics, H7_MirroredScenesMakeMirroredImages) {
     Image8 after = drawn(mirrored, camera).color;
     for (int y = 0; y < height; ++y)
       std::reverse(after.pixels.begin() + y * width, after.pixels.begin() + (y + 1) * width);
-    // Negated, a number is rounded alike, but from the left border coordinates are others: either
-    // image has its roundings. (One that lies exactly half way between two steps of 1/256 is
-    // snapped to the other side; chance makes none.)
+    // Negated numbers have the same roundings, but coordinates from the left border differ, so each
+    // image has its own roundings. (A coordinate exactly half way between two steps of 1/256 would
+    // be snapped to the other side; this seed has none.)
     recorder.add({.at = double(seed),
                   .ours = changed(before.color, after, one_step),
                   .tolerance = swept(2 * moved_by_rounding, before)});
@@ -387,12 +388,12 @@ TEST(Numerics, H7_MirroredScenesMakeMirroredImages) {
 
 TEST(Numerics, H8_OneTriangleAroundTheEye) {
   Recorder recorder({.stressed =
-                         "one triangle of size 1 closely before the eye, all around it: device "
+                         "one triangle of size 1 close before the eye, filling the view: device "
                          "and oracle",
                      .parameter = "its distance / its size",
                      .unit = "pixels from the image's border to the innermost that it does not "
                              "cover",
-                     .naive = "near at a thousandth of the radius, as 24 bits want it"});
+                     .naive = "near at a thousandth of the radius, for 24 bits"});
   const Camera camera = straight_camera(width, height, height);
   for (const double distance : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
     const auto z = float(-distance);
@@ -409,17 +410,16 @@ TEST(Numerics, H8_OneTriangleAroundTheEye) {
     const double ours = innermost_hole(faces_of_device(soup, camera)),
                  naive = innermost_hole(with_24_bits);
     EXPECT_EQ(innermost_hole(faces_of_oracle(soup, camera)), 0) << distance;
-    // Where an edge meets a border of the image its corner is a + t (b - a), with b - a up to 1.4
-    // and t about a half: two distances to the border and the quotient t of one by their
-    // difference, b - a and the product are five roundings of a value of 0.7, of either sign, which
-    // add up as the root of their number. At that distance the image shows them enlarged. A
-    // centre is half a pixel from the border: until a band is so wide there is no hole.
+    // Where an edge meets a border of the image, its corner is a + t (b - a), with b - a up to 1.4
+    // and t about a half. Two distances to the border, their quotient t, b - a and the product make
+    // five roundings of a value of 0.7. Their signs are random, so they add up as the root of their
+    // number. The image enlarges them by this distance. A centre is half a pixel from the border: a
+    // narrower band makes no hole.
     recorder.add({.at = distance,
                   .naive = naive,
                   .ours = ours,
                   .tolerance = std::sqrt(5.0) * 0.7 * epsilon / distance * camera.fx});
-    // As in C4: 24 bits hide what is nearer than a thousandth of the radius, all of it, and nothing
-    // else.
+    // As in C4: 24 bits hide everything nearer than a thousandth of the radius, and nothing else.
     if (distance < 1e-3 * bounds(soup).radius()) {
       EXPECT_EQ(shown_pixels(with_24_bits), 0) << distance;
     } else {
@@ -428,7 +428,7 @@ TEST(Numerics, H8_OneTriangleAroundTheEye) {
   }
 }
 
-/// A slanted plane over the square of 12 units about the origin, cut into cells of two faces each.
+/// A slanted plane over a square of 12 units about the origin, cut into cells of two faces each.
 struct CutPlane {
   static constexpr double side = 12;
   static constexpr glm::dvec2 slope{0.3, -0.2};
@@ -455,7 +455,8 @@ struct CutPlane {
     return soup;
   }
 
-  /// The face where the ray through a place of the image meets the plane, which fills it.
+  /// The face where the ray through a point of the image meets the plane. The plane fills the
+  /// image.
   std::uint32_t face_at(const Camera& camera, double x, double y) const {
     const glm::dvec3 ray =
         camera.world_from_view_rotation() *
@@ -472,21 +473,21 @@ TEST(Numerics, H9_AMillionCoplanarFaces) {
   Recorder recorder(
       {.stressed = "a plane cut into faces that share edges, seen at an angle: device",
        .parameter = "faces",
-       .unit = "pixels of 43200 that are holes, or away from edges show another face than that "
-               "which their ray meets"});
+       .unit = "of 43200 pixels are holes, or away from edges show another face than that "
+               "on their ray"});
   const Camera camera = look_at({0.4, -1.2, 1.5}, {0, 0, 0}, {0, 0, 1}, 0.7, width, height);
   for (const int cells : {70, 224, 708}) {  // 1e4, 1e5, 1e6 faces
     const CutPlane plane{cells};
     const Drawn image = drawn(plane.soup(), camera);
-    // How far a corner is from where it should be: half a step of 1/256 of a pixel, the roundings
-    // on its way (G3), and those of its three coordinates, by half a unit of 8 at most and seen
-    // from a distance of 1 or more.
+    // The largest error of a corner: half a step of 1/256 of a pixel, the roundings of the
+    // transformation (G3), and the roundings of its three coordinates, half a unit of 8 each, seen
+    // from a distance of at least 1.
     const double moved = 0.5 / 256 + moved_by_rounding + std::sqrt(3.0) * 4 * epsilon * camera.fy;
     double wrong = 0, away_from_edges = 0;
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
         const std::uint32_t shown = image.faces[std::size_t(y) * width + std::size_t(x)];
-        // A face that has the four corners of a square has all of it.
+        // A face that contains the square's four corners contains the square.
         const double left = x + 0.5 - moved, right = x + 0.5 + moved;
         const double top = y + 0.5 - moved, bottom = y + 0.5 + moved;
         const std::uint32_t face = plane.face_at(camera, left, top);

@@ -26,7 +26,7 @@ TriangleSoup soup_of(std::vector<glm::vec3> corners) {
   FaceColors colors;
   for (std::uint32_t v = 0; v + 2 < soup.positions.size(); v += 3) {
     soup.triangles.emplace_back(v, v + 1, v + 2);
-    // Any eight bits a channel that differ from face to face.
+    // Arbitrary 8-bit channels that differ from face to face.
     const std::uint32_t t = v / 3 + 1;
     colors.rgba.emplace_back(float(t * 97 % 256) / 255, float(t * 57 % 256) / 255,
                              float(t * 31 % 256) / 255, 1);
@@ -92,7 +92,7 @@ double differing_away_from_edges(const std::vector<std::uint32_t>& reference,
 }
 
 double most_of(double mean) {
-  // Poisson's distribution is a normal one where the mean is large.
+  // For a large mean, Poisson's distribution is close to a normal distribution.
   if (mean > 100) return std::floor(mean + 4 * std::sqrt(mean));
   double probability = std::exp(-mean), beyond = -std::expm1(-mean);
   double count = 0;
@@ -117,7 +117,7 @@ std::array<glm::dvec3, 3> homogeneous_corners(const TriangleSoup& soup, const gl
 
 namespace {
 
-/// Weights of vertices 0 and 1 at a place of the image.
+/// Weights of vertices 0 and 1 at a point of the image.
 glm::dvec2 barycentrics(const std::array<glm::dvec3, 3>& corners, const glm::dvec2& place) {
   glm::dvec3 e;
   for (int k = 0; k < 3; ++k)
@@ -126,12 +126,12 @@ glm::dvec2 barycentrics(const std::array<glm::dvec3, 3>& corners, const glm::dve
   return glm::dvec2(e) / (e.x + e.y + e.z);
 }
 
-/// How far roundings move a face in an image, in pixels along x and y, at a depth. A corner less
-/// the eye is multiplied by the focal length and its depth by the principal point: roundings are of
-/// what these products are, however near to each other they bring it, and those of w of where in
-/// the image it is; all of them seen at that depth. An interpolated value is a0 + x dx + y dy, as
-/// a0 itself was worked out: four products and four sums of what the value changes by across the
-/// image.
+/// The distance in pixels along x and y that roundings move a face in an image, at a depth. A
+/// corner minus the eye is multiplied by the focal length, and its depth by the principal point.
+/// Roundings scale with these products, even where their sum is small; roundings of w scale with
+/// the position in the image. All are seen at that depth. An interpolated value is a0 + x dx + y
+/// dy, and a0 is computed the same way: four products and four sums, each rounded relative to the
+/// value's change across the image.
 glm::dvec2 moved_at(const Camera& camera, const std::array<glm::dvec3, 3>& corners, double depth) {
   const glm::dvec2 focal(camera.fx, camera.fy), middle(camera.cx, camera.cy),
       size(camera.width, camera.height);
@@ -145,7 +145,7 @@ glm::dvec2 moved_at(const Camera& camera, const std::array<glm::dvec3, 3>& corne
   return vertex_rounding(1) * terms + 8 * epsilon * size;
 }
 
-/// The largest change of every channel where barycentrics are off by up to so much.
+/// The largest change of each channel where barycentrics are off by up to `off`.
 glm::dvec3 change_of_color(const TriangleSoup& soup, const oracle::SurfacePoint& point,
                            const glm::dvec2& off, const glm::dvec3& to_eye, const glm::dvec3& eye) {
   const glm::dvec3 color = oracle::color(soup, point, to_eye, eye);
@@ -162,8 +162,8 @@ glm::dvec3 change_of_color(const TriangleSoup& soup, const oracle::SurfacePoint&
 
 ColorError color_error(const TriangleSoup& soup, const glm::dvec3& origin, const Camera& camera,
                        const OracleImage& expected, const Drawn& drawn) {
-  // Harmonics of degree 3 are 16 terms of five roundings each (V5), a layer of a network as many
-  // terms of two; of colours about 1, and of terms that may be a few times that.
+  // Harmonics of degree 3 have 16 terms with five roundings each (V5). A network's layer has as
+  // many terms with two roundings. Colours are about 1; terms may be a few times larger.
   constexpr double of_colors = 16 * 5 * 4 * epsilon;
   const double half_step = 0.5 / 255;
   const oracle::Rays rays(soup, origin, camera);
@@ -184,8 +184,8 @@ ColorError color_error(const TriangleSoup& soup, const glm::dvec3& origin, const
       const auto corners = homogeneous_corners(soup, origin, camera, face);
       const glm::dvec2 place(x + 0.5, y + 0.5), b = barycentrics(corners, place);
       const glm::dvec2 moved = moved_at(camera, corners, expected.depth[i]);
-      // Half a unit of the 16 bits that each has in the visibility buffer; and quotients of
-      // interpolated values, which are three roundings.
+      // Half a unit of the visibility buffer's 16 bits for each barycentric, and three roundings
+      // for a quotient of interpolated values.
       glm::dvec2 off(0.5 / 65535 + 3 * epsilon);
       for (const glm::dvec2 axis : {glm::dvec2(moved.x, 0), glm::dvec2(0, moved.y)})
         off += glm::max(glm::abs(barycentrics(corners, place + axis) - b),

@@ -1,4 +1,4 @@
-// Texture, opacity and what passes through 8 bits: the rows T1 to T9.
+// Texture, opacity and 8-bit values: cases T1 to T9.
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -47,7 +47,7 @@ gl::Api api() { return shared_context().capabilities().api; }
 
 // -- T1, T2 -------------------------------------------------------------------------------------
 
-/// How far a sample may leave the range of its texels: by negative weights and by their sum.
+/// Distance of a sample outside the range of its texels: from negative weights and from their sum.
 double excess(double a, double b, double c) {
   if (std::isnan(a + b + c)) return infinity;
   return std::max({0.0, -a, -b, -c}) + std::max(0.0, a + b + c - 1);
@@ -57,9 +57,9 @@ TEST(Numerics, T1_SamplesAtTheEdgeOfAFaceStayWithinItsTexels) {
   Recorder recorder({.stressed =
                          "barycentrics on a face's edge, or beyond by rounding (lattice.hpp) "
                          "and by 0.3 (lattice.glsl)",
-                     .parameter = "texels of a side",
-                     .unit = "part of the texels' range that a sample leaves it by",
-                     .naive = "sampling where interpolation arrives, without clamping"});
+                     .parameter = "texels along a side",
+                     .unit = "distance of a sample outside its texels' range / range",
+                     .naive = "sampling at the interpolated point, without clamping"});
   Random random(1);
   std::vector<glm::vec2> edge = {{1, 0}, {0, 1}, {0, 0}};
   for (int i = 0; i < 400; ++i) {
@@ -93,8 +93,8 @@ TEST(Numerics, T1_SamplesAtTheEdgeOfAFaceStayWithinItsTexels) {
       const auto at = lattice::footprint(level, beyond[i].x, beyond[i].y);
       naive = worse(naive, excess(at.weights[0], at.weights[1], at.weights[2]));
     }
-    // Coordinates of up to n texels are rounded, both; and their sum, its inverse and a product in
-    // the clamp before. The catalogue has measured 2 n epsilon without the clamp.
+    // Both coordinates, of up to n texels, are rounded. Before, the clamp rounds their sum, its
+    // inverse and a product. The catalogue measured 2 n epsilon without the clamp.
     const double n = lattice::resolution(level);
     recorder.add({.at = n, .naive = naive, .ours = ours, .tolerance = (2 + 3) * n * epsilon});
   }
@@ -102,7 +102,7 @@ TEST(Numerics, T1_SamplesAtTheEdgeOfAFaceStayWithinItsTexels) {
 
 TEST(Numerics, T2_NoCoordinateLeavesTheLattice) {
   Recorder recorder({.stressed =
-                         "barycentrics that are huge, negative or no numbers: lattice.hpp and "
+                         "barycentrics that are huge, negative or not a number: lattice.hpp and "
                          "lattice.glsl",
                      .parameter = "size of the barycentrics",
                      .unit = "texels outside of the lattice, of 1000 points",
@@ -125,7 +125,7 @@ TEST(Numerics, T2_NoCoordinateLeavesTheLattice) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const auto at = lattice::footprint(level, points[i].x, points[i].y);
       const auto cell = [&](float b) {
-        // What the cast of a negative float gives on most machines; it is undefined.
+        // The result of casting a negative float on most machines; it is undefined.
         const double value = std::floor(double(b) * 32);
         return std::abs(value) < 9e18 ? std::uint32_t(std::int64_t(value)) : 0x80000000u;
       };
@@ -150,10 +150,10 @@ TEST(Numerics, T3_BytesKeepTheSideOfTheThreshold) {
                          "alpha stored in 8 bits: (1) sigmoids of logits in -8 .. 8, (2) of "
                          "logits about -6 and 6, (3) exactly one half",
                      .parameter = "distribution",
-                     .unit = "fraction of texels that change their side",
+                     .unit = "fraction of texels that change sides",
                      .naive = "truncation",
                      .naive_fails_from = 1});
-  Recorder bias({.stressed = "the same: how far the stored value is from its own",
+  Recorder bias({.stressed = "the same: distance of the stored value from the exact one",
                  .parameter = "distribution",
                  .unit = "steps of 8 bits",
                  .naive = "truncation"});
@@ -174,8 +174,9 @@ TEST(Numerics, T3_BytesKeepTheSideOfTheThreshold) {
       ours_mean += (rounded - 255 * double(alpha)) / texels;
       naive_mean += (truncated - 255 * double(alpha)) / texels;
     }
-    // What is symmetric about one half is rounded up as often as down, and truncated by half a step
-    // on the mean: to four standard errors of at most half a step each. One half itself goes up.
+    // A distribution symmetric about one half is rounded up as often as down. Truncation removes
+    // half a step on average. The bound is four standard errors of at most half a step each. One
+    // half itself is rounded up.
     const double four_errors = 4 * 0.5 / std::sqrt(double(texels));
     EXPECT_NEAR(ours_mean, distribution == 3 ? 0.5 : 0, four_errors) << distribution;
     EXPECT_NEAR(naive_mean, -0.5, four_errors) << distribution;
@@ -183,8 +184,8 @@ TEST(Numerics, T3_BytesKeepTheSideOfTheThreshold) {
                   .naive = naive / texels,
                   .ours = ours / texels,
                   .tolerance = 0});
-    // The nearest byte is half a step away at most, products with 255 are exact in double, and the
-    // side of one half, 127.5 steps, never asks for another byte than the nearest.
+    // The nearest byte is at most half a step away, and products with 255 are exact in double.
+    // Keeping the side of one half, 127.5 steps, never requires another byte than the nearest.
     bias.add({.at = double(distribution), .naive = naive_off, .ours = ours_off, .tolerance = 0.5});
   }
 }
@@ -202,7 +203,7 @@ TEST(Numerics, T4_ThePrecisionOfTheColourChain) {
   Random random(4);
   const Camera camera = random_camera(random, 320, 240);
   struct Row {
-    double gain, forward_db;  // as emulated before: rounded texels, shaded in floats
+    double gain, forward_db;  // from an emulation: rounded texels, shaded in floats
   };
   for (const auto& [gain, forward_db] : {Row{1, 66.1}, Row{2, 63.6}, Row{4, 59.4}}) {
     TriangleSoup soup = random_soup(
@@ -216,7 +217,7 @@ TEST(Numerics, T4_ThePrecisionOfTheColourChain) {
     const auto error = [&](const Drawn& drawn) {
       return std::pow(10.0, -agreement(expected, drawn).psnr / 20);
     };
-    // Texels in floats do better than that, and the image's own 8 bits add 1/255 sqrt(1/12).
+    // Float texels have a smaller error, and the image's 8 bits add 1/255 sqrt(1/12).
     const double tolerance =
         std::hypot(std::pow(10.0, -forward_db / 20), std::sqrt(1.0 / 12) / 255);
     recorder.add(
@@ -225,7 +226,7 @@ TEST(Numerics, T4_ThePrecisionOfTheColourChain) {
 }
 
 TEST(Numerics, T5_TheSigmoidSaturates) {
-  // From where on exp(x) is infinite, and infinite by infinite no number.
+  // From here on exp(x) is infinite, and infinity / infinity is not a number.
   const double overflows = std::log(double(std::numeric_limits<float>::max()));
   Recorder recorder(
       {.stressed = "the sigmoid of large sums: the network's shader, and the trainer's",
@@ -253,10 +254,9 @@ TEST(Numerics, T5_TheSigmoidSaturates) {
         ours = worse(ours, std::abs(double(shown) - truth));
       const float e = std::exp(x);
       naive = worse(naive, std::abs(double(e / (1 + e)) - truth));
-      // GLSL lets exp(x) be wrong by 3 + 2 |x| units in the last place, which the slope of the
-      // sigmoid takes to its value; sum and quotient are rounded. The trainer stops at |x| = 87,
-      // where e^-87 is left of nothing, to two
-      // units.
+      // GLSL allows exp(x) an error of 3 + 2 |x| units in the last place. The sigmoid's slope
+      // converts it to an error of the value; sum and quotient are rounded. The trainer clamps x at
+      // |x| = 87, which leaves e^-87 instead of 0, accurate to two units.
       const double by_exponential = std::min(3 + 2 * std::abs(double(x)), 1e6) * 2 * epsilon;
       tolerance =
           std::max(tolerance, by_exponential * truth * (1 - truth) + 2 * epsilon * truth +
@@ -283,8 +283,8 @@ TEST(Numerics, T5b_TheSigmoidSaturatesInHalves) {
       ours = worse(ours, std::abs(double(trainer::kernels::sigmoid(Half(x)).value) - truth));
       naive = worse(naive, std::abs(double((e / (Half(1) + e)).value) - truth));
     }
-    // Half a unit of 2^-10 each: of the exponential and of the sum, by a slope of at most 1/4 and
-    // as relative errors of a value of at most 1, and of the quotient.
+    // Half a unit of 2^-10 each for the exponential (times a slope of at most 1/4), the sum and the
+    // quotient (relative errors of a value of at most 1).
     recorder.add({.at = size, .naive = naive, .ours = ours, .tolerance = 0x1p-11 * (0.25 + 1 + 1)});
   }
 }
@@ -295,7 +295,7 @@ TEST(Numerics, T6_TransparentTexelsKeepTheirFeatures) {
   Recorder recorder({.stressed = "features beside an alpha in a PNG, written and read",
                      .parameter = "alpha byte",
                      .unit = "of 4096 texels changed",
-                     .naive = "colours premultiplied and divided again"});
+                     .naive = "colours premultiplied, then divided again"});
   Random random(6);
   for (const int alpha : {0, 1, 16, 127, 128, 255}) {
     Image8 image(64, 64);
@@ -323,7 +323,7 @@ void append_big_endian(Bytes& out, std::uint32_t value) {
   for (const int shift : {24, 16, 8, 0}) out.push_back(std::byte(value >> shift & 255));
 }
 
-/// The PNG with one more chunk, where chunks about colour belong: behind the header.
+/// The PNG with a chunk added behind the header, where colour chunks belong.
 Bytes with_chunk(const Bytes& png, const std::string& type, const Bytes& content) {
   constexpr std::size_t header_end = 8 + 12 + 13;
   Bytes chunk;
@@ -343,7 +343,7 @@ Bytes gamma_content(double gamma) {
   return content;
 }
 
-/// The profile's name, and a profile that is its header and an empty table of tags.
+/// The profile's name, and a profile with a header and an empty table of tags.
 Bytes profile_content() {
   Bytes profile(132);
   profile[3] = std::byte(132);  // its size
@@ -358,18 +358,17 @@ Bytes profile_content() {
             Z_OK);
   Bytes content;
   for (const char c : std::string("linear")) content.push_back(std::byte(c));
-  content.resize(content.size() + 2);  // the end of the name, and the one method there is
+  content.resize(content.size() + 2);  // the end of the name, and the only compression method
   content.insert(content.end(), packed.begin(), packed.begin() + std::ptrdiff_t(size));
   return content;
 }
 
 TEST(Numerics, T6b_TexelsAreNotManagedAsColours) {
-  Recorder recorder({.stressed =
-                         "features in a PNG that says what its colours mean: (1) sRGB, (2) a "
-                         "gamma of 1, (3) of 1/2.2, (4) a profile of linear light",
-                     .parameter = "what it says",
+  Recorder recorder({.stressed = "features in a PNG with a colour space: (1) sRGB, (2) a "
+                                 "gamma of 1, (3) of 1/2.2, (4) a profile of linear light",
+                     .parameter = "colour space",
                      .unit = "of 4096 texels changed",
-                     .naive = "colours converted to what a screen shows"});
+                     .naive = "colours converted for a screen"});
   Random random(16);
   Image8 image(64, 64);
   for (glm::u8vec4& pixel : image.pixels)
@@ -377,7 +376,7 @@ TEST(Numerics, T6b_TexelsAreNotManagedAsColours) {
   const Bytes plain = encode_png(image);
   struct Said {
     Bytes png;
-    double gamma;  // of the file: colours are light to this power
+    double gamma;  // of the file: colour = light ^ gamma
   };
   const Said said[] = {{with_chunk(plain, "sRGB", Bytes(1)), 1 / 2.2},
                        {with_chunk(plain, "gAMA", gamma_content(1)), 1},
@@ -406,11 +405,11 @@ TEST(Numerics, T6b_TexelsAreNotManagedAsColours) {
 TEST(Numerics, T7_TexelsBeyondTwoToThe31AreFound) {
   constexpr std::uint32_t per_face = lattice::texel_count(5);
   constexpr double overflows = 0x1p31 / per_face;  // faces
-  Recorder recorder({.stressed = "the first texel of a face at level 5 and where it lies: "
+  Recorder recorder({.stressed = "the first texel of a face at level 5 and its position: "
                                  "appearance_lattice.glsl, texel_store.glsl",
                      .parameter = "faces",
-                     .unit = "of 1000 faces at a wrong place",
-                     .naive = "32 bit integers with a sign",
+                     .unit = "of 1000 faces at a wrong position",
+                     .naive = "signed 32-bit integers",
                      .naive_fails_from = overflows,
                      .naive_holds_below = overflows});
   Random random(7);
@@ -418,7 +417,7 @@ TEST(Numerics, T7_TexelsBeyondTwoToThe31AreFound) {
       {"LATTICE_LEVEL", "5"},     {"LATENT_FEATURES", "0"}, {"ALPHA_BY_CELL", "0"},
       {"LATTICE_HARMONICS", "0"}, {"COLOR_MLP", "0"},       {"ALPHA_THRESHOLD", "0.5"},
       {"TEXEL_ROW_BITS", "12"},   {"TEXEL_LAYER_BITS", "9"}};
-  // Numbers above 2^24 travel in halves of 16 bits.
+  // Numbers above 2^24 are passed as two halves of 16 bits.
   const std::string head =
       "#include \"appearance_lattice.glsl\"\n"
       "vec4 probe(vec4 x) { uint face = uint(x.x) * 65536u + uint(x.y); "
@@ -448,17 +447,18 @@ TEST(Numerics, T7_TexelsBeyondTwoToThe31AreFound) {
 }
 
 TEST(Numerics, T8_IndicesBecomeCoordinatesAgain) {
-  // Up to here, says the catalogue, a square root in floats gives every index's diagonal.
+  // According to the catalogue, a square root in floats gives the correct diagonal up to this
+  // index.
   constexpr double last_exact = 10'619'134;
   Recorder recorder({.stressed =
-                         "the coordinates of a texel by its index, about the ends of diagonals: "
+                         "the coordinates of a texel from its index, near the ends of diagonals: "
                          "lattice.hpp",
                      .parameter = "index",
                      .unit = "of 1000 diagonals with a wrong texel",
                      .naive = "the square root in floats",
                      .naive_fails_from = last_exact + 1,
                      .naive_holds_below = last_exact + 1});
-  // Two of them are the last one that floats get right, and the first of the diagonal above it.
+  // Includes the last index that floats get right, and the first of the diagonal above it.
   for (const double index : {8e3, 1e5, 1e6, 1e7, last_exact, last_exact + 2, 1e8, 1e9}) {
     const int last = int((std::sqrt(8 * index + 1) - 1) / 2);
     double ours = 0, naive = 0;
@@ -480,7 +480,7 @@ TEST(Numerics, T8_IndicesBecomeCoordinatesAgain) {
 
 // -- T9 -----------------------------------------------------------------------------------------
 
-/// 256 squares in 16 columns, face pair g grey g.
+/// 256 squares in 16 columns; the pair of faces g has the grey value g.
 TriangleSoup grey_ramp(Kind kind) {
   std::vector<glm::vec3> corners;
   for (int g = 0; g < 256; ++g) {
@@ -519,7 +519,7 @@ TriangleSoup grey_ramp(Kind kind) {
 }
 
 TEST(Numerics, T9_AGreyRampArrivesBitByBit) {
-  Recorder recorder({.stressed = "grey values of faces, vertices and lattices on their way to the "
+  Recorder recorder({.stressed = "grey values of faces, vertices and lattices in the "
                                  "image: device",
                      .parameter = "grey byte",
                      .unit = "steps of 8 bits",
@@ -540,7 +540,7 @@ TEST(Numerics, T9_AGreyRampArrivesBitByBit) {
         }
     }
   const auto encoded = [](int g) { return std::round(255 * srgb_from_linear(g / 255.0)); };
-  // As far as the catalogue has the naive form.
+  // The values in the catalogue for the naive form.
   EXPECT_EQ(encoded(8), 50);
   EXPECT_EQ(encoded(64), 137);
   EXPECT_EQ(encoded(128), 188);

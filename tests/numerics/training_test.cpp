@@ -1,5 +1,5 @@
-// Training under stress: the rows R1 to R9. However bad its beginning, a run ends with a model that
-// is all numbers, and says how many it had to put aside.
+// Training under stress: cases R1 to R9. For any initial state, a run ends with a finite model and
+// reports its number of non-finite values.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -85,7 +85,7 @@ std::vector<MakeBackend> both_backends() {
       }};
 }
 
-/// Numbers of the model and its moments that are none.
+/// The number of non-finite values in the model and its moments.
 double non_finite(const TrainingState& state) {
   double count = 0;
   const auto look = [&](const auto& values) {
@@ -110,14 +110,14 @@ double non_finite(const TrainingState& state) {
 
 /// One run with one backend.
 struct Run {
-  double bad = 0;       // losses that are no number, and numbers of the last state that are none
+  double bad = 0;       // non-finite losses, and non-finite numbers in the last state
   double end_loss = 0;  // mean of the last ten steps
   TrainingState end;
 };
 
 Run run(const MakeBackend& make, std::span<const TrainingView> views, const Config& config,
         const TrainingState& begin) {
-  constexpr int last = 10;  // enough that one step's draws do not decide
+  constexpr int last = 10;  // enough to average over the steps' draws
   Run result;
   trainer::Trainer trainer(config, views, make(views, config), begin);
   while (!trainer.done()) {
@@ -130,15 +130,15 @@ Run run(const MakeBackend& make, std::span<const TrainingView> views, const Conf
   return result;
 }
 
-/// Of both backends, what says least for them.
+/// The worse result of both backends.
 struct Outcome {
   double bad = 0;
   std::uint64_t min_quarantined = ~std::uint64_t(0), max_quarantined = 0;
   std::uint32_t network_steps = ~std::uint32_t(0);
   bool network_moved = true;
-  /// How much smaller the loss is in the end than that of a run at rates of zero, which is not
-  /// better for its faces being split and pruned. A trainer that never steps has a gain of 1, and
-  /// so has one that puts every gradient aside.
+  /// Loss at the end of a run with learning rates of zero, divided by the loss at the end of this
+  /// run. Splitting and pruning faces does not improve the former. A trainer that never steps, or
+  /// that discards every gradient, has a gain of 1.
   double gain = std::numeric_limits<double>::infinity();
 };
 
@@ -146,7 +146,7 @@ Outcome train(const std::vector<TrainingView>& views, const Config& config,
               const TrainingState& begin) {
   Config at_rest = config;
   at_rest.texture_rate = at_rest.mlp_rate = at_rest.vertex_rate = 0;
-  // Of one backend: both draw the same images.
+  // One backend is enough: both draw the same images.
   const double loss_at_rest = run(both_backends()[0], views, at_rest, begin).end_loss;
   Outcome outcome;
   for (const MakeBackend& make : both_backends()) {
@@ -163,8 +163,7 @@ Outcome train(const std::vector<TrainingView>& views, const Config& config,
   return outcome;
 }
 
-/// What nothing is wrong with beside its difficulty: no number is put aside, and faces and network
-/// learn.
+/// Expects learning without non-finite values: none is counted, and faces and network learn.
 void expect_learning(const Outcome& outcome, double at) {
   EXPECT_EQ(outcome.max_quarantined, 0u) << at;
   EXPECT_EQ(outcome.network_steps, std::uint32_t(steps)) << at;
@@ -176,12 +175,12 @@ const Case ends_with_numbers(const std::string& stressed, const std::string& par
                              const std::string& naive = {}) {
   return {.stressed = stressed + ": both backends",
           .parameter = parameter,
-          .unit = "numbers of model and moments that are none",
+          .unit = "non-finite numbers in model and moments",
           .naive = naive};
 }
 
-/// Weights that never move again where every gradient is stepped with that is finite: their second
-/// moment is infinite. The network alone, on pixels of any features.
+/// The number of weights that never move again if every finite gradient is used: their second
+/// moment is infinite. Trains the network alone, on pixels with random features.
 double frozen_weights(const trainer::MlpParameters& begin) {
   namespace kernels = trainer::kernels;
   trainer::MlpParameters mlp = begin, first{}, second{};
@@ -195,7 +194,7 @@ double frozen_weights(const trainer::MlpParameters& begin) {
       kernels::harmonics9(to_eye.x, to_eye.y, to_eye.z, state.input + kernels::features);
       float color[3], by_color[3], by_features[kernels::features];
       kernels::shade(mlp.data(), state, color);
-      // Of the mean |C - G| of a photograph of any colours.
+      // The gradient of the mean |C - G| for a photograph with random colours.
       for (int c = 0; c < 3; ++c)
         by_color[c] = (color[c] < float(random.uniform()) ? -1.0f : 1.0f) / (3 * width * height);
       kernels::shade_backward(mlp.data(), state, by_color, gradient.data(), by_features);
@@ -211,10 +210,10 @@ double frozen_weights(const trainer::MlpParameters& begin) {
   return frozen;
 }
 
-TEST(Numerics, R1_ExplodingGradientsAreLeftOut) {
+TEST(Numerics, R1_ExplodingGradientsAreSkipped) {
   Recorder recorder(
-      ends_with_numbers("a network whose hidden layers amplify and whose last one takes it back",
-                        "gain of a hidden layer", "Adam takes every gradient that is finite"));
+      ends_with_numbers("a network whose hidden layers amplify and whose last layer attenuates",
+                        "gain of a hidden layer", "Adam uses every finite gradient"));
   namespace kernels = trainer::kernels;
   const std::vector<TrainingView> views = random_views(1, 3);
   for (const double gain : {1.0, 1e5, 1e10, 1e12, 1e15}) {
@@ -228,13 +227,13 @@ TEST(Numerics, R1_ExplodingGradientsAreLeftOut) {
     }
     const Outcome outcome = train(views, short_run(40), state);
     if (gain == 1) expect_learning(outcome, gain);
-    // The network is stepped, by far more than the weights of its last layer are long.
+    // The network is stepped, by far more than the size of its last layer's weights.
     if (gain == 1e5) {
       EXPECT_EQ(outcome.max_quarantined, 0u);
       EXPECT_EQ(outcome.network_steps, std::uint32_t(steps));
     }
     if (gain >= 1e12) {
-      // The network and nothing else, in every step; the faces learn without it.
+      // Only the network's gradient is discarded, in every step; the faces learn.
       EXPECT_EQ(outcome.min_quarantined, std::uint64_t(steps)) << gain;
       EXPECT_EQ(outcome.max_quarantined, std::uint64_t(steps)) << gain;
       EXPECT_EQ(outcome.network_steps, 0u) << gain;
@@ -262,8 +261,8 @@ TEST(Numerics, R2_VanishingGradientsStayNumbers) {
     for (int i = trainer::kernels::biases1; i < trainer::kernels::weights2; ++i)
       state.model.mlp[std::size_t(i)] = -1e6f;
     const Outcome outcome = train(views, short_run(40), state);
-    // Nothing here is no number, so nothing is put aside. What learns is the network's last biases,
-    // as dead neurons and saturated sigmoids pass nothing on.
+    // All values are finite, so none is counted. Only the network's last biases learn, because dead
+    // neurons and saturated sigmoids pass on no gradient.
     expect_learning(outcome, double(size));
     recorder.add({.at = double(size), .ours = outcome.bad, .tolerance = 0});
   }
@@ -271,9 +270,9 @@ TEST(Numerics, R2_VanishingGradientsStayNumbers) {
 
 TEST(Numerics, R3_WhatIsNoNumberAtTheStartIsReplaced) {
   Recorder recorder(
-      ends_with_numbers("a beginning with texels, corners and weights that are no "
-                        "numbers",
-                        "how many", "they stay: only gradients are watched"));
+      ends_with_numbers("an initial state with texels, corners and weights that are not "
+                        "finite",
+                        "their number", "they stay: only gradients are checked"));
   const std::vector<TrainingView> views = random_views(3, 3);
   for (const int count : {1, 5, 20}) {
     TrainingState state = random_state(13, 40);
@@ -310,7 +309,7 @@ TEST(Numerics, R3_WhatIsNoNumberAtTheStartIsReplaced) {
       naive += non_finite(end);
     }
     const Outcome outcome = train(views, config, state);
-    // Once each, and no more in the run.
+    // Counted once each, with no more during the run.
     EXPECT_EQ(double(outcome.min_quarantined), at_start);
     EXPECT_EQ(double(outcome.max_quarantined), at_start);
     EXPECT_EQ(outcome.network_steps, std::uint32_t(steps));
@@ -321,10 +320,10 @@ TEST(Numerics, R3_WhatIsNoNumberAtTheStartIsReplaced) {
 
 TEST(Numerics, R3b_APixelThatIsNoNumberSparesTheNetwork) {
   Recorder recorder(
-      {.stressed = "texels that are no numbers in some pixels of a step: both backends",
-       .parameter = "faces that have one, of 40",
-       .unit = "weights of the network that are none after four steps",
-       .naive = "the gradient of all pixels added up"});
+      {.stressed = "texels that are not a number in some pixels of a step: both backends",
+       .parameter = "of 40 faces with such a texel",
+       .unit = "non-finite weights of the network after four steps",
+       .naive = "the sum of all pixels' gradients"});
   namespace kernels = trainer::kernels;
   const std::vector<TrainingView> views = random_views(4, 3);
   for (const std::size_t faces : {1u, 10u, 39u}) {
@@ -345,7 +344,7 @@ TEST(Numerics, R3b_APixelThatIsNoNumberSparesTheNetwork) {
       for (const float weight : end.model.mlp) ours += !std::isfinite(weight);
       EXPECT_NE(end.model.mlp, state.model.mlp);
     }
-    // One such pixel without its quarantine.
+    // The naive form: one such pixel without the check.
     trainer::MlpParameters gradient{};
     kernels::NetworkState<float> pixel{};
     for (float& input : pixel.input) input = 0.5f;
@@ -361,7 +360,7 @@ TEST(Numerics, R3b_APixelThatIsNoNumberSparesTheNetwork) {
 }
 
 TEST(Numerics, R4_PhotographsThatAreAllBlack) {
-  Recorder recorder(ends_with_numbers("photographs that are black throughout", "faces"));
+  Recorder recorder(ends_with_numbers("black photographs", "faces"));
   std::vector<TrainingView> views = random_views(5, 3);
   for (TrainingView& view : views) std::ranges::fill(view.target, std::uint8_t(0));
   for (const int faces : {4, 40, 120}) {
@@ -398,7 +397,7 @@ TEST(Numerics, R7_ACameraInATriangle) {
                                       "distance of the eye from the triangle's plane / units"));
   for (const double distance : {0.0, 1e-30, 1e-8, 1e-3}) {
     TrainingState state = random_state(18, 40);
-    // Through the origin, on which the eyes are: within, on an edge, and in a corner of it.
+    // Through the origin, where the eyes are: inside the triangle, on its edge, and in its corner.
     const auto set = [&](std::size_t face, const glm::vec3& a, const glm::vec3& b,
                          const glm::vec3& c) {
       const glm::vec3 off(0, 0, float(distance));
@@ -409,7 +408,7 @@ TEST(Numerics, R7_ACameraInATriangle) {
     set(0, {-1, -1, 0}, {1, -1, 0}, {0, 1, 0});
     set(1, {-1, 0, 0}, {1, 0, 0}, {0, 1, 0});
     set(2, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-    // Grey all over, which is not hard to learn; of noise a few faces learn little.
+    // Uniform grey is easy to learn; a few faces learn little from noise.
     std::vector<TrainingView> views;
     for (const glm::dvec3& towards :
          {glm::dvec3(1, 0, 0), glm::dvec3(0.3, 0.2, -1), glm::dvec3(0.2, 1, 1e-9)})
@@ -422,9 +421,10 @@ TEST(Numerics, R7_ACameraInATriangle) {
   }
 }
 
-/// Corners on a line, two that coincide, three that do, all of them on pixel centres of `view` to
-/// the bit; and needles of this aspect, an edge of each along a row of such centres, so that it has
-/// pixels however thin it is. At a depth of 2 before a camera at the origin.
+/// Faces with three corners on a line, and with two or three coincident corners, all exactly on
+/// pixel centres of `view`. Then needles of this aspect, with an edge along a row of such centres,
+/// so that each wins pixels however thin it is. All at a depth of 2 in front of a camera at the
+/// origin.
 std::vector<glm::vec3> faces_of_next_to_no_area(const Camera& view, double aspect) {
   std::vector<glm::vec3> corners;
   const auto at_pixel = [&](double x, double y) {
@@ -447,8 +447,8 @@ std::vector<glm::vec3> faces_of_next_to_no_area(const Camera& view, double aspec
 }
 
 TEST(Numerics, R8_FacesOfNextToNoArea) {
-  Recorder recorder(ends_with_numbers(
-      "needles that win pixels, and faces without area, among those of a model", "their aspect"));
+  Recorder recorder(ends_with_numbers("needles that win pixels, and faces without area, in a model",
+                                      "aspect of the needles"));
   for (int exponent = 1; exponent <= 7; ++exponent) {
     const double aspect = std::pow(10.0, exponent);
     Random random(21);
@@ -471,7 +471,7 @@ TEST(Numerics, R8_FacesOfNextToNoArea) {
       bad += non_finite(gradient);
       for (const TrainingView& view : views)
         for (const float channel : backend->render(view.camera)) bad += !std::isfinite(channel);
-      // Of the needles, not of what has no area: that shows nothing.
+      // Only the needles; faces without area cover nothing.
       int learning = 0;
       for (std::size_t face = 40 + 12; face < state.model.faces(); ++face) {
         double by_corners = 0, by_texels = 0;
@@ -493,14 +493,13 @@ TEST(Numerics, R8_FacesOfNextToNoArea) {
 }
 
 TEST(Numerics, R9_FacesInOnePlane) {
-  Recorder recorder(
-      {.stressed = "faces that lie in one plane and cover each other, in front by "
-                   "rounding alone: both backends",
-       .parameter = "faces",
-       .unit = "gradients put aside, and numbers of model and moments that are none"});
+  Recorder recorder({.stressed = "overlapping faces in one plane, ordered by "
+                                 "rounding alone: both backends",
+                     .parameter = "faces",
+                     .unit = "discarded gradients, and non-finite numbers in model and moments"});
   for (const std::size_t faces : {2u, 5u, 20u}) {
     Random random(22);
-    // Across the axis their inverse depths are equal everywhere; on a slope, up to rounding.
+    // Perpendicular to the axis, inverse depths are equal everywhere; on a slope, up to rounding.
     std::vector<TrainingView> views = {
         random_view(random, straight_camera(width, height, height)),
         random_view(random, look_at({1, 1, 1}, {0.2, -0.1, -2}, {0, 1, 0}, 0.9, width, height))};
@@ -511,7 +510,7 @@ TEST(Numerics, R9_FacesInOnePlane) {
       const auto backend = make(views, short_run(int(faces)));
       backend->upload(state);
       const std::uint32_t all[] = {0, 1};
-      // Nothing moves: each step draws other faces in front of others.
+      // Nothing moves; each step's draws choose other faces.
       for (int step = 0; step < 20; ++step)
         bad += double(backend->step(all, {.texture = 0, .mlp = 0, .vertex = 0}).non_finite);
       TrainingState end;

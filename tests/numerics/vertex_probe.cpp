@@ -15,7 +15,7 @@ std::vector<glm::vec4> clip_positions(const FrameCamera& frame, const glm::dmat4
   program.use();
   GLint id = 0;
   glGetIntegerv(GL_CURRENT_PROGRAM, &id);
-  // What is captured is decided by linking.
+  // Linking determines which outputs are captured.
   const char* captured = "gl_Position";
   glTransformFeedbackVaryings(GLuint(id), 1, &captured, GL_INTERLEAVED_ATTRIBS);
   glLinkProgram(GLuint(id));

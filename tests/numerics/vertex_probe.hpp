@@ -1,4 +1,4 @@
-// Where geometry.vert puts vertices on the device, read back by transform feedback.
+// Vertex positions that geometry.vert computes on the device, read back by transform feedback.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -9,7 +9,7 @@
 
 namespace tureen::test {
 
-/// gl_Position of each; the shared context is current.
+/// gl_Position of each vertex. Makes the shared context current.
 std::vector<glm::vec4> clip_positions(const FrameCamera& frame, const glm::dmat4& clip_from_view,
                                       const std::vector<glm::vec3>& positions);
 

@@ -1,4 +1,4 @@
-// View directions: the rows V1 to V5.
+// View directions: cases V1 to V5.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ namespace view_direction_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Radians; infinite where either is no direction.
+/// Radians; infinite where either is not a direction.
 double angle(const glm::dvec3& a, const glm::dvec3& b) {
   const double result = std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
   return glm::length(a) > 0 && std::isfinite(result) ? result : infinity;
@@ -35,7 +35,7 @@ double angle(const glm::dvec3& a, const glm::dvec3& b) {
 
 // -- V1 -----------------------------------------------------------------------------------------
 
-/// The direction to the eye by what the near and the far plane have in a pixel, in floats.
+/// The direction to the eye from a pixel's points on the near and the far plane, in floats.
 glm::dvec3 unprojected(const Camera& camera, double near, double far, const glm::vec2& window) {
   const glm::mat4 clip(clip_from_view(camera, near, far) * camera.view_from_world);
   const glm::mat4 world = glm::inverse(clip);
@@ -45,7 +45,7 @@ glm::dvec3 unprojected(const Camera& camera, double near, double far, const glm:
   return glm::dvec3(glm::normalize(glm::vec3(front) / front.w - glm::vec3(back) / back.w));
 }
 
-/// The corners of the image, and pixels anywhere.
+/// The corners of the image, and random pixels.
 std::vector<glm::vec4> window_positions(const Camera& camera) {
   Random random(1);
   std::vector<glm::vec4> windows;
@@ -57,7 +57,7 @@ std::vector<glm::vec4> window_positions(const Camera& camera) {
   return windows;
 }
 
-/// A function of view_direction.glsl at these positions.
+/// The results of a function in view_direction.glsl at these positions.
 std::vector<glm::vec4> of_shader(const char* function, const Camera& camera,
                                  const std::vector<glm::vec4>& windows) {
   const Probe probe(shared_context().capabilities().api,
@@ -69,9 +69,9 @@ std::vector<glm::vec4> of_shader(const char* function, const Camera& camera,
   return probe.run(windows);
 }
 
-/// How far floats may turn a direction of direction_to_eye(), in radians: each step's rounding is
-/// relative to what it rounds, coordinate by coordinate. For the cameras of V1 below the 5e-7 that
-/// the literature's form from the camera's axes is good for.
+/// Bound of the rotation of direction_to_eye() by float rounding, in radians. Each step's rounding
+/// is relative to its result, per coordinate. For the cameras of V1 below, this is within the 5e-7
+/// from the literature for the form with the camera's axes.
 double max_angle(const Camera& camera, const glm::dvec2& window) {
   const glm::dmat3 axes = camera.world_from_view_rotation();
   const glm::dvec3 column = axes[0] / camera.fx, row = axes[1] / camera.fy,
@@ -81,7 +81,7 @@ double max_angle(const Camera& camera, const glm::dvec2& window) {
                           glm::length(window.y * row),
                products = glm::length(window.x * column) + glm::length(window.y * row),
                sums = glm::length(corner + window.x * column) + glm::length(ray);
-  // And one where normalize() multiplies, as the length it multiplies by turns nothing.
+  // Plus the rounding of products in normalize(). An error of the length does not rotate.
   return epsilon * ((uniforms + products + sums) / glm::length(ray) + 1);
 }
 
@@ -104,15 +104,15 @@ DirectionErrors direction_errors(const Camera& camera, double near, double far) 
   return errors;
 }
 
-/// far / near, above which (f + n) / (f - n) is 1 in floats: the far plane has a w of 0 then, and
-/// the naive form gives no number at all. Below it is merely worse than ours.
+/// far / near above which (f + n) / (f - n) is 1 in floats. The far plane then has a w of 0, and
+/// the naive form gives no finite number. Below, it is only worse than ours.
 constexpr double cliff = 0x1p25;
 
 TEST(Numerics, V1_DirectionsDoNotDependOnTheDepthRange) {
   Recorder recorder({.stressed = "view directions, by the range of depths: view_direction.glsl",
                      .parameter = "far / near",
                      .unit = "radians",
-                     .naive = "far point less near point, by the inverse of the matrix in floats",
+                     .naive = "far point minus near point, by the inverse of the matrix in floats",
                      .naive_fails_from = cliff});
   const Camera camera = look_at({1, 2, 0.5}, {0, 0, 0}, {0, 0, 1}, 0.9, 1280, 720);
   struct Planes {
@@ -135,7 +135,7 @@ TEST(Numerics, V1b_DirectionsDoNotDependOnThePlace) {
                                  "view_direction.glsl",
                      .parameter = "eye's distance from the origin / near",
                      .unit = "radians",
-                     .naive = "far point less near point, by the inverse of the matrix in floats",
+                     .naive = "far point minus near point, by the inverse of the matrix in floats",
                      .naive_fails_from = 20});
   for (int exponent = 0; exponent <= 6; ++exponent) {
     const glm::dvec3 place = std::pow(10.0, exponent) * glm::normalize(glm::dvec3(1, -2, 0.7));
@@ -175,12 +175,12 @@ TEST(Numerics, V1d_DirectionsKnowThePrincipalPoint) {
   }
 }
 
-// An angle says nothing of a length, and a network or harmonics are as wrong by it.
+// An angle does not include the length; an error of it changes networks and harmonics as much.
 TEST(Numerics, V1c_DirectionsHaveALengthOfOne) {
   Recorder recorder({.stressed = "the length of view directions: view_direction.glsl",
                      .parameter = "vertical field of view / degrees",
                      .unit = "difference from 1",
-                     .naive = "the ray at a depth of 1 as it is"});
+                     .naive = "the ray at a depth of 1, not normalised"});
   for (const double degrees : {1.0, 20.0, 60.0, 100.0, 140.0, 170.0}) {
     const Camera camera =
         look_at({1, 2, 0.5}, {0, 0, 0}, {0, 0, 1}, glm::radians(degrees), 1280, 720);
@@ -192,8 +192,8 @@ TEST(Numerics, V1c_DirectionsHaveALengthOfOne) {
       ours = worse(ours, std::abs(glm::length(glm::dvec3(results[i])) - 1));
       naive = worse(naive, std::abs(glm::length(glm::dvec3(rays[i])) - 1));
     }
-    // Three roundings on the way to the sum of squares, of which its root keeps a half each; one of
-    // the root, one of its inverse, one of the product with a coordinate.
+    // Three roundings of the sum of squares, halved by the root; one of the root, one of its
+    // inverse, one of the product with a coordinate.
     recorder.add(
         {.at = degrees, .naive = naive, .ours = ours, .tolerance = (3 * 0.5 + 3) * epsilon});
   }
@@ -202,9 +202,9 @@ TEST(Numerics, V1c_DirectionsHaveALengthOfOne) {
 // -- V2 -----------------------------------------------------------------------------------------
 
 TEST(Numerics, V2_UpIsUpForTheNetwork) {
-  Recorder recorder({.stressed = "the direction that the network sees, told by its colour: device",
+  Recorder recorder({.stressed = "the direction that the network gets, from its colour: device",
                      .parameter = "vertical field of view / degrees",
-                     .unit = "length of the difference from the true one, which is 1 long",
+                     .unit = "length of the difference from the true unit direction",
                      .naive = "rows counted from the wrong end"});
   // A network of one layer that shows sigmoid(gain d).
   constexpr float gain = 1.5f;
@@ -237,8 +237,8 @@ TEST(Numerics, V2_UpIsUpForTheNetwork) {
         ours = worse(ours, glm::length(seen - rays.to_eye(x, y)));
         naive = worse(naive, glm::length(seen - rays.to_eye(x, side - 1 - y)));
       }
-    // Half a step of 8 bits through the slope of the sigmoid, which is least at |d| = 1, for each
-    // of three channels.
+    // Half a step of 8 bits divided by the sigmoid's slope, which is smallest at |d| = 1, for three
+    // channels.
     const double edge = 1 / (1 + std::exp(-double(gain)));
     const double tolerance = std::sqrt(3.0) * 0.5 / 255 / (double(gain) * edge * (1 - edge));
     recorder.add({.at = degrees, .naive = naive, .ours = ours, .tolerance = tolerance});
@@ -249,7 +249,7 @@ TEST(Numerics, V2_UpIsUpForTheNetwork) {
 
 TEST(Numerics, V3_TurningTheDirectionTurnsTheOddBands) {
   Recorder recorder({.stressed = "harmonics with the other convention and their odd bands negated: "
-                                 "device, and the oracle beside it",
+                                 "device and oracle",
                      .parameter = "degree",
                      .unit = "largest change of a channel",
                      .naive = "the other convention alone"});
@@ -292,8 +292,8 @@ TEST(Numerics, V3_TurningTheDirectionTurnsTheOddBands) {
   }
 }
 
-// V3 holds for two conventions that have changed places; here both are told by a colour that is
-// worked out without our basis and without our oracle.
+// V3 also holds if both conventions are swapped. This test compares each with a colour computed
+// without our basis and without our oracle.
 TEST(Numerics, V3b_EachConventionHasItsOwnSign) {
   Recorder recorder({.stressed =
                          "harmonics of degree 1 in both conventions, colours by the formula of "
@@ -302,12 +302,12 @@ TEST(Numerics, V3b_EachConventionHasItsOwnSign) {
                      .unit = "largest difference of a channel",
                      .naive = "the other convention"});
   const Camera camera = straight_camera(96, 96, 48);
-  // Red, green and blue by y, z and x alone.
+  // Red depends on y alone, green on z, blue on x.
   const glm::vec3 by_y(0.6f, 0, 0), by_z(0, 0.5f, 0), by_x(0, 0, 0.7f);
   for (const double degrees : {0.0, 10.0, 20.0, 40.0})
     for (const ViewConvention view :
          {ViewConvention::eye_to_surface, ViewConvention::surface_to_eye}) {
-      // Up and to the right, seen from the origin, the centroid of a face that faces the eye.
+      // The centroid of a face that faces the eye: up and to the right, seen from the origin.
       const double angle = glm::radians(degrees);
       const glm::dvec3 middle =
           4.0 * glm::dvec3(0.8 * std::sin(angle), 0.6 * std::sin(angle), -std::cos(angle));
@@ -339,9 +339,9 @@ TEST(Numerics, V3b_EachConventionHasItsOwnSign) {
               worse(most, worse(std::abs(shown[c] - truth[c]), std::abs(in_oracle[c] - truth[c])));
         return most;
       };
-      // Half a step of 8 bits; and in floats the centroid is rounded where it is stored, a
-      // component of the direction is off by what V1c has, its products with the scale and a
-      // coefficient and three sums by a rounding each: of terms that add up to at most so much.
+      // Half a step of 8 bits, and float roundings relative to `terms`: the stored centroid, a
+      // component of the direction (V1c), its products with the scale and a coefficient, and three
+      // sums.
       const double terms = 0.5 + std::sqrt(3 / (4 * M_PI)) * (0.6 + 0.5 + 0.7);
       recorder.add({.at = degrees,
                     .naive = off(other),
@@ -359,7 +359,7 @@ TEST(Numerics, V4_HarmonicsOfUnitDirectionsKeepTheirPower) {
   Random random(4);
   std::vector<glm::dvec3> directions;
   for (int i = 0; i < 500; ++i) directions.push_back(random.direction());
-  // Band by band, or what is too large in one and too small in another would not be told.
+  // Each band separately: errors of different bands could cancel in a total.
   constexpr int bands = 5;
   const auto band_error = [](double sum, int band) {
     return std::abs(sum / ((2 * band + 1) / (4 * M_PI)) - 1);
@@ -374,7 +374,7 @@ TEST(Numerics, V4_HarmonicsOfUnitDirectionsKeepTheirPower) {
     }
     return worst;
   };
-  // A probe answers with four numbers.
+  // A probe returns four numbers.
   const auto on_device = [](int first_band, const std::vector<glm::vec4>& inputs) {
     return Probe(shared_context().capabilities().api,
                  "#include \"harmonics.glsl\"\n"
@@ -399,10 +399,10 @@ TEST(Numerics, V4_HarmonicsOfUnitDirectionsKeepTheirPower) {
     for (const int first_band : {0, 1})
       for (const glm::vec4& sums : on_device(first_band, inputs))
         for (int i = 0; i < 4; ++i) ours = worse(ours, band_error(double(sums[i]), first_band + i));
-    // Degree 4 has products of four components of the direction, each rounded three times on its
-    // way; terms that nearly cancel are at most 35 + 30 + 3 in place of 8 (its middle one at the
-    // pole, which is all of its band there); a direction's length is off by two roundings, to the
-    // eighth power in the square; and nine terms are added up.
+    // Degree 4 multiplies four components of the direction, each with three roundings. Terms that
+    // nearly cancel sum to at most 35 + 30 + 3 in place of 8 (the middle one at the pole, which
+    // there is its whole band). A direction's length has two roundings, which count eight times in
+    // the square. Nine terms are summed.
     recorder.add({.at = length,
                   .naive = naive,
                   .ours = ours,
@@ -430,7 +430,7 @@ TEST(Numerics, V5_APrimitiveAtTheEyeHasAColour) {
                                 TexelSource::of(texel_formats::rgba32f, padded, "coefficients"));
   const glm::dvec3 eye(0.0);
   for (const double distance : {0.0, 1e-15, 1e-8, 1e-3, 1.0}) {
-    // A face of one point: its centroid is that point.
+    // A face whose corners coincide: its centroid is this point.
     const glm::vec3 point(distance * glm::normalize(glm::dvec3(1, 2, -2)));
     const TexelStore anchors(layout, TexelSource::of(texel_formats::rgba32f,
                                                      std::vector<glm::vec4>{{point, 0}}, "anchor"));
@@ -461,7 +461,7 @@ TEST(Numerics, V5_APrimitiveAtTheEyeHasAColour) {
     }
     const glm::vec3 divided = point / glm::length(point);
     const bool a_direction = std::abs(glm::length(divided) - 1) < 1e-3;
-    // Four terms of at most 0.3 x 0.49 and a half, each of five roundings.
+    // Four terms of at most 0.3 x 0.49, and one half, with five roundings each.
     recorder.add({.at = distance,
                   .naive = a_direction ? 0.0 : infinity,
                   .ours = ours,

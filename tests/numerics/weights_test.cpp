@@ -1,4 +1,4 @@
-// Weights and opacities that bite: the rows M1 to M5.
+// Large weights and critical opacities: cases M1 to M5.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,8 +33,7 @@ namespace weights_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// -- M1, M3: the network
-// ---------------------------------------------------------------------------
+// -- M1, M3: the network -------------------------------------------------------------------------
 
 struct Sample {
   std::array<double, 7> features;
@@ -60,17 +59,16 @@ ColorMlp scaled_network(double gain) {
   return mlp;
 }
 
-/// The most that rounding in floats can do to a colour: of n products added up, n + 1 units of the
-/// sum of their magnitudes (Higham, "Accuracy and Stability of Numerical Algorithms", 3.1), layer
-/// after layer; a ReLU passes an error on, the sigmoid at most a quarter.
+/// The largest change of a colour by float roundings. A sum of n products has an error of n + 1
+/// units of the sum of their magnitudes (Higham, "Accuracy and Stability of Numerical Algorithms",
+/// 3.1), for each layer. A ReLU passes an error on; the sigmoid passes at most a quarter.
 double rounding_bound(const ColorMlp& mlp, const Sample& sample) {
   const auto basis = harmonics::basis(sample.to_eye);
   std::vector<double> x(sample.features.begin(), sample.features.end()), error(7, 0.0);
   for (int i = 0; i < 9; ++i) {
     x.push_back(basis[std::size_t(i)]);
-    // The worst is c (2 zz - xx - yy), c = 0.316: of its squares the roundings add up to 2, of two
-    // differences of at most 2 to 4, and those of c and of the product, which is at most 2 c,
-    // are 2.
+    // The worst term is c (2 zz - xx - yy), c = 0.316. Roundings of its squares add up to 2, those
+    // of two differences of at most 2 to 4, those of c and of the product, at most 2 c, to 2 each.
     error.push_back((2 + 4 + 2 * 2) * 0.316 * epsilon);
   }
   double result = 0;
@@ -89,7 +87,7 @@ double rounding_bound(const ColorMlp& mlp, const Sample& sample) {
     }
     if (&layer == &mlp.layers.back())
       for (std::size_t o = 0; o < y.size(); ++o) {
-        // The slope is greatest where |sum| is least.
+        // The slope is largest where |sum| is smallest.
         const double least = std::max(std::abs(y[o]) - passed[o], 0.0);
         const double s = 1 / (1 + std::exp(-least)), slope = s * (1 - s);
         // exp(x) may be wrong by 3 + 2 |x| units in the last place (GLSL 4.50, 4.7.1); sum,
@@ -116,7 +114,7 @@ double difference(const glm::dvec3& a, const glm::dvec3& b) {
 std::vector<glm::vec4> on_device(const ColorMlp& mlp, MlpWeights kind,
                                  const std::vector<Sample>& samples) {
   const ColorMlpSource source = color_mlp_source(mlp, kind);
-  // A sample is four inputs; only its first pixel is read.
+  // A sample needs three texels: one from the probe's inputs, two from `more`.
   const Probe probe(
       shared_context().capabilities().api,
       source.text +
@@ -173,8 +171,9 @@ TEST(Numerics, M1_NetworksOfLargeWeights) {
   }
 }
 
-/// No device is told to compute with less: what a shader does not say is as its head has it.
-/// Drawing would not tell, as desktop OpenGL takes no notice of these words.
+/// Expects that the shader requests no lower precision. Without a qualifier, the default in its
+/// head applies. A rendered image cannot show this, because desktop OpenGL ignores these
+/// qualifiers.
 void expect_high_precision(const std::string& glsl) {
   for (const char* word : {"mediump", "lowp"})
     EXPECT_FALSE(std::regex_search(glsl, std::regex("\\b" + std::string(word) + "\\b")))
@@ -182,8 +181,8 @@ void expect_high_precision(const std::string& glsl) {
         << glsl;
 }
 
-/// All fragment and compute shaders of ours that have the network in them, complete, of a soup that
-/// has one.
+/// All our fragment and compute shaders that contain the network, assembled for a soup with a
+/// network.
 std::vector<std::string> shaders_with_a_network(bool specialise, gl::Api to) {
   const TriangleSoup soup = random_soup(31, {.kind = Kind::lattice_mlp});
   const AppearanceSource appearance =
@@ -192,7 +191,7 @@ std::vector<std::string> shaders_with_a_network(bool specialise, gl::Api to) {
   std::vector<std::string> shaders;
   for (const char* file :
        {"forward.frag", "visibility.frag", "shading.frag", "shading.comp", "debug_view.frag"}) {
-    // Which constants they have else changes nothing: what #if leaves out is in the text, too.
+    // Their other constants do not matter: the text contains the parts that #if skips, too.
     ShaderSource source{
         .file = file,
         .constants = appearance.constants,
@@ -204,9 +203,8 @@ std::vector<std::string> shaders_with_a_network(bool specialise, gl::Api to) {
 }
 
 TEST(Numerics, M3_AMediumPrecisionWouldShow) {
-  Recorder recorder({.stressed =
-                         "the network where a device has 16-bit medium floats: the shaders ask "
-                         "for high ones",
+  Recorder recorder({.stressed = "the network on a device with 16-bit mediump: the shaders request "
+                                 "highp",
                      .parameter = "gain of the weights",
                      .unit = "largest error of a channel",
                      .naive = "mediump: rounded to a half after every operation"});
@@ -216,7 +214,7 @@ TEST(Numerics, M3_AMediumPrecisionWouldShow) {
   for (const bool specialise : {true, false})
     for (const gl::Api to : {gl::Api::es, gl::Api::desktop})
       for (const std::string& shader : shaders_with_a_network(specialise, to)) {
-        ASSERT_NE(shader.find("vec3 predicted"), std::string::npos);  // of the network's body
+        ASSERT_NE(shader.find("vec3 predicted"), std::string::npos);  // from the network's body
         ASSERT_NE(shader.find("precision highp float;"), std::string::npos);
         expect_high_precision(shader);
       }
@@ -233,7 +231,7 @@ TEST(Numerics, M3_AMediumPrecisionWouldShow) {
                 difference(evaluate_in_halves(mlp, samples[i].features, samples[i].to_eye), truth));
       ours = worse(ours, difference(glm::dvec3(shown[i]), truth));
     }
-    // Half a step of 8 bits: what is below it cannot be told from rounding.
+    // Half a step of 8 bits: smaller errors cannot be distinguished from rounding.
     recorder.add({.at = gain, .naive = naive, .ours = ours, .tolerance = 0.5 / 255});
   }
 }
@@ -241,7 +239,7 @@ TEST(Numerics, M3_AMediumPrecisionWouldShow) {
 // -- M2 -----------------------------------------------------------------------------------------
 
 TEST(Numerics, M2_SaturatedSigmoidsHaveAGradient) {
-  Recorder recorder({.stressed = "the way back through a saturated sigmoid: the trainer's network",
+  Recorder recorder({.stressed = "the backward pass of a saturated sigmoid: the trainer's network",
                      .parameter = "bias of the last layer",
                      .unit = "absolute error of the derivative by the bias",
                      .naive = "exp(-x) / (1 + exp(-x))^2 in floats"});
@@ -257,7 +255,7 @@ TEST(Numerics, M2_SaturatedSigmoidsHaveAGradient) {
       kernels::shade(mlp.data(), state, color);
       const float by_color[3] = {1, 1, 1};
       kernels::shade_backward(mlp.data(), state, by_color, gradient.data(), by_features);
-      // Of e^-|x|, which does not overflow.
+      // e^-|x| does not overflow.
       const double e = std::exp(-std::abs(double(bias))), truth = e / ((1 + e) * (1 + e));
       for (int c = 0; c < 3; ++c) {
         const double error = std::abs(double(gradient[std::size_t(kernels::biases3) + c]) - truth);
@@ -268,8 +266,8 @@ TEST(Numerics, M2_SaturatedSigmoidsHaveAGradient) {
       const double error = std::abs(double(f / ((1 + f) * (1 + f))) - truth);
       naive = std::isfinite(error) ? std::max(naive, error) : infinity;
     }
-    // s is off by 2 epsilon where the exponential's two units meet a slope of a quarter and two
-    // roundings follow; s (1 - s) passes on at most that, and is rounded twice, at most 1/4.
+    // s has an error of 2 epsilon: the exponential's two units times a slope of a quarter, then two
+    // roundings. s (1 - s) passes on at most that, and is rounded twice, at most 1/4.
     recorder.add({.at = size, .naive = naive, .ours = ours, .tolerance = (2.5 + 0.5) * epsilon});
   }
 }
@@ -278,7 +276,7 @@ TEST(Numerics, M2_SaturatedSigmoidsHaveAGradient) {
 
 constexpr int side = 48;
 
-/// One large triangle whose alpha is `alpha` everywhere, as an appearance of its own.
+/// One large triangle with a constant alpha, in each kind of appearance.
 TriangleSoup of_constant_alpha(Kind kind, float alpha, int level, bool bytes) {
   TriangleSoup soup = soup_of({{-2, -2, -1.5f}, {2.5f, -1.5f, -2.5f}, {0.3f, 3, -2}});
   if (kind == Kind::face_colors) {
@@ -372,7 +370,7 @@ TEST(Numerics, M5_AlphasOfExactlyOneHalfLeaveNoHoles) {
                  double(std::count_if(drawn.color.pixels.begin(), drawn.color.pixels.end(), black));
       }
 
-    // A logit of 0 is an alpha of one half: so training begins.
+    // A logit of 0 is an alpha of one half, the initial value in training.
     const trainer::test::Faces faces(soup.positions, 0.0f, level);
     trainer::BatchImage image = trainer::test::make_image(camera);
     faces.find(image, trainer::Masking::threshold);
@@ -392,7 +390,8 @@ TEST(Numerics, M5_AlphasOfExactlyOneHalfLeaveNoHoles) {
     trainer::cuda::KernelBackend<trainer::test::HostMachine<false>> kernels({}, trainer::Config{});
     kernels.upload(state);
     const double on_gpu = double(kernels.visible_pixels({&camera, 1})[0]);
-    // The trainer owns all edges of a face: its own count of an opaque one is what it is held to.
+    // In the trainer, a face covers all of its edges, so the reference is its own count for an
+    // opaque face.
     const trainer::test::Faces opaque(soup.positions, 200.0f, level);
     opaque.find(image, trainer::Masking::threshold);
     double in_opaque = 0;

@@ -1,5 +1,5 @@
-// Faces that cover no pixel's centre are dropped, and nothing else: against an obvious search in
-// double precision, and by images that stay the same to the bit.
+// Only faces that cover no pixel's centre are dropped: compared with a simple search in double
+// precision, and by images that must stay identical.
 #include "runtime/passes/covered_faces.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 namespace tureen::test {
 namespace covered_faces_test {
 
-/// What most rasterisers have.
+/// The number that most rasterisers have.
 constexpr int subpixel_bits = 8;
 
 FrameCamera frame_of(const Camera& camera) { return {camera, camera.eye(), {0.01, 100.0}}; }
@@ -40,11 +40,11 @@ std::vector<bool> shown(const TriangleSoup& soup, const FrameCamera& frame) {
 
 struct Found {
   bool crosses_near = false;
-  bool covers = false;       // the centre of a pixel of the image
-  bool comes_close = false;  // to one, within 0.05 pixels
+  bool covers = false;       // a pixel's centre
+  bool comes_close = false;  // to a pixel's centre, within 0.05 pixels
 };
 
-/// By looking at every centre near the face.
+/// Tests every centre near the face.
 Found search(const TriangleSoup& soup, std::size_t face, const FrameCamera& frame) {
   Found found;
   const Camera& camera = frame.camera;
@@ -86,7 +86,7 @@ TEST(CoveredFaces, AreThoseThatASearchFinds) {
   std::size_t covering = 0, missing = 0, dropped = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     Random random(seed);
-    // From specks to faces of some pixels, many of them beside the image or behind the eye.
+    // From tiny faces to faces of several pixels, many of them outside the image or behind the eye.
     const double size = 0.002 * std::pow(10.0, random.uniform(0, 1.5));
     const TriangleSoup soup =
         random_soup(seed, {.faces = 2000, .size = size, .degenerate = seed % 3 == 0});
@@ -94,7 +94,7 @@ TEST(CoveredFaces, AreThoseThatASearchFinds) {
     const FrameCamera frame = frame_of(camera);
     const std::vector<bool> shows = shown(soup, frame);
     for (std::size_t t = 0; t < shows.size(); ++t) {
-      // Faces without area never come so far.
+      // Faces without area are removed earlier.
       if (!drawable(soup, std::uint32_t(t))) continue;
       const Found found = search(soup, t, frame);
       if (found.covers || found.crosses_near) {
@@ -108,13 +108,13 @@ TEST(CoveredFaces, AreThoseThatASearchFinds) {
   }
   EXPECT_GT(covering, 5000u);
   EXPECT_GT(missing, 20000u);
-  // Those that are kept for nothing are needles longer than two pixels.
+  // The other faces that are kept without need are needles longer than two pixels.
   EXPECT_GT(double(dropped), 0.9 * double(missing));
 }
 
 TEST(CoveredFaces, AreAllOnesWhoseDepthIsButARounding) {
-  // Corners in the plane through the eye, as far as floats can lie in it, before a near plane that
-  // is nearer than that: in floats they are before or behind the eye by chance.
+  // Corners in the plane through the eye, up to float rounding, with a nearer near plane: in
+  // floats, chance decides whether they are in front of the eye or behind it.
   const std::uint64_t seed = 13;
   Random random(seed);
   std::size_t crossing = 0;
@@ -137,7 +137,7 @@ TEST(CoveredFaces, AreAllOnesWhoseDepthIsButARounding) {
         ++crossing;
       }
   }
-  EXPECT_GT(crossing, 5000u) << "of 10,000 faces: what was asked of too few proves nothing";
+  EXPECT_GT(crossing, 5000u) << "of 10,000 faces: too few to prove anything";
 }
 
 TEST(CoveredFaces, AreAllThereIsWhereFloatsKnowTooLittle) {
@@ -158,7 +158,7 @@ struct ImageCase {
 
 class CoveredFacesImage : public testing::TestWithParam<ImageCase> {};
 
-/// From outside, from within, and from near by, where faces are large.
+/// Views from outside, from inside, and from close by, where faces are large.
 TEST_P(CoveredFacesImage, StaysTheSameToTheBit) {
   const auto& [context_request, kind] = GetParam();
   const gl::Context context = gl::Context::create(context_request.request);
@@ -166,7 +166,7 @@ TEST_P(CoveredFacesImage, StaysTheSameToTheBit) {
   const std::uint64_t seed = 7;
   Random random(seed);
   TriangleSoup soup = random_soup(seed, {.kind = kind, .faces = 30000, .size = 0.01, .level = 1});
-  // Near the ball's surface faces are small, one in sixteen is large.
+  // Faces near the ball's surface are small; one face in sixteen is large.
   for (std::size_t t = 0; t < soup.triangles.size(); t += 16)
     for (int k = 1; k < 3; ++k) {
       glm::vec3& corner = soup.positions[soup.triangles[t][k]];
@@ -184,7 +184,7 @@ TEST_P(CoveredFacesImage, StaysTheSameToTheBit) {
       const glm::dvec3 eye = (i == 2 ? 0.4 : 1.0) * random.direction();
       camera = look_at(eye, 0.3 * random.direction(), {0, 0, 1}, 1.2, 200, 151);
     }
-    // Anew for each view: a frame that shows most faces lets the search rest in those after it.
+    // A new renderer for each view: after a frame that shows most faces, the search pauses.
     Renderer with(context, soup, glm::dvec3(0), {.plan = {.specialisations = all}});
     ASSERT_TRUE(with.plan().drops_small_triangles);
     with.draw(camera);
@@ -192,17 +192,17 @@ TEST_P(CoveredFacesImage, StaysTheSameToTheBit) {
     const Image8 a = with.read_color(), b = without.read_color();
     EXPECT_TRUE(a.pixels == b.pixels) << "seed " << seed << ", view " << i;
     EXPECT_EQ(with.read_faces(), without.read_faces());
-    with.draw(camera);  // resting, maybe
+    with.draw(camera);  // possibly with a paused search
     EXPECT_TRUE(with.read_color().pixels == b.pixels) << "seed " << seed << ", again, view " << i;
     showing += std::any_of(a.pixels.begin(), a.pixels.end(),
                            [&](glm::u8vec4 p) { return p != a.pixels[0]; })
                    ? 1
                    : 0;
   }
-  EXPECT_GE(showing, 3) << "one face may fill an image from within";
+  EXPECT_GE(showing, 3) << "in a view from inside, one face may fill the image";
 }
 
-// Then the pixels drawn are not those of the image.
+// With these settings, the drawn pixels are not those of the final image.
 TEST(CoveredFaces, AreFoundAmongThePixelsThatAreDrawn) {
   const std::uint64_t seed = 11;
   const gl::Context context = gl::Context::create({});

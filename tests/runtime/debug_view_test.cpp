@@ -1,5 +1,5 @@
-// What debug views show, held against values that the oracle's rays and the model give on the CPU,
-// on random soups of every appearance and on every context.
+// Compares the debug views with values computed on the CPU from the oracle's rays and the model,
+// for random soups with every appearance, in every context.
 #include "runtime/debug_views/debug_view.hpp"
 
 #include <gmock/gmock.h>
@@ -34,14 +34,14 @@ constexpr std::size_t pixel_index(int column, int row) {
   return std::size_t(row) * width + std::size_t(column);
 }
 
-// -- the model, by hand -------------------------------------------------------------------------
+// -- the expected values ------------------------------------------------------------------------
 
 struct Point {
   std::uint32_t face;
   double b0, b1;
 };
 
-/// As the visibility pass has it.
+/// The point as the visibility pass stores it.
 Point clamped(const Hit& hit) {
   const double b0 = std::max(hit.b0, 0.0), b1 = std::max(hit.b1, 0.0);
   const double sum = std::max(b0 + b1, 1.0);
@@ -55,7 +55,7 @@ T over_vertices(const TriangleSoup& soup, const std::vector<T>& values, const Po
          float(1 - p.b0 - p.b1) * values[t.z];
 }
 
-/// Eight channels of a lattice or of a pair of feature images.
+/// Eight channels from a lattice or from a pair of feature images.
 std::array<double, 8> channels(const TriangleSoup& soup, const Point& p) {
   std::array<double, 8> result{};
   if (const auto* texture = std::get_if<LatticeTexture>(&soup.appearance)) {
@@ -101,13 +101,13 @@ Alpha alpha_of(const TriangleSoup& soup, const Point& p) {
   return {value[material.mask_channel], double(material.mask_threshold)};
 }
 
-/// The colour of a texel's cell: as shaders/texel_cell.glsl says.
+/// The colour of a texel's cell, as in shaders/texel_cell.glsl.
 glm::dvec3 cell_color(glm::dvec3 color, int shade) {
   const double luma = glm::dot(color, glm::dvec3(0.299, 0.587, 0.114));
   return glm::mix(color, glm::dvec3(luma > 0.5 ? 0.0 : 1.0), 0.08 * shade);
 }
 
-/// The nearest texel of a lattice, by trying them all.
+/// The nearest texel of a lattice, by an exhaustive search.
 glm::dvec3 nearest_texel(const LatticeTexture& texture, const Point& p) {
   const LatticePatch& patch = texture.patches[p.face];
   const int n = lattice::resolution(int(patch.level));
@@ -115,8 +115,7 @@ glm::dvec3 nearest_texel(const LatticeTexture& texture, const Point& p) {
   glm::dvec3 result(0.0);
   for (int y = 0; y <= n; ++y)
     for (int x = 0; x + y <= n; ++x) {
-      // The largest weight is that of the texel whose three barycentric distances are least at
-      // most.
+      // The texel with the largest weight minimises the largest of the three barycentric distances.
       const double dx = n * p.b0 - x, dy = n * p.b1 - y;
       const double distance = std::max({std::abs(dx), std::abs(dy), std::abs(dx + dy)});
       if (distance >= best) continue;
@@ -136,7 +135,7 @@ int wrapped(int i, int size, UvMaterial::Wrap wrap) {
   return j < size ? j : period - 1 - j;
 }
 
-/// Texels of an image stand as the fields of a chess board.
+/// The texels of an image alternate like the squares of a chess board.
 int shade_of(const Image8& image, const UvMaterial& material, glm::dvec2 uv) {
   const int x = wrapped(int(std::floor(uv.x * image.width)), image.width, material.wrap_u);
   const int y = wrapped(int(std::floor(uv.y * image.height)), image.height, material.wrap_v);
@@ -164,7 +163,7 @@ struct Scenery {
   }
 };
 
-/// All hits of every pixel, near ones first, rasterised as GL does.
+/// All hits of every pixel, nearest first, rasterised as in GL.
 std::vector<std::vector<Hit>> all_hits(const Scenery& scenery) {
   std::vector<std::vector<Hit>> result(std::size_t(width) * height);
   const oracle::Rays rays(scenery.soup, {}, scenery.camera,
@@ -177,9 +176,9 @@ std::vector<std::vector<Hit>> all_hits(const Scenery& scenery) {
 
 using Expected = std::function<std::optional<glm::dvec3>(int column, int row, const Hit&)>;
 
-/// Compares where device and oracle name the same face. A byte may be off by `steps`; pixels that
-/// are off by more are counted: a value that float cannot tell from a threshold or from the border
-/// of a cell falls to the other side.
+/// Compares pixels where device and oracle show the same face. A byte may differ by `steps`. Up to
+/// the fraction `max_off` of the pixels may differ more: in floats, a value near a threshold or
+/// near the border of a cell can fall to the other side.
 void expect_shown(const Scenery& scenery, const DebugViewRenderer& debug_renderer,
                   const Expected& expected, double steps, double max_off = 0.002) {
   const Image8 image = debug_renderer.read_color();
@@ -192,7 +191,7 @@ void expect_shown(const Scenery& scenery, const DebugViewRenderer& debug_rendere
       if (faces[i] == no_face) continue;
       const auto hit = std::find_if(hits[i].begin(), hits[i].end(),
                                     [&](const Hit& h) { return h.face == faces[i]; });
-      if (hit == hits[i].end()) continue;  // a vertex that snapped otherwise
+      if (hit == hits[i].end()) continue;  // a vertex snapped differently
       const auto value = expected(column, row, *hit);
       if (!value) continue;
       ++compared;
@@ -220,8 +219,8 @@ class DebugViews : public testing::TestWithParam<NamedContext> {
   }
 };
 
-/// Half a step of rounding, and the 16 bits of barycentrics: 1/512 of a texel at level 7, which is
-/// another half where neighbours differ by everything.
+/// Half a step for rounding, and half a step for the 16 bits of barycentrics: 1/512 of a texel at
+/// level 7, where neighbours may differ by the full range.
 constexpr double rounding = 1.02;
 
 TEST_P(DebugViews, ShowTheFacesOfTheOrdinaryFrame) {
@@ -240,7 +239,7 @@ TEST_P(DebugViews, ShowTheFacesOfTheOrdinaryFrame) {
       std::size_t off = 0;
       for (std::size_t i = 0; i < expected.size(); ++i)
         off += (image.pixels[i].a == 255) != (expected[i] != no_face);
-      // Lines outline also what the alpha test throws away.
+      // Lines also outline what the alpha test discards.
       const bool same = off == 0 || name.what == DebugView::wireframe;
       EXPECT_TRUE(same) << name.name << ", seed " << seed << ": " << off << " pixels";
     }
@@ -255,7 +254,7 @@ TEST_P(DebugViews, FinalColorsAreThoseOfTheRenderer) {
     renderer.draw(scenery.camera);
     const Image8 expected = renderer.read_color();
     const Image8 shown = debug_renderer(scenery, DebugView::color).read_color();
-    // What plans leave out may move a colour by half a step, which rounding makes a whole one.
+    // Specialisations may change a colour by half a step, which rounding can make a whole step.
     for (std::size_t i = 0; i < shown.pixels.size(); ++i)
       for (int c = 0; c < 4; ++c)
         ASSERT_LE(std::abs(int(shown.pixels[i][c]) - int(expected.pixels[i][c])), 1)
@@ -266,7 +265,7 @@ TEST_P(DebugViews, FinalColorsAreThoseOfTheRenderer) {
 TEST_P(DebugViews, DepthIsTheOraclesOnItsScale) {
   const Scenery scenery(3, Kind::face_colors);
   const DepthScale scale = depth_scale(middle_bounds(scenery.soup), scenery.camera.eye());
-  // Float depths of faces that are seen edge-on: 1e-5 of the depth is a hundredth of a step.
+  // Depths are floats of faces seen edge-on: 1e-5 of the depth is a hundredth of a step.
   expect_shown(
       scenery, debug_renderer(scenery, DebugView::depth),
       [&](int, int, const Hit& hit) {
@@ -297,8 +296,8 @@ TEST_P(DebugViews, LatticesShowTheNearestTexel) {
   for (const Kind kind : {Kind::lattice, Kind::lattice_mlp}) {
     const Scenery scenery(6, kind, 0.6);
     const auto& texture = std::get<LatticeTexture>(scenery.soup.appearance);
-    // On the border of two cells either is right: at level 7 on a small face most pixels are near
-    // one, and the 16 bits of barycentrics decide.
+    // On the border of two cells, both are correct. At level 7 on a small face, most pixels are
+    // near a border, and the 16 bits of barycentrics decide.
     expect_shown(
         scenery, debug_renderer(scenery, DebugView::texels),
         [&](int, int, const Hit& hit) { return nearest_texel(texture, clamped(hit)); }, 0.52, 0.02);
@@ -336,9 +335,9 @@ TEST_P(DebugViews, AlphaShowsAlsoWhatIsCutOut) {
     std::size_t others = 0, cut_out = 0;
     for (std::size_t i = 0; i < faces.size(); ++i)
       others += faces[i] != (hits[i].empty() ? no_face : hits[i].front().face);
-    // Depths that float cannot tell apart, vertices that snap otherwise: none, one pixel at most in
-    // 66 other scenes. Three of 30,000 are the rate of H10 (docs/numerics.md).
-    EXPECT_LE(others, faces.size() / 10000) << "the nearest face, whether it exists there or not";
+    // Float ties in depth, and vertices that snap differently: none here, at most one pixel in 66
+    // other scenes. The bound is the rate of H10 (docs/numerics.md), three of 30,000.
+    EXPECT_LE(others, faces.size() / 10000) << "expected the nearest face, visible or cut out";
     expect_shown(
         scenery, shown,
         [&](int, int, const Hit& hit) {
@@ -395,7 +394,7 @@ TEST_P(DebugViews, OverdrawCountsEveryFragment) {
       ASSERT_LE(std::abs(255 * color[c] - image.pixels[i][c]), 0.52) << int(counts[i]);
   }
   EXPECT_GT(most, 10u);
-  // Vertices that snap otherwise: the budget of docs/numerics.md, H10, for coverage, over some ten
+  // Vertices may snap differently: the bound of docs/numerics.md, H10, for coverage, over about ten
   // layers.
   EXPECT_LE(double(off), 1e-3 * double(counts.size())) << "seed " << scenery.seed;
 }
@@ -425,7 +424,7 @@ TEST_P(DebugViews, WireframesOutlineWholeTriangles) {
       const std::size_t i = pixel_index(column, row);
       if (faces[i] == no_face) continue;
       ++compared;
-      // The corners of the face that shows, in pixels; none of this view lies behind the eye.
+      // The corners of the visible face, in pixels. In this view, none is behind the eye.
       glm::dvec2 at[3];
       for (int k = 0; k < 3; ++k) {
         const glm::vec3 position = scenery.soup.positions[scenery.soup.triangles[faces[i]][k]];
@@ -442,9 +441,9 @@ TEST_P(DebugViews, WireframesOutlineWholeTriangles) {
       }
       const bool is_line = image.pixels[i] == line;
       lines += is_line;
-      if (std::abs(distance - 1) < 1e-3) continue;  // float decides
+      if (std::abs(distance - 1) < 1e-3) continue;  // rounding decides
       if (is_line) {
-        // Its own, or that of a face which the alpha test has thrown away before it.
+        // A line of this face, or of a face in front of it that the alpha test discarded.
         continue;
       }
       off += distance < 1;
@@ -453,8 +452,8 @@ TEST_P(DebugViews, WireframesOutlineWholeTriangles) {
     }
   EXPECT_GT(lines, compared / 50);
   EXPECT_LT(lines, compared * 3 / 4);
-  // What float decides is left out above: no pixel of 25,089 is off, nor of seeds 16 to 26. A few
-  // for a rasteriser that interpolates otherwise.
+  // Pixels that rounding decides are skipped above: none of 25,089 pixels is off, and none for
+  // seeds 16 to 26. The bound allows a few, for a rasteriser that interpolates differently.
   EXPECT_LE(off, 5u) << "seed " << scenery.seed;
 }
 
@@ -478,7 +477,7 @@ TEST(DebugViewReasons, AreThereForWhatTheSoupLacks) {
   EXPECT_NE(reason(DebugView::texels, Kind::vertex_colors), "");
   EXPECT_NE(reason(DebugView::alpha, Kind::face_harmonics), "");
   EXPECT_NE(reason(DebugView::mlp_weight, Kind::lattice), "");
-  // A network that there is, but makes the whole colour, has another reason.
+  // A network that computes the whole colour has a different reason than no network.
   EXPECT_THAT(reason(DebugView::mlp_weight, Kind::uv_textures_mlp),
               AllOf(Ne(""), Ne(reason(DebugView::mlp_weight, Kind::uv_textures))));
   EXPECT_NE(reason(DebugView::features, Kind::uv_textures), "");
@@ -508,7 +507,7 @@ TEST(TriangleColors, AreFarApartAndBright) {
   }
   std::sort(seen.begin(), seen.end());
   const auto distinct = std::unique(seen.begin(), seen.end()) - seen.begin();
-  // By chance 3 of 10,000 share one of 2^24 colours.
+  // By chance, 3 of 10,000 share one of 2^24 colours.
   EXPECT_GE(distinct, 9980);
 }
 
@@ -526,7 +525,7 @@ TEST(DepthScales, FollowTheMiddleOfTheScene) {
   EXPECT_NEAR(inside.far / inside.near, 50, 1e-9);
   EXPECT_EQ(inside.position(inside.near), 0);
   EXPECT_EQ(inside.position(2 * inside.far), 1);
-  // A point has a scale, too.
+  // A soup that is a single point has a scale, too.
   const DepthScale point = depth_scale({}, glm::dvec3(0));
   EXPECT_LT(point.near, point.far);
 }

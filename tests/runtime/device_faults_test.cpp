@@ -1,6 +1,6 @@
-// Devices that have no memory left, lack what newer ones have, reject a shader, or are reset: each
-// is told as what it is, and what can go on does. The faults are played by functions put in place
-// of the driver's.
+// Devices without free memory, with missing functions, with a compiler that rejects a shader, and
+// after a reset: the error is the right one, and the renderer continues where possible. Replaced
+// driver functions simulate the faults.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ using testing::ThrowsMessage;
 
 constexpr CutoutCloudOptions small{.triangles = 300, .level = 2, .width = 96, .height = 64};
 
-/// A function of the driver, replaced as long as this lives.
+/// Replaces a driver function during its own lifetime.
 template <class Function>
 class Replaced {
  public:
@@ -38,7 +38,7 @@ class Replaced {
   Function own_;
 };
 
-GLenum pending_error = GL_NO_ERROR;  // what the device will say when it is asked
+GLenum pending_error = GL_NO_ERROR;  // the next result of glGetError
 
 GLenum GLAD_API_PTR tell_pending_error() { return std::exchange(pending_error, GL_NO_ERROR); }
 void GLAD_API_PTR refuse_texture(GLenum, GLint, GLint, GLsizei, GLsizei, GLsizei, GLint, GLenum,
@@ -85,7 +85,7 @@ TEST_P(DeviceFaults, MemoryThatIsRefusedIsALimitAndTheDeviceServesOn) {
   EXPECT_EQ(image().pixels, before.pixels);
 }
 
-TEST_P(DeviceFaults, AImageWithoutMemoryIsALimitAndASmallerOneIsDrawn) {
+TEST_P(DeviceFaults, AnImageWithoutMemoryIsALimitAndASmallerOneIsDrawn) {
   const Image8 before = image();
   Renderer renderer(context, soup, {});
   Camera large = camera;
@@ -101,8 +101,8 @@ TEST_P(DeviceFaults, AImageWithoutMemoryIsALimitAndASmallerOneIsDrawn) {
   EXPECT_EQ(renderer.read_color().pixels, before.pixels);
 }
 
-TEST_P(DeviceFaults, AResetIsToldAsWhatItIsAndNotAsAImage) {
-  if (!glGetGraphicsResetStatus) GTEST_SKIP() << "older contexts do not tell";
+TEST_P(DeviceFaults, AResetIsReportedAsAResetAndNotAsAnImage) {
+  if (!glGetGraphicsResetStatus) GTEST_SKIP() << "older contexts do not report resets";
   Renderer renderer(context, soup, {});
   renderer.draw(camera);
   const auto is_reset = Throws<ContextError>();
@@ -111,7 +111,7 @@ TEST_P(DeviceFaults, AResetIsToldAsWhatItIsAndNotAsAImage) {
                           PFNGLGETGRAPHICSRESETSTATUSPROC(tell_of_reset));
     EXPECT_THAT([&] { renderer.read_color(); }, is_reset);
     EXPECT_THAT([&] { renderer.read_faces(); }, is_reset);
-    // What a reset device refuses is no want of memory.
+    // An allocation that a reset device rejects is not a lack of memory.
     const Replaced error(glad_glGetError, PFNGLGETERRORPROC(tell_pending_error));
     const Replaced buffer(glad_glBufferData, PFNGLBUFFERDATAPROC(refuse_buffer));
     EXPECT_THAT([&] { Renderer(context, soup, {}); }, is_reset);
@@ -119,7 +119,7 @@ TEST_P(DeviceFaults, AResetIsToldAsWhatItIsAndNotAsAImage) {
   {
     const Replaced status(glad_glGetGraphicsResetStatus,
                           PFNGLGETGRAPHICSRESETSTATUSPROC(tell_of_reset));
-    // glGetError may go on and on then.
+    // After a reset, glGetError may return an error forever.
     const Replaced error(glad_glGetError, PFNGLGETERRORPROC(+[]() -> GLenum {
                            return 0x0507; /*context lost*/
                          }));
@@ -135,7 +135,7 @@ TEST_P(DeviceFaults, ARejectedShaderIsToldWithItsLinesAndTheDeviceServesOn) {
   EXPECT_THAT([&] { gl::Program(version + "void main() { gl_Position = nothing; }\n", ""); },
               ThrowsMessage<ContextError>(Names("nothing", "2: void main")));
   {
-    // A driver with a compiler that fails on ours.
+    // A driver whose compiler fails on our shaders.
     const Replaced status(glad_glGetShaderiv,
                           PFNGLGETSHADERIVPROC(+[](GLuint, GLenum, GLint* value) { *value = 0; }));
     EXPECT_THAT([&] { image(); }, Throws<ContextError>());
@@ -151,9 +151,9 @@ TEST_P(DeviceFaults, ARejectedShaderIsToldWithItsLinesAndTheDeviceServesOn) {
 INSTANTIATE_TEST_SUITE_P(Contexts, DeviceFaults, testing::ValuesIn(every_context),
                          [](const auto& parameter) { return parameter.param.name; });
 
-// -- Drivers that have less ---------------------------------------------------------------------
+// -- Drivers with fewer features ----------------------------------------------------------------
 
-/// OSMesa's functions, of which an older driver lacks some.
+/// OSMesa's functions with an older version number; functions newer than this version are missing.
 struct OlderDriver {
   static inline gl::Context::GetProcAddress newer = nullptr;
   static inline PFNGLGETINTEGERVPROC newer_integers = nullptr;
@@ -205,8 +205,9 @@ TEST(OlderDrivers, DrawTheSameWithoutWhatTheyLack) {
   std::size_t other = 0;
   for (std::size_t i = 0; i < whole.pixels.size(); ++i)
     other += whole.pixels[i] != with_less.pixels[i];
-  // 24 fixed bits of depth decide other ties than reversed floats where two triangles cross: in
-  // none of the 6144 pixels of this cloud, nor of seeds 2 to 12. A few for another Mesa.
+  // Where two triangles cross, 24 fixed bits of depth decide ties differently from reversed floats.
+  // This changes none of the 6144 pixels of this cloud, and none for seeds 2 to 12. The bound
+  // allows a few, for another Mesa.
   EXPECT_LE(other, 3u);
 }
 

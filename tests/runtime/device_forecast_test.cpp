@@ -23,8 +23,8 @@ TEST_P(DeviceForecastOf, IsWhatTheRendererTakesUpToPadding) {
     render.plan.specialise = specialise;
     const Renderer renderer(context, soup, glm::dvec3(0), render);
     const DeviceForecast forecast = device_forecast(soup, renderer.plan());
-    // Stores of this size fill one layer at most: each is padded by less than a row, of at most 16
-    // bytes a texel; no appearance has more than six stores.
+    // Stores of this size fill at most one layer. The padding of each is less than a row, with at
+    // most 16 bytes per texel. No appearance has more than six stores.
     const auto row_bytes =
         (std::uint64_t(1) << TexelLayout::of(device_limits(context.capabilities())).row_bits) * 16;
     EXPECT_GE(renderer.device_bytes(), forecast.bytes) << "specialise " << specialise;
@@ -42,7 +42,7 @@ std::uint64_t row_texels(const gl::Context& context) {
   return std::uint64_t(1) << TexelLayout::of(device_limits(context.capabilities())).row_bits;
 }
 
-// Large enough that a wrong size of any store shows beside the padding: 2000 x 561 texels.
+// Large enough that a wrong size of any store exceeds the padding: 2000 x 561 texels.
 TEST(DeviceForecast, IsRightForManyTexels) {
   const gl::Context context = gl::Context::create(test::osmesa);
   const Scene cloud = test::cutout_cloud({.triangles = 2000, .level = 5});
@@ -52,8 +52,8 @@ TEST(DeviceForecast, IsRightForManyTexels) {
     options.plan.specialise = specialise;
     const Renderer renderer(context, soup, cloud.origin, options);
     const std::uint64_t forecast = device_forecast(soup, renderer.plan()).bytes;
-    // Three stores of four bytes a texel, each padded by less than a row: 49,152 of 13 million
-    // bytes, of which 5504 are taken.
+    // Three stores of four bytes per texel, each padded by less than a row: 49,152 of 13 million
+    // bytes, of which 5504 are used.
     const std::uint64_t padding = 3 * row_texels(context) * 4;
     EXPECT_GE(renderer.device_bytes(), forecast) << specialise;
     EXPECT_LE(renderer.device_bytes(), forecast + padding) << specialise;
@@ -66,7 +66,7 @@ TEST(DeviceForecast, IsRightWhereFacesBetweenPixelsAreFound) {
   const Renderer renderer(context, soup, glm::dvec3(0));
   ASSERT_TRUE(renderer.plan().drops_small_triangles);
   const std::uint64_t forecast = device_forecast(soup, renderer.plan()).bytes;
-  // One store of 16 bytes a texel is padded by less than a row: 32,160 of 65,536 bytes are taken.
+  // One store of 16 bytes per texel is padded by less than a row: 32,160 of 65,536 bytes are used.
   EXPECT_GE(renderer.device_bytes(), forecast);
   EXPECT_LE(renderer.device_bytes(), forecast + row_texels(context) * 16);
 }

@@ -1,5 +1,5 @@
-// Soups with edits (scene/edit/edits.hpp): what the device shows against the oracle's image, and
-// what it takes against the forecast.
+// Edited soups (scene/edit/edits.hpp): the device's image compared with the oracle's, and its
+// memory with the forecast.
 #include <gtest/gtest.h>
 
 #include "runtime/device_forecast.hpp"
@@ -45,8 +45,8 @@ class EditedSoup : public ::testing::TestWithParam<std::tuple<Case, bool, bool>>
  protected:
   TriangleSoup soup(std::uint64_t seed) const {
     const auto& [of_case, floats, mlp] = GetParam();
-    // Baking runs the network 26 times a texel: half an hour under the thread sanitizer for 200
-    // faces. Fewer have to be larger to cover as much.
+    // Baking evaluates the network 26 times per texel: half an hour under the thread sanitizer for
+    // 200 faces. Fewer faces must be larger to cover as much.
     const bool bakes = mlp && of_case.edits.color == Edits::Color::baked;
     const TriangleSoup stored =
         test::random_soup(seed, {.kind = mlp ? test::Kind::lattice_mlp : test::Kind::lattice,
@@ -71,7 +71,7 @@ TEST_P(EditedSoup, IsDrawnAsTheOracleHasIt) {
   expect_agreement(oracle, special, "specialised");
   expect_agreement(oracle, draw({.specialise = false, .site = ShadingSite::deferred}), "generic");
   Drawn forward = draw({.site = ShadingSite::forward});
-  forward.faces = special.faces;  // forward plans name none, and rasterise alike
+  forward.faces = special.faces;  // forward plans have no face buffer; the coverage is the same
   expect_agreement(oracle, forward, "forward");
 }
 
@@ -83,7 +83,7 @@ TEST_P(EditedSoup, TakesTheBytesThatTheForecastSays) {
   const Renderer renderer(context(), drawn, glm::dvec3(0), {.plan = plan});
   const auto forecast =
       device_forecast(drawn, make_plan(drawn, device_limits(context().capabilities()), plan));
-  // Stores are whole rows: at most one row of 4096 texels of 16 bytes more, each.
+  // Stores are padded to whole rows: each by at most one row of 4096 texels with 16 bytes.
   EXPECT_GE(renderer.device_bytes(), forecast.bytes);
   EXPECT_LE(renderer.device_bytes(), forecast.bytes + 6 * 4096 * 16);
 }

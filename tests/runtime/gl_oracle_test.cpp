@@ -1,9 +1,10 @@
-// The GL path against the oracle, which rasterises as GL does (Coverage::snapped): every
-// appearance, every lattice level, every plan, on random soups.
+// The GL renderer compared with the oracle, which rasterises as in GL (Coverage::snapped): every
+// appearance, lattice level and plan, on random soups.
 //
-// Which plane the barycentrics come from is the implementation's business. Mesa 22.3 llvmpipe takes
-// the true triangle's: on the soups below, unsnapped attributes leave at most 3 wrong pixels of
-// 307,200 and 8-bit rounding, snapped ones ten times as many and errors up to 0.06.
+// GL leaves the plane of the barycentrics to the implementation. Mesa 22.3 llvmpipe uses the true
+// triangle's plane: on the soups below, unsnapped attributes leave at most 3 wrong pixels of
+// 307,200 and 8-bit rounding. Snapped attributes leave ten times as many wrong pixels, and errors
+// up to 0.06.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -35,13 +36,13 @@ OracleImage snapped_oracle(const TriangleSoup& soup, const Camera& camera,
   return test::snapped_oracle(soup, glm::dvec3(0), camera, attributes);
 }
 
-/// For what names no faces: `faces` are those of a plan that rasterises alike.
+/// For plans without a face buffer: `faces` from a plan with the same rasterisation.
 Drawn with_faces_of(const Drawn& other, Drawn drawn) {
   drawn.faces = other.faces;
   return drawn;
 }
 
-/// Every plan that can draw this soup, against one image of the oracle.
+/// Compares every plan that can draw this soup with one image from the oracle.
 void expect_every_plan_agrees(const TriangleSoup& soup, const Camera& camera,
                               const AgreementLimits& limits = {}) {
   const OracleImage oracle = snapped_oracle(soup, camera);
@@ -52,7 +53,7 @@ void expect_every_plan_agrees(const TriangleSoup& soup, const Camera& camera,
   const Drawn ordinary = draw(
       soup, camera, {.specialise = false, .reversed_depth = false, .site = ShadingSite::deferred});
   expect_agreement(oracle, ordinary, "ordinary depth", limits);
-  // Forward plans name no faces; they rasterise as the deferred ones do.
+  // Forward plans have no face buffer; their rasterisation is the same as in deferred plans.
   const Drawn forward = draw(soup, camera, {.site = ShadingSite::forward});
   expect_agreement(oracle, with_faces_of(special, forward), "forward", limits);
 }
@@ -97,8 +98,8 @@ INSTANTIATE_TEST_SUITE_P(
 class GlOracleContext : public testing::TestWithParam<std::tuple<test::NamedContext, test::Kind>> {
 };
 
-// The contexts differ in the language of the shaders, in clip control and in the driver: one soup
-// of each appearance tells.
+// Contexts differ in shader language, clip control and driver. One soup of each appearance is
+// enough.
 TEST_P(GlOracleContext, Agrees) {
   const auto& [named, kind] = GetParam();
   gl::Context context = gl::Context::create(named.request);
@@ -115,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(Soup, GlOracleContext,
                            return to_string(std::get<1>(i.param)) + "_" + std::get<0>(i.param).name;
                          });
 
-// -- what single appearances vary in ------------------------------------------------------------
+// -- parameters of single appearances -----------------------------------------------------------
 
 class GlOracleLattice : public testing::TestWithParam<std::tuple<int, bool, bool>> {};
 
@@ -160,7 +161,7 @@ INSTANTIATE_TEST_SUITE_P(Degree, GlOracleHarmonics,
                                        : "SurfaceToEye");
                          });
 
-// A float coordinate may fall into the next texel of noise: a few pixels are plainly different.
+// A float coordinate may fall into the next texel of noise, so a few pixels differ strongly.
 TEST(GlOracleSingle, NearestTexelsAgree) {
   for (const test::Kind kind : {test::Kind::uv_textures, test::Kind::uv_textures_mlp})
     expect_every_plan_agrees(
@@ -168,9 +169,9 @@ TEST(GlOracleSingle, NearestTexelsAgree) {
         camera_for(400), {.min_psnr = 40.0});
 }
 
-// -- what GL leaves open --------------------------------------------------------------------------
+// -- cases that GL leaves to the implementation ---------------------------------------------------
 
-// [G4] Faces through the eye's plane: both clip them, at planes of their own.
+// [G4] Faces through the eye's plane: device and oracle clip them, at different planes.
 TEST(GlOracleSingle, FromWithinTheSoupBothClipAlike) {
   for (const std::uint64_t seed : {501, 502, 503}) {
     const TriangleSoup soup =
@@ -223,15 +224,16 @@ TEST(GlOracleSingle, LlvmpipeInterpolatesOverTheUnsnappedTriangle) {
   const auto worst = [&](Attributes attributes) {
     return test::agreement(snapped_oracle(soup, camera, attributes), drawn).worst;
   };
-  // Steps of 8 bits: 0.76 and 22.8 here, below 2 by a factor of 2.6 and above 4 by 5.7. Seeds 2 to
-  // 12 have 0.73 to 1.2 and, but for 3.3 of seed 7, 8.8 to 73.
+  // In steps of 8 bits: 0.76 and 22.8 here, against bounds of 2 and 4. Seeds 2 to 12 have 0.73 to
+  // 1.2 and, except seed 7 with 3.3, 8.8 to 73.
   EXPECT_LT(worst(Attributes::unsnapped), 2.0 / 255);
   EXPECT_GT(worst(Attributes::snapped), 4.0 / 255);
 }
 
-// The soup that speed is measured on, at its size, forty layers deep. Its depths are tens of steps
-// of a float apart, so that few pixels name another face: 3 to 9 in 10^6 over this and the views of
-// CutoutCloud (round_trip_test.cpp). Three times that is for float arithmetic in another order.
+// The soup of the speed benchmarks at full size, forty layers deep. Its depths are tens of float
+// steps apart, so few pixels show another face: 3 to 9 in 10^6 over this view and the views of
+// CutoutCloud (round_trip_test.cpp). The bound is three times that, for another order of float
+// arithmetic.
 TEST(GlOracleSingle, TheCutoutCloudThatCoversEverythingAgrees) {
   const Scene scene = test::cutout_cloud({.coverage = test::CloudCoverage::all});
   const auto& soup = std::get<TriangleSoup>(scene.primitives);

@@ -1,6 +1,6 @@
-// Approved images of small soups of every appearance, on every context that we run on. The plain
-// goldens pin the ordinary depth range, so that contexts with and without clip control agree; one
-// golden has reversed depth.
+// Approved images of small soups with every appearance, in every context. Most goldens use the
+// ordinary depth range, so that contexts with and without clip control agree; one golden has
+// reversed depth.
 #include "tests/support/golden.hpp"
 
 #include <gtest/gtest.h>
@@ -53,8 +53,8 @@ TEST(Golden, ReversedDepth) {
   expect_golden(draw_golden(osmesa, Kind::lattice_mlp, {}), "reversed_depth");
 }
 
-// What the reader, the conventions of axes and view direction, and the network make of a real
-// scene: upside down, mirrored or dull would agree with an oracle that shares the mistake.
+// Covers the reader, the conventions of axes and view direction, and the network for a real scene.
+// An upside-down, mirrored or dull image would agree with an oracle that shares the mistake.
 TEST(Golden, Example) {
   const Scene scene = read_scene(std::string(TUREEN_SOURCE_DIR) + "/examples/soup.glb");
   const gl::Context context = gl::Context::create(osmesa);
@@ -66,8 +66,8 @@ TEST(Golden, Example) {
   expect_golden(renderer.read_color(), "example");
 }
 
-// Each view of the example from near by. Mistakes that the tests against the oracle share would
-// show here: colours that say nothing, lines that break.
+// A close-up of the example in each debug view. Shows mistakes that the oracle could share: colours
+// without information, interrupted lines.
 TEST(Golden, DebugViews) {
   const Scene scene =
       golden_debug_view_scene(read_scene(std::string(TUREEN_SOURCE_DIR) + "/examples/soup.glb"));
@@ -94,8 +94,8 @@ TEST(Golden, WithoutSpecialisation) {
                 "without_specialisation");
 }
 
-// The visibility buffer rounds barycentrics to 16 bits: at level 7, with noise for texels, that
-// moves a sample by 1/512 of the way to another texel, at most half a step of a colour.
+// The visibility buffer rounds barycentrics to 16 bits. At level 7, with noise as texels, this
+// moves a sample by 1/512 of the distance between texels, at most half a step of a colour.
 TEST(Golden, ForwardAndDeferredAgree) {
   for (const Kind kind : {Kind::face_colors, Kind::uv_textures, Kind::lattice_mlp}) {
     RenderOptions options;

@@ -1,6 +1,6 @@
-// The specialisations that decide by a bound on what a color MLP makes of them (affine-texels,
-// color-mlp and view-direction), at that bound: networks made to attain it show that it is neither
-// too lax nor too strict, random ones that it always holds.
+// Tests affine-texels, color-mlp and view-direction at their bounds. These specialisations depend
+// on a bound of the change that a color MLP causes. Networks made to attain the bound show that it
+// is neither too lax nor too strict; random networks show that it always holds.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -18,13 +18,13 @@ namespace tureen::test {
 namespace half_step_test {
 
 constexpr double half_step = 1.0 / 510;
-// How much of the bound a soup takes. The networks below attain at least 0.97 of their bounds (a
-// comment at each says what is missing), so 1.05 of one is more than half a step in truth.
+// Fractions of the bound that a soup uses. The networks below attain at least 0.97 of their bounds
+// (a comment at each gives the difference), so at 1.05 the change is more than half a step.
 constexpr double inside = 0.95, outside = 1.05;
 
 using Features = std::array<double, LatticeTexture::features>;
 
-/// A soup at a bound, and from where (surface to eye) what is left out shows most.
+/// A soup at a bound, and the direction (surface to eye) where the specialisation changes most.
 struct EdgeSoup {
   TriangleSoup soup;
   glm::dvec3 to_eye;
@@ -32,10 +32,10 @@ struct EdgeSoup {
 
 // -- networks that attain their bounds ---------------------------------------------------------
 
-/// What the colour moves by for each unit that the first layer's sums move by, all alike.
+/// Change of the colour per unit of change in the first layer's sums, all with the same sign.
 constexpr double amplification = 0.25 * 4 * 6;
 
-/// Positive random weights, each row's sum as given.
+/// Positive random weights with the given row sums.
 DenseLayer layer_of_sums(Random& random, int inputs, const std::vector<double>& sums) {
   DenseLayer layer{inputs, int(sums.size()), {}, {}};
   for (const double sum : sums) {
@@ -48,16 +48,17 @@ DenseLayer layer_of_sums(Random& random, int inputs, const std::vector<double>& 
   return layer;
 }
 
-/// First-layer neurons all have these weights of the features and of the encoded direction. No
-/// neuron is ever shut, and after the first layer all weights pull one way, so that nothing cancels
-/// and sums of columns are not those of rows. At the features `centre` the sigmoid is steepest.
-/// Output 0 moves by `amplification`, output 1 by as much the other way, output 2 by half of it.
+/// All first-layer neurons have these weights for the features and the encoded direction. No neuron
+/// is ever inactive. After the first layer, all weights of an output have the same sign, so nothing
+/// cancels, and row sums differ from column sums. At the features `centre` the sigmoid is steepest.
+/// Output 0 changes by `amplification`, output 1 by as much in the other direction, output 2 by
+/// half of it.
 ColorMlp amplifier(Random& random, const Features& weights, const std::vector<double>& direction,
                    const Features& centre) {
   ColorMlp mlp;
   mlp.encoding = direction.size() == 3 ? DirectionEncoding::xyz : DirectionEncoding::harmonics2;
   mlp.blend_channel = 3;
-  const float bias = 5.5f;  // more than features can take away: weights below add up to -4 at most
+  const float bias = 5.5f;  // more than features can subtract: the weights below sum to at least -4
   DenseLayer first{int(weights.size() + direction.size()), 4, {}, {}};
   for (int o = 0; o < first.outputs; ++o) {
     first.weights.insert(first.weights.end(), weights.begin(), weights.end());
@@ -73,7 +74,7 @@ ColorMlp amplifier(Random& random, const Features& weights, const std::vector<do
   return mlp;
 }
 
-/// Opaque faces with texels of their own: texel(face, x, y) gives the features.
+/// Opaque faces with separate texels: texel(face, x, y) returns the features.
 template <class Texel>
 TriangleSoup soup_of(std::uint64_t seed, const ColorMlp& mlp, const Texel& texel) {
   constexpr int level = 3;
@@ -94,7 +95,7 @@ TriangleSoup soup_of(std::uint64_t seed, const ColorMlp& mlp, const Texel& texel
   return soup;
 }
 
-/// In (0, 1), and near enough that the sigmoid's slope is still what it is at the centre.
+/// In [0, 1], and near enough to the centre that the sigmoid's slope is almost the same.
 Features around(Random& random, const Features& centre, double spread) {
   Features features = centre;
   for (double& feature : features)
@@ -102,15 +103,15 @@ Features around(Random& random, const Features& centre, double spread) {
   return features;
 }
 
-/// Weights of a direction that moves colours far too much to be left out, and sums hardly.
+/// Direction weights that change colours far too much to be omitted, but hardly change the sums.
 std::vector<double> visible_direction(Random& random) {
   std::vector<double> weights;
   for (int i = 0; i < 9; ++i) weights.push_back(2e-3 * random.normal());
   return weights;
 }
 
-/// M1: the blend alone. The network is dark where the base colour is bright, and the other way
-/// round. That lacks a part in 100 of a step from 0 to 1.
+/// M1: the blend alone. The network is dark where the base colour is bright, and vice versa. The
+/// difference is a part in 100 less than a step from 0 to 1.
 EdgeSoup almost_unblended(std::uint64_t seed, double fraction) {
   Random random(seed);
   const double most = fraction * half_step;
@@ -127,8 +128,8 @@ EdgeSoup almost_unblended(std::uint64_t seed, double fraction) {
   return {std::move(soup), random.direction()};
 }
 
-/// M3: weights along the harmonics of one direction reach Cauchy and Schwarz's bound there. The
-/// constant band, which does not hang on the direction, is far larger.
+/// M3: weights proportional to the harmonics of one direction attain the Cauchy-Schwarz bound
+/// there. The constant band, which does not depend on the direction, is far larger.
 EdgeSoup hardly_directed(std::uint64_t seed, double fraction, DirectionEncoding encoding,
                          double blend) {
   Random random(seed);
@@ -163,14 +164,14 @@ EdgeSoup hardly_directed_and_blended(std::uint64_t seed, double fraction) {
   return hardly_directed(seed, fraction, DirectionEncoding::harmonics2, 0.25);
 }
 
-/// L1: residuals that all pull the network one way. The blend moves a colour by half of what it
-/// might, and by a part in 100 the base colour shows: 24.2 of 25.
+/// L1: all residuals change the network in the same direction. The blend changes a colour by half
+/// of its possible effect, and the base colour contributes a part in 100: 24.2 of 25.
 EdgeSoup almost_affine(std::uint64_t seed, double fraction) {
   Random random(seed);
   const Features centre = {0.01, 0.99, 0.5, 0.99, 0.5, 0.5, 0.5};
   Features signs, weights;
   for (double& sign : signs) sign = random.chance(0.5) ? 1 : -1;
-  signs[3] = 1;  // the blend pulls with the network
+  signs[3] = 1;  // the blend has the network's sign
   for (std::size_t c = 0; c < weights.size(); ++c) weights[c] = 4.0 / 7 * signs[c];
   const ColorMlp mlp = amplifier(random, weights, visible_direction(random), centre);
   const double residual = fraction * half_step / (4 * amplification + 1);
@@ -191,9 +192,9 @@ EdgeSoup almost_affine(std::uint64_t seed, double fraction) {
   return {std::move(soup), random.direction()};
 }
 
-// -- what leaving out moves, in double precision -------------------------------------------------
+// -- changes by specialisations, in double precision --------------------------------------------
 
-/// The network as every direction's mean sees it: of the direction the constant band alone.
+/// The network for the mean direction: with only the direction's constant band.
 ColorMlp blind(ColorMlp mlp) {
   DenseLayer& first = mlp.layers.front();
   const int kept = mlp.feature_count() + (mlp.encoding == DirectionEncoding::harmonics2 ? 1 : 0);
@@ -210,7 +211,7 @@ Features features_of(const LatticeTexture& texture, std::size_t texel) {
   return features;
 }
 
-/// How far any texel's colour moves when `what` is left out, whatever the plan says of it.
+/// Largest change of any texel's colour by `what`, whether or not the plan applies it.
 double largest_shift(Specialisation what, const EdgeSoup& edge) {
   const auto& texture = std::get<LatticeTexture>(edge.soup.appearance);
   const ColorMlp& mlp = *texture.mlp;
@@ -256,7 +257,7 @@ class AtTheBound : public testing::TestWithParam<Edge> {
   }
 };
 
-TEST_P(AtTheBound, WhatMovesNoColourByHalfAStepIsLeftOut) {
+TEST_P(AtTheBound, WhatMovesNoColourByHalfAStepIsOmitted) {
   const EdgeSoup edge = soup(inside);
   EXPECT_TRUE(is_left_out(edge));
   EXPECT_LE(largest_shift(GetParam().what, edge), half_step);
@@ -265,7 +266,7 @@ TEST_P(AtTheBound, WhatMovesNoColourByHalfAStepIsLeftOut) {
 TEST_P(AtTheBound, WhatMovesOneByMoreIsKept) {
   const EdgeSoup edge = soup(outside);
   EXPECT_FALSE(is_left_out(edge));
-  EXPECT_GT(largest_shift(GetParam().what, edge), half_step) << "it might as well be left out";
+  EXPECT_GT(largest_shift(GetParam().what, edge), half_step) << "it could be omitted";
 }
 
 TEST_P(AtTheBound, ImagesMoveByAStepAtMost) {
@@ -276,8 +277,8 @@ TEST_P(AtTheBound, ImagesMoveByAStepAtMost) {
        {SpecialisationSet::all(), alone(GetParam().what)}) {
     const Difference found =
         difference(images(soup, views, {.specialisations = specialisations}), generic);
-    EXPECT_EQ(found.largest, 1) << "half a step turns into a whole one by rounding, somewhere";
-    EXPECT_GT(found.covered, 0.05) << "there is nothing to compare";
+    EXPECT_EQ(found.largest, 1) << "rounding makes half a step a whole one somewhere";
+    EXPECT_GT(found.covered, 0.05) << "too few pixels to compare";
   }
 }
 
@@ -302,9 +303,9 @@ INSTANTIATE_TEST_SUITE_P(All, AtTheBound, testing::ValuesIn(edges()), [](const a
 
 // -- random networks ---------------------------------------------------------------------------
 
-// Absolute weights know of no neuron that is shut and of no term that cancels another, so bounds of
-// random networks are never attained. How far off they are at most was measured (27, 51 and 21
-// times), and half as much again and more is allowed.
+// Bounds from absolute weights ignore inactive neurons and cancelling terms, so random networks
+// never attain them. The measured largest ratios are 27, 51 and 21; the tests allow at least half
+// as much again.
 
 std::vector<ColorMlp> random_networks() {
   std::vector<ColorMlp> networks;
@@ -315,7 +316,7 @@ std::vector<ColorMlp> random_networks() {
   return networks;
 }
 
-constexpr int samples = 3000;  // a network; the largest found is then stable to a few per cent
+constexpr int samples = 3000;  // per network; makes the largest value stable to a few per cent
 
 std::vector<double> random_features(Random& random, const ColorMlp& mlp) {
   std::vector<double> features;
@@ -323,10 +324,10 @@ std::vector<double> random_features(Random& random, const ColorMlp& mlp) {
   return features;
 }
 
-/// The most that any output moves for one unit that the features first .. end - 1 move by, each up
-/// or down as it likes.
+/// Largest change of any output per unit of change in the features first .. end - 1, each with its
+/// worst sign.
 double steepest(const ColorMlp& mlp, int first, int end, std::uint64_t seed) {
-  constexpr double step = 1e-5;  // small beside the distance of most points from any kink
+  constexpr double step = 1e-5;  // small relative to most points' distance from a kink
   Random random(seed);
   double worst = 0;
   for (int i = 0; i < samples; ++i) {
@@ -363,14 +364,15 @@ TEST(BoundsOfRandomNetworks, NetworkGainOfOneFeature) {
       EXPECT_LE(bound, 80 * observed);
     }
     EXPECT_EQ(network_gain(mlp, mlp.feature_count(), mlp.feature_count() + 1), 0.0)
-        << "a direction is no feature";
+        << "a direction is not a feature";
   }
 }
 
 TEST(BoundsOfRandomNetworks, ViewDependence) {
   for (ColorMlp mlp : random_networks()) {
     mlp.blend_channel = {};
-    // As weak as what is left out: colours end at 0 and 1, and say nothing of larger bounds.
+    // The direction's weights are small, as in networks where it is omitted. Colours are clamped to
+    // 0 and 1, so larger weights would not test the bound.
     DenseLayer& first = mlp.layers.front();
     for (std::size_t i = 0; i < first.weights.size(); ++i)
       if (int(i) % first.inputs >= mlp.feature_count()) first.weights[i] *= 1e-3f;

@@ -1,4 +1,4 @@
-// Images put together of tiles, held against the same images drawn whole.
+// Images assembled from tiles, compared with the same images drawn whole.
 #include "runtime/image_tiles.hpp"
 
 #include <gmock/gmock.h>
@@ -16,10 +16,10 @@
 namespace tureen::test {
 namespace image_tiles_test {
 
-// -- how an image is cut, without GL -----------------------------------------------------------
+// -- cutting an image, without GL ---------------------------------------------------------------
 
-/// The pixel of a camera at the origin with a focal length of 1 shows where its ray goes: the same
-/// wherever the image is cut.
+/// For a camera at the origin with a focal length of 1, each pixel encodes the direction of its
+/// ray, independent of tile borders.
 Image8 image_of_rays(const Camera& camera) {
   Image8 image(camera.width, camera.height);
   for (int y = 0; y < camera.height; ++y)
@@ -56,7 +56,7 @@ TEST(ImageTiles, TilesAndBandsStayWithinTheirBounds) {
   tiles.draw = [&](const Camera& part) {
     EXPECT_LE(part.width, 300);
     EXPECT_LE(part.height, 130);
-    // From the lower left corner in blocks of 64, where there are so many.
+    // Tiles begin at multiples of 64 pixels from the lower left corner.
     const int below = camera.height - part.height + int(part.cy);
     EXPECT_EQ(below % 64, 0);
     EXPECT_EQ(int(-part.cx) % 64, 0);
@@ -90,8 +90,8 @@ TEST(ImageTiles, ProgressMayAbandonTheImage) {
 
 class DrawnInTiles : public testing::TestWithParam<NamedContext> {};
 
-/// Corners on whole pixels and faces that lie flat in the image: nothing is rounded, and neither
-/// where a tile cuts through a face. Every byte must be the same.
+/// Corners lie on whole pixels and faces are parallel to the image, so nothing is rounded, even
+/// where a tile cuts a face. Every byte must be the same.
 TEST_P(DrawnInTiles, NothingChangesWhereNothingIsRounded) {
   const gl::Context context = gl::Context::create(GetParam().request);
   Random random(3);
@@ -104,7 +104,7 @@ TEST_P(DrawnInTiles, NothingChangesWhereNothingIsRounded) {
     soup.positions.insert(soup.positions.end(),
                           {{corner, 0}, {corner + glm::vec2(size, 0), 0}, {corner + size, 0}});
     for (int k = 0; k < 3; ++k) {
-      // The same place in the image, whatever the depth.
+      // The position in the image does not depend on the depth.
       glm::vec3& position = soup.positions[3 * t + std::uint32_t(k)];
       position = glm::vec3(glm::vec2(position) * (1 - z), z);
     }
@@ -113,7 +113,7 @@ TEST_P(DrawnInTiles, NothingChangesWhereNothingIsRounded) {
   }
   soup.appearance = colors;
   Camera camera = look_at({0, 0, 1}, {0, 0, 0}, {0, 1, 0}, 1, 256, 256);
-  camera.fx = camera.fy = 64;  // of an eighth: 8 pixels
+  camera.fx = camera.fy = 64;  // an eighth of a unit is 8 pixels
   Renderer renderer(context, soup, {}, {.background = glm::vec4(0.0f)});
   renderer.draw(camera);
   const Image8 whole = renderer.read_color();
@@ -124,12 +124,12 @@ TEST_P(DrawnInTiles, NothingChangesWhereNothingIsRounded) {
   }
 }
 
-/// What is off: a face's corner that snaps to the next 1/256 of a pixel, since the window
-/// coordinate was rounded elsewhere or a tile's border has clipped the face, moves its edge past a
-/// pixel's centre (any difference), and barycentrics that are rounded elsewhere move a colour by a
-/// step. Over all appearances, seeds 1 to 3, sides 37 to 128 and one or four samples a pixel at
-/// most 17 of 85,581 pixels were off by more than a step, 187 at all, and 9 in coverage; 6, 30 and
-/// 2 in the mean. Budgets are twice the worst.
+/// Two effects change pixels. A different rounding of window coordinates, or clipping at a tile's
+/// border, can snap a corner to the next 1/256 of a pixel and move an edge past a centre (any
+/// difference). Different rounding of barycentrics changes a colour by one step. Over all
+/// appearances, seeds 1 to 3, sides 37 to 128, and one or four samples per pixel, at most 17 of
+/// 85,581 pixels were off by more than a step, 187 by any amount, and 9 in coverage; the means were
+/// 6, 30 and 2. The bounds are twice the maxima.
 TEST_P(DrawnInTiles, RandomSoupsLookAsTheyDoWhole) {
   const gl::Context context = gl::Context::create(GetParam().request);
   for (const Kind kind : all_kinds)
@@ -160,7 +160,7 @@ TEST_P(DrawnInTiles, RandomSoupsLookAsTheyDoWhole) {
         ASSERT_TRUE(straight || supersampling > 1);
       }
       const std::string what = to_string(kind) + ", seed " + std::to_string(seed) + ", " +
-                               std::to_string(supersampling) + " samples an axis";
+                               std::to_string(supersampling) + " samples per axis";
       EXPECT_LE(off_by_more, 34u) << what;
       EXPECT_LE(off, 374u) << what;
       EXPECT_LE(coverage, 18u) << what;
@@ -172,8 +172,8 @@ TEST_P(DrawnInTiles, RandomSoupsLookAsTheyDoWhole) {
 INSTANTIATE_TEST_SUITE_P(All, DrawnInTiles, testing::ValuesIn(every_context),
                          [](const auto& test) { return std::string(test.param.name); });
 
-/// Wider than any device draws: what the oracle, which has no limit, sees in a part of it.
-TEST(ImageTiles, AImageBeyondTheDeviceShowsWhatTheOracleSees) {
+/// An image wider than any device can draw, compared with the oracle, which has no limit.
+TEST(ImageTiles, AnImageBeyondTheDeviceShowsWhatTheOracleSees) {
   const gl::Context context = gl::Context::create(osmesa);
   const int width = context.capabilities().max_image_side + 5000;
   const TriangleSoup soup = random_soup(4, {.kind = Kind::face_colors, .faces = 40, .size = 0.4});
@@ -198,8 +198,9 @@ TEST(ImageTiles, AImageBeyondTheDeviceShowsWhatTheOracleSees) {
     covered += expected.pixels[i] != glm::u8vec4(0, 0, 0, 255);
   }
   EXPECT_GT(covered, expected.pixels.size() / 20);
-  // None, nor with seeds 5 to 15. The rows cross edges 159 times in all; the coarsest grid that GL
-  // allows, 1/16 pixel, would move each by up to 1/32 pixel: past five centres.
+  // The difference is 0, also with seeds 5 to 15. The rows cross edges 159 times in total. The
+  // coarsest grid that GL allows, 1/16 pixel, would move each by up to 1/32 pixel: past five
+  // centres.
   EXPECT_LE(off, 5u);
 }
 

@@ -1,4 +1,4 @@
-// The English of plans. Other tests look at a plan's fields.
+// The English descriptions of plans. Other tests check a plan's fields.
 #include "runtime/plan/plan_description.hpp"
 
 #include <gmock/gmock.h>
@@ -36,8 +36,8 @@ TEST(PlanDescription, GivesTheMarginOfASpecialisation) {
             "affine-texels: 7 of 9 faces are affine and keep only their corner texels (changes "
             "colours by at most 0.250 of an 8-bit step)");
   EXPECT_EQ(describe(AppliedSpecialisation{Specialisation::shading_pass}),
-            "shading-pass: colours are written in the only pass, as they cost little (exact but "
-            "for rounding)");
+            "shading-pass: colours are written in the only pass, because they cost little (exact "
+            "up to rounding)");
 }
 
 TEST(PlanDescription, EverySpecialisationBeginsWithItsName) {

@@ -1,4 +1,4 @@
-// What the plan leaves out, and that leaving it out changes nothing.
+// Specialisations in plans, and that they do not change images.
 #include "runtime/plan/plan.hpp"
 
 #include <gmock/gmock.h>
@@ -25,7 +25,7 @@ std::vector<std::uint8_t>& bytes_of(TriangleSoup& soup) {
   return std::get<std::vector<std::uint8_t>>(lattice_of(soup).texels);
 }
 
-/// Random soups let some faces share their texels: here every face gets its own.
+/// Random soups let some faces share texels; this gives each face separate texels.
 void unshare_texels(TriangleSoup& soup, int level) {
   LatticeTexture& texture = lattice_of(soup);
   const std::uint32_t each = lattice::texel_count(level);
@@ -101,7 +101,7 @@ TEST(Plan, ConstantFacesBecomeFaceColoursAndAffineOnesKeepTheirCorners) {
 TEST(Plan, AnAffineFaceThatIsCutOutKeepsItsLatticeUnlessItsAlphaIsAffineToo) {
   TriangleSoup soup = random_soup(1, {.kind = Kind::lattice, .level = 3});
   for_each_texel(soup, [](std::uint8_t* texel) { std::fill(texel, texel + 7, std::uint8_t(90)); });
-  // The random alphas stay: only faces that are opaque throughout may lose their texels.
+  // The random alphas stay: only opaque faces may lose their texels.
   const RenderPlan plan = plan_of(soup);
   for (std::size_t slot = plan.opaque_count; slot < plan.faces.size(); ++slot)
     if (!plan.lattice.levels.empty()) {
@@ -110,7 +110,7 @@ TEST(Plan, AnAffineFaceThatIsCutOutKeepsItsLatticeUnlessItsAlphaIsAffineToo) {
   EXPECT_NE(plan.lattice.uniform_level, 0);
 }
 
-TEST(Plan, HarmonicsBandsThatNobodySeesAreDropped) {
+TEST(Plan, InvisibleHarmonicsBandsAreDropped) {
   TriangleSoup soup = random_soup(1, {.kind = Kind::face_harmonics, .degree = 3});
   EXPECT_EQ(plan_of(soup).harmonics_degree, 3);
   auto& sh = std::get<Harmonics>(soup.appearance);
@@ -136,7 +136,7 @@ TEST(Plan, DeadNeuronsAreFoundByTheirBound) {
               Contains(AppliedSpecialisation{Specialisation::dead_neurons, 1, 32}));
 }
 
-// -1000 + 999.999 f with f = 1 is below 0 by less than floats that large are rounded by.
+// -1000 + 999.999 f with f = 1 is below 0 by less than the float rounding at this magnitude.
 TEST(Plan, ANeuronWithinRoundingOfFiringIsNotDead) {
   ColorMlp mlp;
   mlp.encoding = DirectionEncoding::none;
@@ -160,7 +160,7 @@ TEST(Plan, AFaceWithAnAlphaThatIsNoNumberIsTested) {
   }
 }
 
-// Texels that faces share in part stay where they are: apart they might fit on no device.
+// Texels that faces partly share are not duplicated: the copies might not fit on any device.
 TEST(Plan, TexelsSharedInPartAreNotCopied) {
   TriangleSoup soup = random_soup(1, {.kind = Kind::lattice_mlp, .faces = 50, .level = 3});
   unshare_texels(soup, 3);
@@ -171,7 +171,7 @@ TEST(Plan, TexelsSharedInPartAreNotCopied) {
   EXPECT_TRUE(plan_of(soup).lattice.levels.empty());
 }
 
-TEST(Plan, WithoutSpecialisationNothingIsLeftOut) {
+TEST(Plan, WithoutSpecialisationNothingIsOmitted) {
   TriangleSoup soup = random_soup(1, {.kind = Kind::lattice_mlp, .level = 2});
   for_each_texel(soup, [](std::uint8_t* texel) { texel[3] = texel[7] = 0; });
   const RenderPlan plan = make_plan(soup, DeviceLimits{}, {.specialise = false});
@@ -187,7 +187,7 @@ TEST(Plan, CoincidentFacesShareAClusterAndABucket) {
   TriangleSoup soup = random_soup(1, {.kind = Kind::face_colors, .faces = 500});
   auto& colors = std::get<FaceColors>(soup.appearance).rgba;
   for (glm::vec4& color : colors) color.a = 1.0f;
-  // 200 copies of face 7 straddle any cluster border there may be.
+  // 200 copies of face 7 cross any cluster border.
   for (int i = 0; i < 200; ++i) {
     soup.triangles.push_back(soup.triangles[7]);
     colors.push_back(colors[7]);
@@ -201,7 +201,7 @@ TEST(Plan, CoincidentFacesShareAClusterAndABucket) {
   }
 }
 
-/// How the specialised images of a soup differ from those that leave nothing out.
+/// Difference between a soup's specialised and generic images.
 Difference specialised_against_generic(const TriangleSoup& soup, const std::vector<Camera>& views) {
   return difference(images(soup, views, {}), images(soup, views, {.specialise = false}));
 }
@@ -213,9 +213,9 @@ struct KindAndSeed {
 
 class SpecialisedKinds : public testing::TestWithParam<KindAndSeed> {};
 
-// docs/specialisations.md: what the plan calls exact leaves every pixel as it is. Compiling the
-// network's weights in sums the same terms in another order: that may round one channel in 100,000
-// otherwise.
+// docs/specialisations.md: an exact specialisation changes no pixel. Compiling the network's
+// weights into the shader adds the same terms in another order, which may change the rounding of
+// one channel in 100,000.
 TEST_P(SpecialisedKinds, DrawsWhatTheGenericPlanDraws) {
   const auto [kind, seed] = GetParam();
   const TriangleSoup soup = random_soup(seed, {.kind = kind, .faces = 400, .degenerate = true});
@@ -224,7 +224,7 @@ TEST_P(SpecialisedKinds, DrawsWhatTheGenericPlanDraws) {
       kind == Kind::lattice || kind == Kind::lattice_mlp || kind == Kind::uv_textures_mlp;
   EXPECT_LE(found.largest, rounds ? 1 : 0);
   EXPECT_LE(found.channels, rounds ? found.all_channels / 100000 : 0);
-  EXPECT_GT(found.covered, 0.05) << "there is nothing to compare";
+  EXPECT_GT(found.covered, 0.05) << "too few pixels to compare";
 }
 
 TEST(Specialised, DrawsTheCutOutCloudAsTheGenericPlanDoes) {
@@ -238,7 +238,8 @@ TEST(Specialised, DrawsTheCutOutCloudAsTheGenericPlanDoes) {
   EXPECT_LE(found.channels, found.all_channels / 100000);
 }
 
-// The rows that are not exact may move a colour by half a step, which rounding can turn into one.
+// Specialisations that are not exact may change a colour by half a step, which rounding can make a
+// whole step.
 TEST(Specialised, AffineFacesMoveNoColourByMoreThanAStep) {
   TriangleSoup soup = random_soup(4, {.kind = Kind::lattice, .faces = 300, .level = 3});
   unshare_texels(soup, 3);
@@ -259,7 +260,7 @@ TEST(Specialised, DroppedHarmonicsMoveNoColourByMoreThanAStep) {
   auto& sh = std::get<Harmonics>(soup.appearance);
   Random random(5);
   for (std::size_t i = 0; i < sh.coefficients.size(); ++i)
-    // Just below what the bound lets go: three channels of bands 2 and 3 in all.
+    // Just below the bound: the sum of three channels in bands 2 and 3.
     if (i % 16 >= 4) sh.coefficients[i] = 3e-4f * glm::vec3(random.direction());
   ASSERT_LT(plan_of(soup).harmonics_degree, 3);
   EXPECT_LE(specialised_against_generic(soup, four_views(5)).largest, 1);

@@ -1,5 +1,5 @@
-// Shading sites and quality settings against the oracle: at identical sample points, and with
-// several samples a pixel against its supersampled image.
+// Compares shading sites and quality settings with the oracle: at identical sample points, and for
+// several samples per pixel with its supersampled image.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ std::string name_of(const testing::TestParamInfo<KindOnContext>& info) {
   return to_string(std::get<1>(info.param)) + "_" + std::get<0>(info.param).name;
 }
 
-// -- what does not antialias --------------------------------------------------------------------
+// -- without antialiasing ------------------------------------------------------------------------
 
 class ShadingSites : public testing::TestWithParam<KindOnContext> {};
 
@@ -49,12 +49,11 @@ INSTANTIATE_TEST_SUITE_P(Soup, ShadingSites,
                                           testing::ValuesIn(test::all_kinds)),
                          name_of);
 
-// -- what does
-// -------------------------------------------------------------------------------------
+// -- with antialiasing ---------------------------------------------------------------------------
 
 class Supersampling : public testing::TestWithParam<KindOnContext> {};
 
-// GL's samples are the oracle's rays: where both name the same faces for all samples of a pixel,
+// GL's samples are the oracle's rays. Where both show the same faces for all samples of a pixel,
 // its colour is the same up to the rounding of samples and of their mean.
 TEST_P(Supersampling, AgreesWithTheSupersampledOracle) {
   const auto& [named, kind] = GetParam();
@@ -89,7 +88,7 @@ TEST_P(Supersampling, AgreesWithTheSupersampledOracle) {
         }
       }
     SCOPED_TRACE(n);
-    // The budgets of AgreementLimits, of samples.
+    // The bounds of AgreementLimits, applied to samples.
     EXPECT_LE(double(other), 2e-4 * double(oracle.face.size()));
     EXPECT_GT(compared, 500u);
     EXPECT_GT(10 * std::log10(3.0 * double(compared) / squares), 55.0);
@@ -106,8 +105,8 @@ INSTANTIATE_TEST_SUITE_P(Soup, Supersampling,
 
 class ResolutionScale : public testing::TestWithParam<KindOnContext> {};
 
-// The samples of a coarser image are the oracle's rays, too: the camera scales exactly, though
-// 160 x 120 at 0.7 is no whole number of samples.
+// The samples of a coarser image are the oracle's rays, too: the camera scales exactly, even though
+// 331 x 247 at these scales is not a whole number of samples.
 TEST_P(ResolutionScale, SamplesAreTheOracles) {
   const auto& [named, kind] = GetParam();
   gl::Context context = gl::Context::create(named.request);
@@ -128,8 +127,8 @@ TEST_P(ResolutionScale, SamplesAreTheOracles) {
     ASSERT_EQ(faces.size(), oracle.face.size());
     std::size_t other = 0;
     for (std::size_t i = 0; i < faces.size(); ++i) other += faces[i] != oracle.face[i];
-    // Float depths and alphas may flip a sample: here none does, with seeds 8 to 18 one at most of
-    // 40,136. Three times that for another rasteriser.
+    // Float depths and alphas may flip a sample: none here, and with seeds 8 to 18 at most one of
+    // 40,136. The bound is three times that, for another rasteriser.
     EXPECT_LE(other, 3u) << scale;
   }
 }

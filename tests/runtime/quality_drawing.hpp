@@ -1,4 +1,4 @@
-// Shared by tests of quality settings: images drawn with one.
+// Drawing with quality settings, shared by several tests.
 #pragma once
 
 #include "runtime/renderer.hpp"

@@ -1,5 +1,4 @@
-// Plans with quality settings, and that frames drawn with them leave nothing behind for the
-// next.
+// Plans with quality settings; their frames must not affect the next frame.
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
@@ -23,8 +22,7 @@ TEST(QualityPlan, WhatCannotBeDrawnIsRefused) {
   EXPECT_THROW(make_plan(soup_of(Kind::lattice_mlp), {}, with({.supersampling = 9})), UsageError);
 }
 
-// -- what frames leave behind
-// -----------------------------------------------------------------------
+// -- state after a frame -------------------------------------------------------------------------
 
 const std::vector<RenderOptions> every_way = {
     options_with({}),
@@ -34,7 +32,7 @@ const std::vector<RenderOptions> every_way = {
 
 class Frames : public testing::TestWithParam<NamedContext> {};
 
-// Renderers in turns, in sizes in turns: every image as if it were the only one.
+// Renderers and image sizes alternate; every image must be the same as if drawn alone.
 TEST_P(Frames, LeaveNothingForTheNext) {
   const gl::Context context = gl::Context::create(GetParam().request);
   const TriangleSoup soup = soup_of(Kind::lattice_mlp);
@@ -55,7 +53,7 @@ TEST_P(Frames, LeaveNothingForTheNext) {
       }
 }
 
-TEST_P(Frames, DoNotDependOnStateThatSomebodyElseLeft) {
+TEST_P(Frames, DoNotDependOnForeignState) {
   const gl::Context context = gl::Context::create(GetParam().request);
   const TriangleSoup soup = soup_of(Kind::lattice_mlp);
   const Camera camera = camera_of(64, 48);
@@ -95,7 +93,7 @@ TEST_P(Frames, AreCopiedAtFullSize) {
   Renderer renderer(context, soup, {}, options_with({.resolution_scale = 0.5}));
   renderer.draw(camera_of(40, 30));
   const Image8 expected = renderer.read_color();
-  // Somebody else's framebuffer of the image's size.
+  // A framebuffer of the image's size that does not belong to the renderer.
   GLuint texture, framebuffer;
   glGenTextures(1, &texture);
   glBindTexture(GL_TEXTURE_2D, texture);

@@ -1,5 +1,5 @@
-// Trained soups of others, as a user loads them, against the oracle. Skipped where the data, which
-// is not part of the project, is not there.
+// Trained soups from other projects, loaded as a user loads them, compared with the oracle. Skipped
+// without the data, which is not part of the project.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -24,7 +24,7 @@ gl::Context& context() {
   return shared;
 }
 
-/// The side that `tureen render` shows first, and the opposite one.
+/// The first view of `tureen render`, and the opposite view.
 std::vector<Camera> two_views(const Scene& scene) {
   return orbit(subject_of(scene), 2, three_quarter_view, {.width = 960, .height = 720});
 }
@@ -36,8 +36,8 @@ Drawn draw(const Scene& scene, const Camera& camera, const PlanPreferences& plan
 
 struct RealSoup {
   const char* name;
-  /// The plant fills 7 % of its image; the one part of the drums that is there, 11,026 triangles
-  /// scattered over the whole, 1.6 to 2.2 %, which still is 11,000 pixels.
+  /// The plant fills 7 % of its image. The only available part of the drums, 11,026 scattered
+  /// triangles, fills 1.6 to 2.2 %, which is still 11,000 pixels.
   double min_compared;
 };
 void PrintTo(const RealSoup& soup, std::ostream* out) { *out << soup.name; }
@@ -55,7 +55,7 @@ TEST_P(RealData, AgreesWithTheOracle) {
     Drawn drawn = draw(scene, camera, {.site = ShadingSite::deferred});
     const std::string which = "view " + std::to_string(view++);
     test::expect_agreement(oracle, drawn, which, {.min_compared = min_compared});
-    // The plan that a user gets may shade forward; it covers the same pixels.
+    // The default plan may shade forward; it covers the same pixels.
     drawn.color = draw(scene, camera, {}).color;
     test::expect_agreement(oracle, drawn, which + " as planned", {.min_compared = min_compared});
   }
@@ -71,9 +71,9 @@ INSTANTIATE_TEST_SUITE_P(Soup, RealData,
                            return name;
                          });
 
-// Both hold the same bytes for colours, one a vertex, the other a face, and the same positions, one
-// in decimals: the images are equal here. The issue asks for 45 dB; one pixel in sixteen that is
-// a step off would leave 60.
+// Both files have the same colour bytes, one per vertex, the other per face, and the same
+// positions, one in decimals. The images are equal here. The requirement is 45 dB; an error of one
+// step in one of sixteen pixels would be 60 dB.
 TEST(RealDataPair, GlbAndOffShowTheSamePlant) {
   if (!std::filesystem::exists(data("ficus_2dts.glb"))) GTEST_SKIP() << "no ../shared/data";
   const Scene glb = read_scene(data("ficus_2dts.glb")), off = read_scene(data("ficus_2dts.off"));

@@ -1,4 +1,5 @@
-// The renderer's promises: ties, devices that are too small, big soups in many layers, far origins.
+// Guarantees of the renderer: ties, devices that are too small, big soups in many layers, far
+// origins.
 #include "runtime/renderer.hpp"
 
 #include <gmock/gmock.h>
@@ -25,8 +26,8 @@ Image8 draw(const gl::Context& context, const TriangleSoup& soup, glm::dvec3 ori
 }
 
 TEST(Renderer, CoincidentFacesAreWonByTheLowerIndexWhateverTheirBuckets) {
-  // Five copies of one triangle: the first is transparent, the second cut out in part, the third
-  // opaque: where the second has holes the third shows, and never the fourth or the fifth.
+  // Five copies of one triangle: the first is transparent, the second partly cut out, the third
+  // opaque. The third shows in the second's holes, and the fourth and fifth never show.
   TriangleSoup soup;
   soup.positions = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
   soup.triangles.assign(5, glm::uvec3(0, 1, 2));
@@ -74,16 +75,17 @@ TEST(Renderer, ASoupFarFromTheOriginLooksTheSame) {
       off += largest > 0;
       off_by_more += largest > 1;
     }
-    // The camera's matrix is good to 2^-53 of the offset: 2^-25 units, 1e-5 pixels at 2^28. That
-    // rounds some colours to the next step: at 2^28 of 50 pixels, of 20 to 66 with seeds 6 to 16,
-    // for which one in a thousand, 76, has little to spare; at 2^22 of none, of 3 at most.
+    // The camera's matrix is accurate to 2^-53 of the offset: 2^-25 units, 1e-5 pixels at 2^28.
+    // That rounds some colours to the next step. At 2^28 this changes 50 pixels, and 20 to 66 with
+    // seeds 6 to 16; the bound of one in a thousand is 76. At 2^22 it changes none, and at most 3
+    // with those seeds.
     EXPECT_LE(off, exponent == 28 ? image.pixels.size() / 1000 : 9u) << "2^" << exponent;
-    // An edge or an alpha that falls to the other side: none, with other seeds one at most.
+    // Edges or alphas that fall to the other side: none here, at most one with other seeds.
     EXPECT_LE(off_by_more, 3u) << "2^" << exponent;
   }
 }
 
-// A stray face makes a scene large; what is near an eye within it must not be clipped for that.
+// A stray face makes a scene large; this must not clip faces near an eye inside the scene.
 TEST(Renderer, AStrayFaceFarAwayDoesNotClipWhatIsNear) {
   const gl::Context context = gl::Context::create(osmesa);
   ASSERT_TRUE(context.capabilities().clip_control);
@@ -96,7 +98,7 @@ TEST(Renderer, AStrayFaceFarAwayDoesNotClipWhatIsNear) {
     ASSERT_EQ(pixel, glm::u8vec4(255, 0, 0, 255));
 }
 
-// Interpolated from three equal values, alpha may not fall below them: the face would have holes.
+// Alpha interpolated between three equal values must not be less, or the face has holes.
 TEST(Renderer, AnAlphaOfOneHalfThroughoutHasNoHoles) {
   const gl::Context context = gl::Context::create(osmesa);
   RenderOptions generic;
@@ -119,7 +121,7 @@ TEST(Renderer, AnAlphaOfOneHalfThroughoutHasNoHoles) {
   }
 }
 
-TEST(Renderer, AImageTooLargeForTheDeviceIsRefused) {
+TEST(Renderer, AnImageTooLargeForTheDeviceIsRefused) {
   const gl::Context context = gl::Context::create(osmesa);
   Renderer renderer(context, random_soup(9, {.kind = Kind::lattice}), {});
   Random random(9);
@@ -132,8 +134,8 @@ TEST(Renderer, AImageTooLargeForTheDeviceIsRefused) {
   EXPECT_EQ(renderer.read_color().width, side);
 }
 
-// Whoever shares a context leaves it as it likes (runtime/renderer.hpp says what it may not).
-TEST(Renderer, StateThatSomebodyElseLeftChangesNothing) {
+// Other code that shares the context may change its state; runtime/renderer.hpp gives the limits.
+TEST(Renderer, ForeignStateChangesNothing) {
   for (const gl::ContextRequest& request : {osmesa, egl_es30})
     for (const Kind kind : {Kind::lattice_mlp, Kind::face_colors}) {
       const gl::Context context = gl::Context::create(request);
@@ -163,7 +165,8 @@ TEST(Renderer, StateThatSomebodyElseLeftChangesNothing) {
     }
 }
 
-// What it makes anew in the context that draws next; the window's tests move between two contexts.
+// leave_context() releases what the next draw creates again. Tests of the window switch between two
+// contexts.
 TEST(Renderer, DrawsTheSameAfterItLeftTheContext) {
   const gl::Context context = gl::Context::create(osmesa);
   const std::vector<PlanPreferences> plans = {
@@ -214,12 +217,13 @@ TEST(Renderer, TellsThePointThatAPixelShows) {
       renderer.draw(camera);
       EXPECT_EQ(renderer.point_at({1, 1}), std::nullopt) << "background";
       EXPECT_EQ(renderer.point_at({-1, 60}), std::nullopt) << "beside the image";
-      // At a sample's centre, which is a pixel's corner where there are half as many.
+      // At a sample's centre; at half the resolution this is a pixel's corner.
       const glm::dvec2 place = scale == 1 ? glm::dvec2(84.5, 66.5) : glm::dvec2(85, 67);
       const auto point = renderer.point_at(place);
       ASSERT_TRUE(point);
       const glm::dvec3 local = *point - origin;
-      // 24 bits of depth between about 3 and 5.5: some 1e-6; floats of the corners likewise.
+      // 24 bits of depth between about 3 and 5.5 have a step of about 1e-6, as do the corners'
+      // floats.
       EXPECT_NEAR(local.z, 0.5 * local.x + 0.3, 1e-5);
       const glm::dvec4 seen = camera.view_from_world * glm::dvec4(*point, 1.0);
       EXPECT_NEAR(camera.cx - camera.fx * seen.x / seen.z, place.x, 1e-6);
@@ -253,7 +257,7 @@ TEST(Renderer, TellsWhatItsTargetsTake) {
   const gl::Context context = gl::Context::create(osmesa);
   const TriangleSoup soup = random_soup(78, {.kind = Kind::lattice_mlp, .faces = 100, .level = 2});
   constexpr int width = 160, height = 120;
-  // A pixel has 4 bytes of colour, 4 of depth, and what is drawn on the way to it.
+  // A pixel has 4 bytes of colour, 4 bytes of depth, and the intermediate targets.
   const std::pair<PlanPreferences, double> bytes_a_pixel[] = {
       {{.site = ShadingSite::forward}, 4 + 4},
       {{.site = ShadingSite::deferred}, 4 + 4 + 8},
@@ -269,7 +273,7 @@ TEST(Renderer, TellsWhatItsTargetsTake) {
   }
 }
 
-// A device with small textures needs more layers; nothing else may change.
+// A device with small textures needs more layers; the image must not change.
 TEST(Renderer, SmallTexturesHoldTheSameScene) {
   const gl::Context context = gl::Context::create(osmesa);
   const Scene cloud = cutout_cloud({.triangles = 2000, .level = 5, .width = 320, .height = 180});
@@ -288,7 +292,7 @@ TEST(Renderer, ADeviceThatIsTooSmallGetsAForecast) {
   options.limits =
       DeviceLimits{.max_texture_size = 64, .max_array_layers = 16, .clip_control = true};
   const auto refusal = error_of<DeviceLimitError>([&] {
-    // NOLINTNEXTLINE(bugprone-unused-raii): made and gone is what is tried
+    // NOLINTNEXTLINE(bugprone-unused-raii): the test is the construction
     Renderer(context, std::get<TriangleSoup>(cloud.primitives), cloud.origin, options);
   });
   // 16 layers of 64 x 64 texels hold 65,536; a triangle has 561.
@@ -322,7 +326,7 @@ TEST(Renderer, TheTargetFollowsTheCamera) {
 }
 
 TEST(Context, NamesWhatWasTriedAndWhatToInstall) {
-  // OSMesa makes no ES contexts: a request that no machine can satisfy.
+  // OSMesa has no ES contexts, so no machine can satisfy this request.
   EXPECT_THAT(error_of<ContextError>([] {
                 gl::Context::create({.backend = gl::Backend::osmesa, .api = gl::Api::es});
               }),

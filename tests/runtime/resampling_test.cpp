@@ -1,4 +1,4 @@
-// That supersampling and resolution scale filter as they say, with every shading site and pipeline.
+// Supersampling and resolution scale filter as documented, with every shading site and pipeline.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@
 namespace tureen::test {
 namespace resampling_test {
 
-/// The weighted mean of samples as the shaders should take it: colours count as much as they are
-/// opaque, and as they are where nothing is.
+/// The weighted mean of samples that the shaders should compute. Colours are weighted by alpha, or
+/// unweighted where all samples are transparent.
 struct WeightedMean {
   glm::dvec4 sum{0.0};
   glm::dvec3 plain{0.0};
@@ -31,7 +31,7 @@ struct WeightedMean {
   }
 };
 
-/// Half a step of rounding, and what float and two roundings near a half may add.
+/// Half a step of rounding, plus float errors and double rounding near one half.
 void expect_filtered(const Image8& drawn, const std::function<glm::dvec4(int, int)>& expected) {
   double worst = 0;
   for (int y = 0; y < drawn.height; ++y)
@@ -69,7 +69,7 @@ class Resampling : public testing::TestWithParam<NamedContext> {
   const TriangleSoup soup = random_soup(22, {.kind = Kind::lattice_mlp, .size = 0.3, .level = 2});
 };
 
-// A supersampled image is the mean of the same image n times as large.
+// A supersampled image is the mean of an image n times as large.
 TEST_P(Resampling, SupersamplingIsTheMeanOfALargerImage) {
   const gl::Context context = gl::Context::create(GetParam().request);
   const Camera camera = camera_of(61, 43);

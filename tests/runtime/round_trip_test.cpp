@@ -1,5 +1,5 @@
-// Written and read again, a soup draws the same pixels: through GL, to the bit, for every format
-// that promises it; and what a user loads from an export agrees with the oracle.
+// A soup that is written and read again draws identical pixels in GL, for every format that
+// guarantees this. A loaded export agrees with the oracle.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,8 +33,8 @@ Scene written_and_read(const Scene& scene, const std::filesystem::path& path) {
   return read_scene(path);
 }
 
-/// Colour, alpha and face of every pixel of the first view, by the plan that faces can be read from
-/// and by the one that a user gets.
+/// Compares colour, alpha and face of every pixel in the first view, for a deferred plan, which has
+/// a face buffer, and for the default plan.
 void expect_the_same_pixels(const Scene& written, const Scene& read) {
   const PlanPreferences plans[] = {{.site = ShadingSite::deferred}, {}};
   for (const PlanPreferences& plan : plans) {
@@ -47,11 +47,11 @@ void expect_the_same_pixels(const Scene& written, const Scene& read) {
     }
     EXPECT_EQ(other, 0u) << "pixels differ; " << (plan.site ? "deferred" : "the plan's own choice");
     EXPECT_EQ(before.faces, after.faces);
-    EXPECT_GT(drawn, before.color.pixels.size() / 20) << "hardly anything to compare";
+    EXPECT_GT(drawn, before.color.pixels.size() / 20) << "too few pixels to compare";
   }
 }
 
-/// With an origin that float does not hold, and one camera, in double.
+/// A scene with one random camera.
 Scene scene_of(TriangleSoup soup, std::uint64_t seed) {
   test::Random random(seed);
   Scene scene;
@@ -68,7 +68,7 @@ class RoundTrip : public ::testing::TestWithParam<std::tuple<Kind, int>> {
 
 TEST_P(RoundTrip, OfOurGlbDrawsTheSamePixels) {
   const TemporaryFolder folder;
-  // What one seed does not have the other has: shared vertices, degenerate faces, float texels.
+  // The two seeds have different features: shared vertices, degenerate faces, float texels.
   const bool odd = seed() % 2 == 1;
   Scene scene = scene_of(test::random_soup(seed(), {.kind = kind(),
                                                     .shared_vertices = odd,
@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(Soup, RoundTrip,
 
 class RoundTripOfColors : public ::testing::TestWithParam<std::tuple<const char*, Kind>> {};
 
-// Cameras have no place in these formats: the image is taken with the one that was written.
+// These formats do not store cameras, so the written scene's camera draws both images.
 TEST_P(RoundTripOfColors, OfEightBitsDrawsTheSamePixels) {
   const TemporaryFolder folder;
   const auto& [extension, kind] = GetParam();
@@ -120,9 +120,9 @@ INSTANTIATE_TEST_SUITE_P(Format, RoundTripOfColors,
                                   to_string(std::get<1>(i.param));
                          });
 
-// -- the soup that speed is measured on, at its size ---------------------------------------------
+// -- the soup of the speed benchmarks, at full size ----------------------------------------------
 
-// An export holds bytes as they are, so that its image is the original's too.
+// An export stores bytes unchanged, so its image is the same as the original's.
 TEST(CutoutCloud, ReadFromADiffSoupExportAgreesWithTheOracle) {
   const TemporaryFolder folder;
   const Scene scene = test::cutout_cloud({.coverage = test::CloudCoverage::forty_percent});
@@ -132,7 +132,7 @@ TEST(CutoutCloud, ReadFromADiffSoupExportAgreesWithTheOracle) {
     const Drawn drawn = draw(read, view, {.site = ShadingSite::deferred});
     test::expect_agreement(test::snapped_oracle(soup_of(read), read.origin, read.cameras[view]),
                            drawn, "view " + std::to_string(view),
-                           // As for the variant in gl_oracle_test.cpp.
+                           // The bound for the variant in gl_oracle_test.cpp.
                            {.max_face_mismatch = 3e-5});
   }
   expect_the_same_pixels(scene, read);

@@ -1,5 +1,5 @@
-// The formulas that stand in C++ and in GLSL give the same numbers: each is run on the device, one
-// input a pixel, and read back.
+// Formulas that exist in C++ and in GLSL return the same numbers. Each runs on the device, with one
+// input per pixel.
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
@@ -46,7 +46,7 @@ TEST_P(ShaderMath, LatticeFootprintsAreThoseOfTheModel) {
       for (int k = 0; k < 3; ++k) {
         ASSERT_EQ(std::uint32_t(texels[i][k]), expected.texels[k])
             << "level " << level << " at " << inputs[i].x << ", " << inputs[i].y;
-        // The cell coordinate at level 7 is up to 128 and carries 2^-17 of rounding.
+        // The cell coordinate at level 7 is up to 128 and has a rounding of 2^-17.
         ASSERT_NEAR(weights[i][k], expected.weights[k], 2e-5) << "level " << level;
       }
     }
@@ -77,7 +77,7 @@ TEST_P(ShaderMath, HarmonicsAreThoseOfTheModel) {
     }
 }
 
-// A wrong sign or order would give another sum: the squares of a band add up to (2l + 1) / 4 pi.
+// A wrong sign or order would change the sum: the squares of a band add up to (2l + 1) / 4 pi.
 TEST(Harmonics, BandsAreNormalised) {
   Random random(3);
   for (int i = 0; i < 100; ++i) {
@@ -92,7 +92,7 @@ TEST(Harmonics, BandsAreNormalised) {
 }
 
 TEST_P(ShaderMath, TexelStoresFindEveryTexelAcrossRowsAndLayers) {
-  // Two rows of 4 and two rows a layer: 37 texels make five layers.
+  // Rows of 4 texels, two rows per layer: 37 texels need five layers.
   TexelLayout layout{.row_bits = 2, .layer_bits = 1, .max_layers = 8};
   std::vector<float> values(37);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = float(i) + 0.25f;

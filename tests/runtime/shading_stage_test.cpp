@@ -1,4 +1,4 @@
-// Shading as compute shows what the fragment stage shows, and what plans make of the wish.
+// Shading as compute draws the same images as the fragment stage. Also tests the plan's choice.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,8 +21,8 @@ class ShadingStages : public testing::TestWithParam<NamedContext> {
     if (!context_.capabilities().compute_shaders) GTEST_SKIP() << "no compute shaders";
   }
 
-  /// To the byte: both stages call the same function with the same numbers. A GPU's compiler might
-  /// contract products and sums otherwise in one of them; none has been at hand.
+  /// Every byte must match: both stages call the same function with the same numbers. A GPU's
+  /// compiler might contract products and sums in only one of them; no GPU was tested.
   void expect_same(const TriangleSoup& soup, std::span<const Camera> cameras, RenderOptions options,
                    const std::string& what) {
     options.plan.shading_stage = ShadingStage::fragment;

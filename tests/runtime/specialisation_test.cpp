@@ -1,5 +1,5 @@
-// Each thing that a plan leaves out, alone: a soup that has its trait loses nothing, one that lacks
-// it keeps it. docs/specialisations.md names these tests as its proofs.
+// Each specialisation alone: a soup with its trait looks the same, and a soup without it is not
+// specialised. docs/specialisations.md cites these tests.
 #include "runtime/plan/specialisation.hpp"
 
 #include <gtest/gtest.h>
@@ -19,15 +19,15 @@ RenderPlan plan_of(const TriangleSoup& soup,
   return make_plan(soup, DeviceLimits{.software = true}, {.specialisations = specialisations});
 }
 
-/// How far images may move.
+/// Allowed change of images.
 struct Tolerance {
   int steps;
-  double channels;  // the part of them that may move
+  double channels;  // fraction of channels that may change
 };
 
-/// Exact is exact, but that a network whose sums are taken in another order may round one channel
-/// in 100,000 otherwise, and that a shading pass knows barycentrics in 16 bits only. What has a
-/// bound of half a step can turn into a whole one by rounding, anywhere.
+/// Exact specialisations change nothing, with two exceptions. A network's sums in another order may
+/// change the rounding of one channel in 100,000. A shading pass has barycentrics in 16 bits.
+/// Rounding can make a bound of half a step a whole step, in any channel.
 Tolerance tolerance_of(Specialisation what) {
   switch (what) {
     case Specialisation::shading_pass:
@@ -47,7 +47,7 @@ struct Case {
   std::uint64_t seed;
 };
 
-class LeavingOut : public testing::TestWithParam<Case> {
+class Omission : public testing::TestWithParam<Case> {
  protected:
   Specialisation what() const { return GetParam().what; }
   std::uint64_t seed() const { return GetParam().seed; }
@@ -59,7 +59,7 @@ class LeavingOut : public testing::TestWithParam<Case> {
   }
 };
 
-TEST_P(LeavingOut, IsPlannedWhereTheSceneHasTheTrait) {
+TEST_P(Omission, IsPlannedWhereTheSceneHasTheTrait) {
   const TriangleSoup soup = soup_with_trait();
   ASSERT_EQ(defect(soup), std::nullopt);
   const RenderPlan with = plan_of(soup);
@@ -68,11 +68,11 @@ TEST_P(LeavingOut, IsPlannedWhereTheSceneHasTheTrait) {
   EXPECT_FALSE(without.applies(what()));
 }
 
-class LeavingOutImage : public LeavingOut {};
+class OmissionImage : public Omission {};
 
-// Against nothing left out, with everything and with this alone (which shows what depends on
-// something else being left out); and everything but this.
-TEST_P(LeavingOutImage, LosesNothing) {
+// Compares the generic images with images for three sets: all specialisations, only this one (which
+// shows dependencies on others), and all others.
+TEST_P(OmissionImage, LosesNothing) {
   const TriangleSoup soup = soup_with_trait();
   const std::vector<Camera> views = four_views(seed());
   const std::vector<Image8> generic = images(soup, views, {.specialise = false});
@@ -86,11 +86,11 @@ TEST_P(LeavingOutImage, LosesNothing) {
         difference(images(soup, views, {.specialisations = specialisations}), generic);
     EXPECT_LE(found.largest, steps) << name;
     EXPECT_LE(double(found.channels), channels * double(found.all_channels)) << name;
-    EXPECT_GT(found.covered, 0.05) << "there is nothing to compare";
+    EXPECT_GT(found.covered, 0.05) << "too few pixels to compare";
   }
 }
 
-TEST_P(LeavingOut, DoesNotHappenWhereTheSceneLacksTheTrait) {
+TEST_P(Omission, DoesNotHappenWhereTheSceneLacksTheTrait) {
   const TriangleSoup soup = soup_without_trait(what(), seed());
   const RenderPlan with = plan_of(soup);
   EXPECT_FALSE(with.applies(what()));
@@ -119,10 +119,10 @@ std::string case_name(const testing::TestParamInfo<Case>& test) {
   return test_name(test.param.what) + "_seed" + std::to_string(test.param.seed);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, LeavingOut, testing::ValuesIn(cases()), case_name);
-INSTANTIATE_TEST_SUITE_P(All, LeavingOutImage, testing::ValuesIn(cases()), case_name);
+INSTANTIATE_TEST_SUITE_P(All, Omission, testing::ValuesIn(cases()), case_name);
+INSTANTIATE_TEST_SUITE_P(All, OmissionImage, testing::ValuesIn(cases()), case_name);
 
-/// Has no name, as nobody could keep it: such a face covers no pixel centre.
+/// This omission has no name, because it cannot be disabled: such a face covers no pixel centre.
 TEST(FacesWithoutArea, AreSaidAndChangeNothing) {
   for (const std::uint64_t seed : {1, 2}) {
     const TriangleSoup soup = random_soup(seed, {.kind = Kind::face_colors, .faces = 300});
@@ -140,7 +140,7 @@ TEST(FacesWithoutArea, AreSaidAndChangeNothing) {
     const std::vector<Camera> views = four_views(seed);
     const Difference found = difference(images(more, views, {}), images(soup, views, {}));
     EXPECT_EQ(found.channels, 0u);
-    EXPECT_GT(found.covered, 0.05) << "there is nothing to compare";
+    EXPECT_GT(found.covered, 0.05) << "too few pixels to compare";
   }
 }
 
@@ -152,7 +152,7 @@ TEST(SpecialisationNames, AreFoundAgain) {
   EXPECT_EQ(specialisation_named("everything"), std::nullopt);
 }
 
-TEST(SpecialisationNames, OnlyWhatIsAskedForIsLeftOut) {
+TEST(SpecialisationNames, OnlyWhatIsAskedForIsOmitted) {
   const TriangleSoup soup = random_soup(1, {.kind = Kind::lattice_mlp, .level = 3});
   EXPECT_TRUE(plan_of(soup, SpecialisationSet()).applied.empty());
   const RenderPlan plan = plan_of(soup, SpecialisationSet::only(Specialisation::background));

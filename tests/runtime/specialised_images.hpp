@@ -1,4 +1,4 @@
-// What plans leave out, seen in images: four views of a soup by two plans, and how they differ.
+// Images of specialised plans: four views of a soup with two plans, and their difference.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace tureen::test {
 
 inline constexpr int view_width = 320, view_height = 240;
 
-/// Of the unit ball, from any side.
+/// Views of the unit ball, from random directions.
 inline std::vector<Camera> four_views(std::uint64_t seed) {
   Random random(seed);
   std::vector<Camera> views;
@@ -24,7 +24,7 @@ inline std::vector<Camera> four_views(std::uint64_t seed) {
   return views;
 }
 
-/// One a view, over white.
+/// One image per view, over white.
 inline std::vector<Image8> images(const TriangleSoup& soup, const std::vector<Camera>& views,
                                   const PlanPreferences& plan) {
   static gl::Context context = gl::Context::create(osmesa);
@@ -40,9 +40,9 @@ inline std::vector<Image8> images(const TriangleSoup& soup, const std::vector<Ca
 
 struct Difference {
   int largest = 0;           // steps of 8 bits
-  std::size_t channels = 0;  // of all images that differ at all
+  std::size_t channels = 0;  // that differ, in all images
   std::size_t all_channels = 0;
-  /// The least part of an image of `a` that is not background.
+  /// The smallest fraction of an image of `a` that is not background.
   double covered = 1.0;
 };
 
@@ -65,8 +65,8 @@ inline Difference difference(const std::vector<Image8>& a, const std::vector<Ima
   return result;
 }
 
-/// `what`, and what else a plan must leave out to leave that out: of a network whose weights are
-/// uniforms nothing is looked at, and only faces without an alpha test have one colour throughout.
+/// `what`, and the specialisations that it requires: a network with its weights in uniforms is not
+/// analysed, and only faces without an alpha test can have a constant colour.
 inline SpecialisationSet alone(Specialisation what) {
   SpecialisationSet set = SpecialisationSet::only(what);
   switch (what) {

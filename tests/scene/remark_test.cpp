@@ -26,15 +26,15 @@ TEST(Remark, EveryKindHasANameOfItsOwnAndASentence) {
 
 TEST(Remark, InEnglish) {
   EXPECT_EQ(describe({Kind::polygons_split, {1}}),
-            "1 polygon of more than three corners became fans of triangles.");
+            "1 polygon with more than three corners split into triangles.");
   EXPECT_EQ(describe({Kind::shapes_missing, {0, 1, 4, 5}}),
-            "shapes 0, 1 and 4 of 5 missing: the rest is drawn");
+            "shapes 0, 1 and 4 of 5 missing: the others are drawn");
   EXPECT_EQ(describe({Kind::soft_triangles_dropped, {2, 7}, {0.01}}),
             "2 of 7 soft triangles have an opacity below 0.01: dropped");
   EXPECT_EQ(describe({Kind::soft_triangles_opaque, {}, {0.333, 0.5}}),
-            "soft triangles are drawn opaque: a soft triangle covers 33% of its area in the mean "
+            "soft triangles are drawn opaque: on average, a soft triangle covers 33% of its area "
             "(opacity 0.50), the opaque face covers all of it");
-  EXPECT_EQ(describe({Kind::lens_undone, {0, 0}}), "Lens distortion was undone by resampling.");
+  EXPECT_EQ(describe({Kind::lens_undone, {0, 0}}), "Lens distortion was removed by resampling.");
 }
 
 TEST(Remark, NotesOfAFileStandBeforeRemarksOnIt) {
@@ -42,8 +42,8 @@ TEST(Remark, NotesOfAFileStandBeforeRemarksOnIt) {
   info.notes = {"a note; --not an option"};
   info.remarks = {{.kind = Kind::up_unknown_to_format, .names = {"OFF"}}};
   EXPECT_THAT(all_notes(info), ElementsAre("a note; --not an option",
-                                           "OFF knows no up axis: z is assumed; --up changes it"));
-  EXPECT_EQ(describe(info.remarks[0]), "OFF knows no up axis: z is assumed");
+                                           "OFF stores no up axis: z is assumed; --up changes it"));
+  EXPECT_EQ(describe(info.remarks[0]), "OFF stores no up axis: z is assumed");
 }
 
 }  // namespace remark_test

@@ -23,8 +23,8 @@ kernels::AdamStep step_at(double t, float rate = 1e-2f) {
   return kernels::adam_step(rate, beta1, beta2, epsilon, t);
 }
 
-// Algorithm 1 of the paper in double, for a vector that shares one second moment (VectorAdam) or
-// has a single number (Adam).
+// Algorithm 1 of the paper in double, for a vector with one shared second moment (VectorAdam) or
+// for a single number (Adam).
 template <std::size_t Size>
 struct Reference {
   std::array<double, Size> value{}, first{};
@@ -45,7 +45,7 @@ struct Reference {
 
 TEST(Adam, FollowsThePaperInDouble) {
   Random random(1);
-  // Gradients of training have about the size of epsilon: one view's share of a million pixels.
+  // Gradients in training have about the size of epsilon: one view's share of a million pixels.
   for (const double scale : {1.0, 1e-4, 1e-8}) {
     Reference<1> reference;
     float value = 0, first = 0, second = 0;
@@ -53,9 +53,9 @@ TEST(Adam, FollowsThePaperInDouble) {
       const auto gradient = float(scale * (random.normal() + 0.3));
       kernels::adam(step_at(t), gradient, value, first, second);
       reference.step(double(1e-2f), {gradient}, t);
-      // A step is at most about the rate; its relative error and the sum's rounding are below
-      // 1e-6 each time and of either sign: 1e-2 sqrt(1000) 1e-6, ten times over. The value itself
-      // reaches 10, of which one rounding is 5e-7.
+      // A step is at most about the rate. Its relative error and the sum's rounding are below 1e-6
+      // each, with random signs: 1e-2 sqrt(1000) 1e-6, with a margin of ten. The value reaches 10,
+      // where one rounding is 5e-7.
       ASSERT_NEAR(value, reference.value[0], 2e-5) << "scale " << scale << ", step " << t;
     }
     EXPECT_NEAR(first, reference.first[0], 1e-5 * scale);
@@ -67,14 +67,14 @@ TEST(Adam, TheFirstStepIsTheRateWhateverTheGradient) {
   for (const float gradient : {1e-4f, -1.0f, 1e6f, -1e18f}) {
     float value = 0, first = 0, second = 0;
     kernels::adam(step_at(1), gradient, value, first, second);
-    // epsilon takes 1e-4 of the smallest; 1 - 0.999f is known to 6e-8 / 1e-3.
+    // epsilon reduces the smallest by 1e-4; 1 - 0.999f has a relative error of 6e-8 / 1e-3.
     EXPECT_NEAR(value, -std::copysign(1e-2f, gradient), 1e-2f * 2e-4f) << gradient;
   }
 }
 
 TEST(Adam, RestartedMomentsKick) {
-  // docs/numerics.md, O1: the mean step in rates after a restart, for gradients that are noise.
-  // Exactly 1 at first; at t = 2 and later the published measurements, to their last digit.
+  // docs/numerics.md, O1: the mean step in rates after a reset, for gradients that are noise.
+  // Exactly 1 at first; from t = 2 on the published measurements, to their last digit.
   Random random(2);
   constexpr int trials = 1000;
   std::vector<double> mean(1001);
@@ -88,12 +88,13 @@ TEST(Adam, RestartedMomentsKick) {
   }
   double steady = 0;
   for (int t = 901; t <= 1000; ++t) steady += mean[std::size_t(t)] / 100;
-  // Deviation of one |step| is at most 0.4, of the mean of 1000 then 0.013: four of those.
+  // The deviation of one |step| is at most 0.4, of the mean of 1000 then 0.013; the bound is four
+  // of those.
   EXPECT_NEAR(mean[1], 1.00, 1e-3);
   EXPECT_NEAR(mean[2], 0.64, 0.05);
   EXPECT_NEAR(mean[10], 0.27, 0.05);
   EXPECT_NEAR(mean[100], 0.18, 0.05);
-  // sqrt(2 / pi (1 - beta1) / (1 + beta1)) = 0.183; the mean of 100 steps that have memory of 10.
+  // sqrt(2 / pi (1 - beta1) / (1 + beta1)) = 0.183; the mean of 100 steps, correlated over 10.
   EXPECT_NEAR(steady, 0.183, 0.01);
 }
 
@@ -101,8 +102,8 @@ TEST(Adam, NothingMovesWithoutGradientAndLittleWithDenormals) {
   float value = 1.5f, first = 0, second = 0;
   kernels::adam(step_at(1), 0.0f, value, first, second);
   EXPECT_EQ(value, 1.5f);
-  // The square is lost below the normal floats. Without epsilon the step would be the full rate or
-  // a division by zero; with it, it is rate g / epsilon.
+  // The square underflows below the normal floats. Without epsilon the step would be the full rate
+  // or a division by zero; with it, the step is rate g / epsilon.
   for (const float gradient : {1e-20f, 1e-30f, std::numeric_limits<float>::denorm_min()}) {
     float moved = 0;
     first = second = 0;

@@ -23,7 +23,7 @@ namespace {
 
 constexpr glm::dvec3 origin{10.0, -20.0, 30.0};  // random_model's
 
-/// A camera that looks at the model from anywhere around it, its principal point off the centre.
+/// A camera that looks at the model from a random side, with its principal point off the centre.
 Camera random_camera(Random& random, int width, int height) {
   Camera camera = look_at(origin + 4.0 * random.direction(), origin, {0, 0, 1}, 1.0, width, height);
   camera.cx += 1.25;
@@ -66,7 +66,7 @@ std::vector<std::uint32_t> all_views(const Fixture& fixture) {
 
 constexpr Rates rates{.texture = 5e-2f, .mlp = 1e-2f, .vertex = 1e-3f};
 
-/// How far two arrays are apart: the root of the mean square, and how many differ by more than
+/// The distance between two arrays: the root mean square, and the fraction that differ by more than
 /// `threshold`.
 struct Distance {
   double rms = 0, outliers = 0;
@@ -89,10 +89,11 @@ std::span<const float> floats(const std::vector<glm::vec3>& values) {
   return {&values.data()->x, 3 * values.size()};
 }
 
-/// Moments are sums of gradients: what Adam does with them hides their size. Sums in another order,
-/// in fixed point (2^-50 a term) and with other contractions to fused multiply-adds leave 1e-6 of
-/// the largest gradient, and more only where a rounding decides which face a pixel shows: one in
-/// 10^5 pixels, none where these seeds were measured. A hundredth is left for that.
+/// Compares moments, which are sums of gradients; after Adam's step their size would be hidden.
+/// Another order of sums, fixed point (2^-50 per term) and other contractions to fused
+/// multiply-adds leave errors of 1e-6 of the largest gradient. Errors are larger only where
+/// rounding decides which face a pixel shows: one in 10^5 pixels, none with these seeds. The bound
+/// allows a hundredth.
 void expect_close(std::span<const float> a, std::span<const float> b, const char* what) {
   float largest = 0;
   for (const float value : b) largest = std::max(largest, std::abs(value));
@@ -109,8 +110,8 @@ void expect_same_states(const TrainingState& actual, const TrainingState& expect
                "gradient of the corners");
   expect_close(actual.errors, expected.errors, "errors");
   expect_close(actual.moments.mlp_first, expected.moments.mlp_first, "gradient of the network");
-  // The first step of Adam is the rate times the gradient's sign, whatever its size: gradients that
-  // are zero but for rounding go either way. The rest agrees to a hundredth of a step.
+  // The first step of Adam is the rate times the gradient's sign. A gradient that is zero up to
+  // rounding has a random sign. All other numbers agree to a hundredth of a step.
   EXPECT_LE(distance(actual.model.logits, expected.model.logits, 0.01 * rates.texture).outliers,
             0.01);
   EXPECT_LE(distance(floats(actual.model.positions), floats(expected.model.positions),
@@ -122,7 +123,7 @@ void expect_same_states(const TrainingState& actual, const TrainingState& expect
   std::size_t differing = 0;
   for (std::size_t i = 0; i < actual.baseline.size(); ++i)
     differing += std::abs(int(actual.baseline[i]) - int(expected.baseline[i])) > 1;
-  // Pixels that a rounding gives to another face, at most one in a thousand.
+  // Rounding can give pixels to another face, at most one in a thousand.
   EXPECT_LE(differing, 1 + actual.baseline.size() / 1000);
 }
 
@@ -133,7 +134,8 @@ void expect_same_step_of(const MakeBackend& make, const Fixture& fixture) {
   expected_backend->upload(fixture.state);
   const StepReport actual = actual_backend->step(all_views(fixture), rates);
   const StepReport expected = expected_backend->step(all_views(fixture), rates);
-  // Means of floats of about 1: 1e-8 to 3e-8 was measured; one pixel of another face is 1e-4.
+  // Means of floats of about 1: measured differences are 1e-8 to 3e-8; one pixel of another face is
+  // 1e-4.
   EXPECT_NEAR(actual.loss, expected.loss, 1e-6);
   EXPECT_NEAR(actual.l1, expected.l1, 1e-6);
   EXPECT_NEAR(actual.ssim, expected.ssim, 1e-6);
@@ -145,7 +147,7 @@ void expect_same_step_of(const MakeBackend& make, const Fixture& fixture) {
   EXPECT_EQ(actual_times.pixels, expected_times.pixels);
   EXPECT_EQ(actual_times.shaded_pixels, expected_times.shaded_pixels);
   EXPECT_GT(actual_times.shaded_pixels, actual_times.pixels / 10);
-  // Pixels whose centre is on an edge to the last bit.
+  // Allows for pixels whose centre is exactly on an edge.
   EXPECT_NEAR(double(actual_times.fragments), double(expected_times.fragments),
               1e-4 * double(expected_times.fragments));
   EXPECT_EQ(actual_backend->take_times().fragments, 0u);
@@ -153,8 +155,8 @@ void expect_same_step_of(const MakeBackend& make, const Fixture& fixture) {
   actual_backend->download(a);
   expected_backend->download(b);
   expect_same_states(a, b);
-  // Once more: the sums of a step must not be in the next one's. What the first step left apart has
-  // been multiplied by then, as Adam steps by the rate however small a gradient is.
+  // A second step: the sums of a step must not remain in the next. Differences after the first step
+  // are larger by then, because Adam's step is the rate for even the smallest gradient.
   EXPECT_NEAR(actual_backend->step(all_views(fixture), rates).loss,
               expected_backend->step(all_views(fixture), rates).loss, 1e-4);
   actual_backend->download(a);
@@ -199,7 +201,8 @@ void expect_same_images(const MakeBackend& make) {
     std::vector<Camera> cameras;
     for (const TrainingView& view : fixture.views) {
       cameras.push_back(view.camera);
-      // The same arithmetic but for contractions: 1e-5, where no rounding decides on a face.
+      // The arithmetic is the same up to contractions: 1e-5, where rounding does not decide on a
+      // face.
       const Distance d = distance(actual->render(view.camera), expected->render(view.camera), 1e-5);
       EXPECT_LE(d.outliers, 0.001);
     }
@@ -211,8 +214,8 @@ void expect_same_images(const MakeBackend& make) {
       all += b[i];
     }
     EXPECT_GT(all, 3000u);
-    // The same pixel by pixel, but for those that lie on an edge or a border of opacity to the last
-    // bit: contractions to fused multiply-adds, which no language fixes, decide on them.
+    // The same pixel by pixel, except exactly on an edge or a border of opacity: there,
+    // contractions to fused multiply-adds decide, which the languages do not define.
     EXPECT_LE(off, all / 1000);
   }
 }
@@ -329,7 +332,7 @@ void expect_same_end_after_a_break(const MakeBackend& make) {
       std::filesystem::path(testing::TempDir()) /
       (std::string(testing::UnitTest::GetInstance()->current_test_info()->test_suite_name()) +
        "_break.checkpoint");
-  // A checkpoint names its views, and holds a baseline of their pixels.
+  // A checkpoint names its views, and contains a baseline for their pixels.
   std::vector<ViewFingerprint> views;
   for (const TrainingView& view : fixture.views)
     views.push_back(
@@ -349,7 +352,8 @@ void expect_same_end_after_a_break(const MakeBackend& make) {
 
 void expect_quarantine(const MakeBackend& make) {
   Fixture fixture(10, {.faces = 40, .min_level = 1, .max_level = 2}, 50, 40);
-  // The texture of a face gives NaN: so do the pixels that it wins by its good alpha.
+  // The texture of a face has NaN features, so the pixels that it wins with its valid alpha are
+  // NaN.
   std::size_t face = 0;
   {
     const auto cpu = make_cpu_backend(fixture.views, fixture.config, 1);
@@ -374,7 +378,7 @@ void expect_quarantine(const MakeBackend& make) {
   TrainingState after;
   backend->download(after);
   EXPECT_EQ(after.non_finite, actual.non_finite);
-  // It does not spread.
+  // The NaN does not spread.
   for (std::size_t i = 0; i < after.model.faces(); ++i) {
     if (i == face) continue;
     for (const float value : std::as_const(after.model).face_logits(i))
@@ -385,7 +389,7 @@ void expect_quarantine(const MakeBackend& make) {
 }
 
 void expect_same_training(const MakeBackend& make, int steps) {
-  // Something that can be learned: images of another soup, seen on a white background.
+  // A learnable target: images of another soup on a white background.
   Fixture fixture(11, {.faces = 80, .min_level = 0, .max_level = 2}, 48, 40, 6);
   {
     const Fixture other(12, {.faces = 60, .min_level = 0, .max_level = 2}, 48, 40, 0);

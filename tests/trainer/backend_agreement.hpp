@@ -1,5 +1,4 @@
-// Holds a backend against the processor's on random soups: whoever does a step, it is the same
-// step.
+// Compares a backend with the processor's on random soups: their steps must be the same.
 #pragma once
 
 #include <functional>
@@ -13,21 +12,22 @@ namespace tureen::trainer::test {
 using MakeBackend =
     std::function<std::unique_ptr<Backend>(std::span<const TrainingView>, const Config&)>;
 
-/// What is drawn, and which pixels each face wins.
+/// Compares rendered images, and the number of visible pixels of each face.
 void expect_same_images(const MakeBackend& make);
-/// Parameters and moments after a step, and its report.
+/// Compares parameters and moments after a step, and its report.
 void expect_same_step(const MakeBackend& make);
-/// The same of small images, ignored pixels, baseline or none, dense updates, one level.
+/// As expect_same_step(), for small images, ignored pixels, with and without baseline, dense
+/// updates, one level.
 void expect_same_step_in_odd_cases(const MakeBackend& make);
 /// upload() and download() change nothing.
 void expect_state_kept(const MakeBackend& make);
-/// Two runs, bit by bit; also one that was interrupted.
+/// Compares two runs bit by bit; the second is interrupted and resumed.
 void expect_same_bits_again(const MakeBackend& first, const MakeBackend& second);
-/// A training that goes on from a checkpoint's file against one that never stopped, bit by bit.
+/// Compares a training resumed from a checkpoint file with an uninterrupted one, bit by bit.
 void expect_same_end_after_a_break(const MakeBackend& make);
-/// What cannot be learned from is left out and counted.
+/// Non-finite pixels and gradients are excluded and counted.
 void expect_quarantine(const MakeBackend& make);
-/// PSNR after `steps`, on both.
+/// Compares the PSNR after `steps`.
 void expect_same_training(const MakeBackend& make, int steps);
 
 }  // namespace tureen::trainer::test

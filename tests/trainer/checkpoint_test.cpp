@@ -27,7 +27,7 @@ using ::testing::AllOf;
 using ::testing::Ne;
 using Bytes = std::vector<std::byte>;
 
-/// A run in which every number is another one.
+/// A run in which all numbers are different.
 Checkpoint random_checkpoint(std::uint64_t seed) {
   test::Random random(seed);
   Checkpoint checkpoint;
@@ -187,7 +187,7 @@ TEST_F(CheckpointFile, RefusesStatesThatBelongToNoRun) {
   expect([&](Checkpoint& c) { c.state.model.logits[7] = infinity; });
   expect([&](Checkpoint& c) { c.state.model.mlp[594] = nan; });
   expect([&](Checkpoint& c) { c.state.model.origin.z = double(nan); });
-  // The square of a finite gradient may overflow; the parameter then stands still.
+  // The square of a finite gradient may overflow; the parameter then never moves again.
   EXPECT_EQ(refusal(changed([&](Checkpoint& c) { c.state.moments.second[3] = infinity; })),
             std::nullopt);
   EXPECT_EQ(refusal(changed([](Checkpoint& c) {

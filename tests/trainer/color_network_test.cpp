@@ -21,7 +21,7 @@ using tureen::test::Random;
 using Parameters = std::array<double, mlp_parameters>;
 using Inputs = std::array<double, mlp_inputs>;
 
-// Weights as at the start of training, and biases, which are 0 there.
+// Weights as at the start of training, plus biases, which are 0 there.
 MlpParameters random_network(Random& random) {
   MlpParameters mlp = initial_mlp(random.below(1u << 30));
   for (float& number : mlp) number += float(0.1 * random.normal());
@@ -95,9 +95,9 @@ TEST(ColorNetwork, GradientsAreFiniteDifferences) {
     kernels::shade(mlp.data(), state, color);
     Parameters dmlp{};
     kernels::shade_backward(mlp.data(), state, dcolor, dmlp.data(), dfeatures);
-    // Differences of fourth order: h^4 = 1e-16 and rounding 1e-16 / h = 1e-12, so 1e-6 of a
-    // gradient is seen down to gradients of 1e-6. A ReLU's kink would have to lie within 2e-4; the
-    // seed has none.
+    // Differences of fourth order: h^4 = 1e-16 and rounding 1e-16 / h = 1e-12. This resolves 1e-6
+    // of a gradient down to gradients of 1e-6. No ReLU's kink may lie within 2e-4; this seed has
+    // none.
     constexpr double h = 1e-4;
     const auto check = [&](double gradient, auto&& at, const std::string& what) {
       const double difference = (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h);
@@ -153,8 +153,8 @@ TEST(ColorNetwork, LanesOfAPackAreFloatsSideBySide) {
     float single_color[3], single_dfeatures[kernels::features], single_dmlp[mlp_parameters] = {};
     kernels::shade(mlp.data(), single[l], single_color);
     kernels::shade_backward(mlp.data(), single[l], single_dcolor[l], single_dmlp, single_dfeatures);
-    // The same operations in the same order; only where a compiler fuses multiplications with
-    // additions in one and not in the other is the last bit of a sum of sixteen its choice.
+    // The same operations in the same order. If a compiler fuses multiplications with additions in
+    // only one of them, the last bit of a sum of sixteen differs.
     const auto same = [&](float a, float b, const char* what, int i) {
       EXPECT_NEAR(a, b, 1e-6 * (1 + std::abs(b))) << "lane " << l << ", " << what << " " << i;
     };
@@ -172,7 +172,7 @@ TEST(Scalar, LanesOfAnExponentialAreFloatsSideBySide) {
     for (int l = 0; l < lanes; ++l) x[l] = float(random.uniform(-100, 100));
     const Pack y = kernels::exponential(x), s = kernels::sigmoid(x), p = kernels::positive_part(x);
     for (int l = 0; l < lanes; ++l) {
-      // Two units in the last place, for compilers that fuse one of them.
+      // Two units in the last place, for compilers that fuse in only one of them.
       ASSERT_NEAR(y[l], kernels::exponential(x[l]), 3e-7 * kernels::exponential(x[l])) << x[l];
       ASSERT_NEAR(s[l], kernels::sigmoid(x[l]), 3e-7) << x[l];
       ASSERT_EQ(p[l], std::max(x[l], 0.0f));
@@ -182,7 +182,7 @@ TEST(Scalar, LanesOfAnExponentialAreFloatsSideBySide) {
 
 #endif
 
-// |computed - e^x| in units in the last place of a float of that size.
+// |computed - e^x| in units in the last place of a float with that exponent.
 double error_in_ulp(float computed, double x) {
   const double exact = std::exp(x);
   const auto rounded = float(exact);

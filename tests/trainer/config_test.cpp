@@ -1,4 +1,4 @@
-// Configurations: the table of fields against the struct, and files of them.
+// Configurations: the table of fields compared with the struct, and configuration files.
 #include "trainer/diffsoup/config.hpp"
 
 #include <gmock/gmock.h>
@@ -38,13 +38,13 @@ std::optional<Refusal> refusal(const std::string& text) {
 
 // --- The table ------------------------------------------------------------------------------
 
-/// Stands for a value of any type in an aggregate initialiser.
+/// Converts to any type in an aggregate initialiser.
 struct Anything {
   template <class T>
   operator T() const;
 };
 
-/// How many values fill a Config: an initialiser of one more is ill-formed.
+/// The number of values in a Config: an initialiser with one more is ill-formed.
 template <class... Values>
 constexpr int value_count() {
   if constexpr (requires { Config{Values{}..., Anything{}}; })
@@ -69,10 +69,10 @@ TEST(ConfigFields, AreAllMembersOfConfigOnceAndInOrder) {
                    field.member);
     EXPECT_LT(last, address) << field.name << " does not follow the field before it in Config";
     last = address;
-    EXPECT_TRUE(names.insert(field.name).second) << field.name << " twice";
+    EXPECT_TRUE(names.insert(field.name).second) << field.name << " is listed twice";
     EXPECT_FALSE(std::string(field.meaning).empty()) << field.name;
   }
-  // Distinct members, as many as there are: all.
+  // The members are distinct and their number is right, so they are all members.
   EXPECT_EQ(values, value_count<>())
       << "Config has members that trainer/diffsoup/config_fields.cpp does not list, or the reverse";
 }
@@ -109,7 +109,7 @@ TEST(ConfigFields, OpenEndsExcludeTheEnd) {
 
 // --- Files ----------------------------------------------------------------------------------
 
-/// A configuration that differs from the default in every field, and is sound.
+/// A valid configuration that differs from the default in every field.
 Config random_config(std::mt19937& random) {
   Config config;
   const auto uniform = [&](double low, double high) {

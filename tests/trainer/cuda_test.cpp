@@ -1,4 +1,4 @@
-// The CUDA backend against the processor's, where a GPU answers; and the choice between them.
+// The CUDA backend compared with the processor's, if there is a GPU; and the choice between them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ std::unique_ptr<Backend> on_gpu(std::span<const TrainingView> views, const Confi
   return make_backend(views, config, Device::cuda, 1);
 }
 
-/// Why there is no GPU to test.
+/// The reason why there is no GPU to test.
 std::optional<tureen::test::Refusal> reason_to_skip() {
   return tureen::test::error_of<ContextError>([] { (void)on_gpu({}, {}); });
 }
@@ -45,7 +45,7 @@ TEST(Device, TheProcessorIsChosenByName) {
 
 TEST(Device, WithoutAGpuTheProcessorTrainsAndCudaSaysWhy) {
   const auto reason = reason_to_skip();
-  if (!reason) GTEST_SKIP() << "a GPU answers";
+  if (!reason) GTEST_SKIP() << "there is a GPU";
   EXPECT_EQ(make_backend({}, {}, Device::automatic, 1)->description(), "CPU, 1 thread");
   EXPECT_THAT(reason, tureen::test::ErrorAt("", "--device cpu"));
 }

@@ -1,9 +1,9 @@
-// The gradients of geometry against the exact derivative of what an image is on average: a loss
-// that is linear in the colours, sum over pixels of G C, whose mean over all sub-pixel positions of
-// the pixel grid is the integral of G C over the image.
+// Compares the gradients of geometry with an exact derivative. The loss is linear in the colours,
+// the sum over pixels of G C. Its mean over all sub-pixel positions of the pixel grid is the
+// integral of G C over the image.
 //
-// G is an affine function of the place, fixed to the scene and not to the grid. So the integral
-// over a polygon is known exactly, and the derivative by a motion is taken from it by differences.
+// G is an affine function of the position, fixed to the scene and not to the grid. So the integral
+// over a polygon is exact, and its derivative by a motion is computed by differences.
 #include "trainer/common/kernels/edge_gradient.hpp"
 
 #include <gtest/gtest.h>
@@ -32,11 +32,11 @@ constexpr double focal = 100;
 
 double at(const Affine& f, glm::dvec2 p) { return f[0] + f[1] * p.x + f[2] * p.y; }
 
-// The weights G by which the loss sees the colours.
+// The weights G of the colours in the loss.
 constexpr Affine loss_weight = {1.0, 0.02, -0.013};
 
-// The integral over a polygon of the product of two affine functions: exact by the midpoints of
-// the edges of each triangle of a fan, a rule of second order.
+// The integral over a polygon of the product of two affine functions. Exact, by the midpoints of
+// the edges of each triangle in a fan, a rule of second order.
 double integral(const Polygon& polygon, const Affine& f, const Affine& g) {
   double sum = 0;
   for (std::size_t i = 2; i < polygon.size(); ++i) {
@@ -62,7 +62,7 @@ Polygon clip(const Polygon& polygon, const Affine& inside) {
 
 using Corners = std::array<glm::dvec3, 3>;
 
-// Where the scene's camera sees a point, before the grid is shifted.
+// The image of a point in the scene's camera, before the grid is shifted.
 glm::dvec2 projected(glm::dvec3 p) {
   return {side / 2.0 + focal * p.x / -p.z, side / 2.0 - focal * p.y / -p.z};
 }
@@ -72,16 +72,16 @@ Polygon projected(const Corners& corners) {
   return polygon;
 }
 
-// Counter-clockwise or not, the integral is to be positive.
+// Positive for either orientation of the polygon.
 double covered(const Polygon& polygon, const Affine& f) {
   const double area = integral(polygon, {1, 0, 0}, {1, 0, 0});
   return std::copysign(1.0, area) * integral(polygon, loss_weight, f);
 }
 
-// Colours of a scene: what a face shows at a place of the scene's grid.
+// Colours of a scene: the colour of a face at a point of the scene's grid.
 using Shade = std::function<double(std::uint32_t face, glm::dvec2 place)>;
 
-// The mean over random positions of the pixel grid of what faces gather: dL/dcorner of all faces.
+// dL/dcorner of all faces: the mean gathered gradient over random positions of the pixel grid.
 std::vector<Corners> gathered(test::Faces& faces, const Shade& shade, int phases,
                               std::uint64_t seed) {
   Random random(seed);
@@ -111,7 +111,7 @@ std::vector<Corners> gathered(test::Faces& faces, const Shade& shade, int phases
   return sum;
 }
 
-// A motion of a triangle: how fast each corner moves.
+// A motion of a triangle, as the velocity of each corner.
 struct Motion {
   std::string name;
   std::function<Corners(const Corners&)> velocity;
@@ -144,7 +144,7 @@ double along(const Corners& gradient, const Corners& velocity) {
   return sum;
 }
 
-// d/dt of a function of the moved corners, by central differences: exact to 1e-8 of its size.
+// d/dt of a function of the moved corners, by central differences: relative error 1e-8.
 double derivative(const Corners& corners, const Corners& velocity,
                   const std::function<double(const Corners&)>& loss) {
   constexpr double h = 1e-4;
@@ -163,22 +163,22 @@ std::vector<glm::vec3> floats(std::initializer_list<Corners> faces) {
   return positions;
 }
 
-// A wall behind everything, that covers all of the image: a face, so that both sides of an edge
-// are asked.
+// A wall behind everything that covers the whole image. It is a face, so both sides of an edge are
+// tested.
 const Corners wall = {glm::dvec3(-30, -30, -10), glm::dvec3(30, -30, -10), glm::dvec3(0, 40, -10)};
 
 // Tilted: its corners are at different depths.
 const Corners tilted = {glm::dvec3(-1.1, -0.9, -2.0), glm::dvec3(1.2, -0.6, -2.6),
                         glm::dvec3(0.1, 1.0, -1.8)};
 
-// Where a pair of neighbours passes over a corner of the triangle it sees one edge instead of two:
-// some tenths of a pixel of edges of about 80. The mean over 300 grids is off by 2.7e-4 of the
-// derivative at most, over these tests, all motions and 8 seeds of the grids. The budget is 3.7
-// times that.
+// A pair of neighbours that spans a corner of the triangle sees one edge instead of two: some
+// tenths of a pixel of edges of about 80. The mean over 300 grids has an error of at most 2.7e-4 of
+// the derivative, over these tests, all motions and 8 seeds of the grids. The bound is 3.7 times
+// that.
 constexpr int phases = 300;
 constexpr double max_error = 1e-3;
 
-// The gathered gradient against the derivative of a loss by each motion.
+// Compares the gathered gradient with the derivative of a loss for each motion.
 void expect_derivatives(const Corners& gathered, const Corners& corners,
                         const std::function<double(const Corners&)>& loss) {
   for (const Motion& motion : motions()) {
@@ -211,8 +211,8 @@ TEST(EdgeGradient, AnEdgeOverAnotherFaceIsThatOfTheArea) {
   for (const glm::dvec3& corner : gradient[0]) EXPECT_EQ(glm::length(corner), 0);
 }
 
-// The colour is affine on the image and moves with the triangle, for motions that keep an affine
-// function affine: in the plane of the image, of a triangle that faces it.
+// The colour is affine in the image and moves with the triangle. The motions keep an affine
+// function affine: they are in the image plane, for a triangle that faces it.
 TEST(EdgeGradient, ATexturedTriangleTakesItsTextureAlong) {
   const Corners flat = {glm::dvec3(-1.1, -0.9, -2.0), glm::dvec3(1.2, -0.6, -2.0),
                         glm::dvec3(0.1, 1.0, -2.0)};
@@ -230,7 +230,7 @@ TEST(EdgeGradient, ATexturedTriangleTakesItsTextureAlong) {
     if (motion.name == "Closer" || motion.name == "Turning") continue;  // not affine in the image
     const Corners velocity = motion.velocity(flat);
     const double expected = derivative(flat, velocity, [&](const Corners& corners) {
-      // The affine function that has the old colours at the new corners.
+      // The affine function with the old colours at the new corners.
       const Polygon after = projected(corners);
       const glm::dvec2 u = after[1] - after[0], v = after[2] - after[0];
       const double determinant = u.x * v.y - u.y * v.x;
@@ -240,8 +240,8 @@ TEST(EdgeGradient, ATexturedTriangleTakesItsTextureAlong) {
       const double by_y = (dv * u.x - du * v.x) / determinant;
       return covered(after, {a - by_x * after[0].x - by_y * after[0].y - background, by_x, by_y});
     });
-    // Edges and texture pull against each other: a part of what the corners' gradients could do, of
-    // which 7.7e-5 are measured at most, over 8 seeds of the grids. The budget is 6 times that.
+    // Edges and texture partly cancel, so the scale is the largest possible derivative. The
+    // measured error is at most 7.7e-5 of it, over 8 seeds of the grids. The bound is 6 times that.
     double scale = 0;
     for (std::size_t k = 0; k < 3; ++k)
       scale += glm::length(gradient[0][k]) * glm::length(velocity[k]);
@@ -250,9 +250,9 @@ TEST(EdgeGradient, ATexturedTriangleTakesItsTextureAlong) {
 }
 
 // A cut-out: alpha falls linearly from one corner's texel to the others', so its edge at one half
-// is a straight line within the triangle.
+// is a straight line in the triangle.
 TEST(EdgeGradient, AnOpacityEdgeMovesWithItsTriangle) {
-  const std::array<double, 3> alpha = {0.05, 0.85, 0.9};  // by corner; the edge is far from these
+  const std::array<double, 3> alpha = {0.05, 0.85, 0.9};  // by corner; the edge is far from them
   test::Faces faces(floats({wall, tilted}));
   // Texels of level 0 are those of corners 2, 0, 1 (scene/lattice.hpp).
   for (std::size_t k = 0; k < 3; ++k)
@@ -277,12 +277,12 @@ TEST(EdgeGradient, AnOpacityEdgeMovesWithItsTriangle) {
   });
 }
 
-// Two large triangles through each other; the line where they meet lies in the image at an angle.
-// Each covers all of the image, so that nothing else is an edge.
+// Two large triangles through each other, whose intersection is a slanted line in the image. Each
+// covers the whole image, so there are no other edges.
 struct Crossing {
   Corners a, b;
 
-  // Tilted the opposite way; `angle` is that of the line in the image.
+  // Tilted in opposite directions; `angle` is the direction of the line in the image.
   explicit Crossing(double angle) {
     const glm::dvec2 n(std::cos(angle), std::sin(angle));
     const auto plane = [&](double slope, double depth) {
@@ -296,7 +296,7 @@ struct Crossing {
   }
 };
 
-// 1 / depth on the image: affine.
+// 1 / depth in the image: affine.
 Affine inverse_depth(const Corners& c) {
   const glm::dvec3 normal = glm::cross(c[1] - c[0], c[2] - c[0]);
   const glm::dvec3 n = normal / glm::dot(normal, c[0]);  // n . p = 1 on the plane
@@ -314,8 +314,8 @@ TEST_P(IntersectionAt, MovesAsTheFacesDo) {
   const auto gradient = gathered(
       faces, [](std::uint32_t face, glm::dvec2) { return face == 0 ? color_a : color_b; }, phases,
       5);
-  // The image's grid is shifted with the pixels, its border is not an edge that anybody moves:
-  // the area is taken in the image's middle position.
+  // The image's border shifts with the pixel grid and is not a moving edge. The area is that for
+  // the image's middle position.
   const Polygon window{
       {-0.5, -0.5}, {side - 0.5, -0.5}, {side - 0.5, side - 0.5}, {-0.5, side - 0.5}};
   const auto loss = [&](const Corners& a, const Corners& b) {
@@ -337,10 +337,10 @@ TEST_P(IntersectionAt, MovesAsTheFacesDo) {
         derivative(crossing.a, by_a, [&](const Corners& moved) { return loss(moved, crossing.b); });
     const double b =
         derivative(crossing.b, by_b, [&](const Corners& moved) { return loss(crossing.a, moved); });
-    // What the motion along the depth alone does is the scale where a motion does little. Of 160
-    // pixels the line crosses the last one on each side has no neighbour to half: 0.6 % beside the
-    // sampling error. Both together are 0.48 % at most, at 45 degrees, over 8 seeds of the grids:
-    // the budget is three times that.
+    // For motions with little effect, the scale is that of the motion along the depth. The line
+    // crosses 160 pixels, and the last pixel on each side has no neighbour: 0.6 % in addition to
+    // the sampling error. Measured together: at most 0.48 %, at 45 degrees, over 8 seeds of the
+    // grids. The bound is three times that.
     const double scale =
         std::abs(derivative(crossing.a, motions()[2].velocity(crossing.a),
                             [&](const Corners& moved) { return loss(moved, crossing.b); }));
@@ -355,13 +355,13 @@ INSTANTIATE_TEST_SUITE_P(Degrees, IntersectionAt, testing::Values(0, 20, 45, 90,
                          testing::PrintToStringParamName());
 
 TEST(EdgeGradient, TheCornersShareThePointsMotion) {
-  // All corners moved alike move the point alike: the shares add up.
+  // Moving all corners by the same vector moves the point by it: the shares add up.
   const BatchImage image = test::make_image(test::axis_camera(side, side, focal));
   const test::Faces faces(floats({tilted}));
   const kernels::ProjectedFace face = kernels::project(image.view, &faces.model.positions[0].x);
   Random random(6);
   for (int trial = 0; trial < 1000; ++trial) {
-    // A point of the triangle and where it lies.
+    // A point of the triangle and its position in the image.
     const double b0 = random.uniform(), b1 = random.uniform() * (1 - b0);
     const glm::dvec3 p = b0 * tilted[0] + b1 * tilted[1] + (1 - b0 - b1) * tilted[2];
     const glm::dvec2 place = projected(p);
@@ -375,7 +375,7 @@ TEST(EdgeGradient, TheCornersShareThePointsMotion) {
         .g_inverse = 0};
     float corners[3][3] = {};
     kernels::distribute(image.view, face, point, corners);
-    // By the point's motion in the view (right, down, forward), from its projection.
+    // From the point's motion in the view (right, down, forward), by its projection.
     const double w = -p.z, u = place.x - side / 2.0, v = place.y - side / 2.0;
     const double expected[3] = {focal / w * double(point.gx), focal / w * double(point.gy),
                                 -(u * double(point.gx) + v * double(point.gy)) / w};
@@ -389,7 +389,7 @@ TEST(EdgeGradient, TheCornersShareThePointsMotion) {
   }
 }
 
-// One pair of pixels, all by hand: which case it is.
+// One pair of pixels with given values, to test the cases.
 struct Pair {
   kernels::EdgePixel p{}, q{};
   kernels::ProjectedFace face{}, other{};
@@ -430,7 +430,7 @@ TEST(EdgeGradient, AColourThatIsNoNumberHasNone) {
 }
 
 TEST(EdgeGradient, WhatLiesInFrontHidesTheEdge) {
-  // The wall is p's: q shows the tilted face before it, and the wall is behind at both.
+  // p shows the wall, q shows the tilted face in front of it, and the wall is behind at both.
   Pair pair = pair_on(wall, tilted);
   EXPECT_EQ(pair.gradient().kind, kernels::EdgeCase::none);
 }

@@ -17,7 +17,7 @@ namespace fragments_test {
 using kernels::Fragment;
 using tureen::test::Random;
 
-constexpr int width = 61, height = 45;  // no multiples of what is done at a time
+constexpr int width = 61, height = 45;  // not multiples of any block size
 
 std::vector<Fragment> fragments(const kernels::View& view, const kernels::ProjectedFace& face,
                                 const kernels::Rectangle& within) {
@@ -40,7 +40,7 @@ TEST_P(FragmentsOf, AreThePixelsThatRaysHit) {
     const kernels::ProjectedFace face = kernels::project(view, corners);
     std::map<std::pair<int, int>, Fragment> found;
     for (const Fragment& f : fragments(view, face, {0, 0, width, height}))
-      ASSERT_TRUE(found.emplace(std::pair(f.x, f.y), f).second) << "twice";
+      ASSERT_TRUE(found.emplace(std::pair(f.x, f.y), f).second) << "found twice";
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
         const test::RayHit ray = test::intersect(view, corners, x, y);
@@ -49,7 +49,7 @@ TEST_P(FragmentsOf, AreThePixelsThatRaysHit) {
         bool doubt = std::abs(ray.inverse_depth - 1 / view.near) < sum_bound ||
                      std::abs(ray.inverse_depth - 1 / view.far) < sum_bound;
         for (std::size_t k = 0; k < 3; ++k)
-          // A ten-thousandth of a pixel: the rectangle is found from rounded corners.
+          // A ten-thousandth of a pixel: the rectangle is computed from rounded corners.
           doubt = doubt || std::abs(ray.e[k]) < bounds[k] + 1e-4 * ray.slope[k];
         const auto at = found.find({x, y});
         if (doubt) {
@@ -62,7 +62,7 @@ TEST_P(FragmentsOf, AreThePixelsThatRaysHit) {
         ++hits;
         const Fragment& f = at->second;
         const double error = (bounds[0] + bounds[1] + bounds[2]) / ray.inverse_depth + 4e-7;
-        // Shares of a sum, each off by its bound.
+        // Fractions of a sum, each with its error bound.
         ASSERT_NEAR(f.b0, ray.e[0] / ray.inverse_depth, 2 * error);
         ASSERT_NEAR(f.b1, ray.e[1] / ray.inverse_depth, 2 * error);
         ASSERT_NEAR(f.inverse_depth / ray.inverse_depth, 1, error);
@@ -72,7 +72,7 @@ TEST_P(FragmentsOf, AreThePixelsThatRaysHit) {
     EXPECT_GT(hits, 100);
   else
     EXPECT_EQ(hits, 0);
-  // Of 300 x 61 x 45 pixels; a needle's line passes within rounding of some.
+  // Of 300 x 61 x 45 pixels; a needle's line passes within rounding distance of some.
   EXPECT_LT(doubtful, 300 * width * height / 1000);
 }
 

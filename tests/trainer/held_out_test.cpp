@@ -55,11 +55,11 @@ TEST(HeldOut, IsMeasuredAsTheEvaluationDoes) {
   Config config;
   config.background[0] = 0.0f;
   config.background[1] = config.background[2] = 0.4f;
-  // The same image, and one that shows the background through and through: off by 51 / 255 in
-  // two of three channels.
+  // The same image, and a transparent one that shows the background: an error of 51 / 255 in two of
+  // three channels.
   const std::vector<Photograph> views{photograph({0, 51, 51, 255}), photograph({9, 9, 9, 0})};
   const double off = -10 * std::log10(0.2 * 0.2 * 2 / 3);
-  // Floats hold the values to 6e-8.
+  // Float rounding of the values is 6e-8.
   EXPECT_NEAR(mean_psnr_db(backend, views, config), (100 + off) / 2, 1e-5);
   const Image8 image = drawn(backend, views[0].camera);
   EXPECT_EQ(image.at(15, 11), glm::u8vec4(0, 51, 51, 255));

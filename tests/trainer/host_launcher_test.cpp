@@ -1,5 +1,5 @@
-// The CUDA backend's kernels, and the backend itself, on the processor: a whole step, end to end,
-// against the processor's own backend.
+// The CUDA backend and its kernels, run on the processor: a whole step, compared with the
+// processor's own backend.
 #include <gtest/gtest.h>
 
 #include "tests/trainer/backend_agreement.hpp"
@@ -20,7 +20,7 @@ TEST(HostLauncher, DoesTheSameStep) { expect_same_step(on_host<false>); }
 TEST(HostLauncher, DoesTheSameStepInOddCases) { expect_same_step_in_odd_cases(on_host<false>); }
 TEST(HostLauncher, KeepsTheState) { expect_state_kept(on_host<false>); }
 
-// On a GPU blocks and threads run in any order: no bit may depend on it, nor on an interruption.
+// On a GPU, blocks and threads run in any order: no bit may depend on it, or on an interruption.
 TEST(HostLauncher, GivesTheSameBitsInAnyOrder) {
   expect_same_bits_again(on_host<false>, on_host<true>);
 }

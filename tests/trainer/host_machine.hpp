@@ -1,9 +1,8 @@
-// The kernels of the CUDA backend on the processor, thread after thread: what is wrong with their
-// mathematics, their memory or their phases shows here, without a GPU.
+// Runs the kernels of the CUDA backend on the processor, one thread after another. Finds errors in
+// their mathematics, memory or phases without a GPU.
 //
-// Blocks and the threads of a phase run in one of two orders. Kernels whose threads meet only where
-// they may give the same bits in both. Shared memory begins as NaNs, as the device's begins as
-// anything.
+// Blocks and the threads of a phase run in one of two orders. Kernels without data races return the
+// same bits in both. Shared memory is initialised with NaNs, because the device's is uninitialised.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +20,7 @@
 
 namespace tureen::trainer::test {
 
-/// Threads run one after another: nothing is in another's way.
+/// Threads run one after another, so plain operations are atomic.
 struct HostAtomics {
   static unsigned long long load(const unsigned long long& value) { return value; }
   static unsigned load(const unsigned& value) { return value; }
@@ -35,7 +34,7 @@ struct HostAtomics {
 template <bool backwards>
 class HostMachine {
  public:
-  std::string description() const { return "the processor in the place of a GPU"; }
+  std::string description() const { return "the processor in place of a GPU"; }
   void* allocate(std::size_t bytes) {
     void* memory = std::malloc(bytes);
     if (!memory) throw std::bad_alloc();
@@ -46,7 +45,7 @@ class HostMachine {
   void clear(void* memory, std::size_t bytes) { std::memset(memory, 0, bytes); }
   void upload(void* to, const void* from, std::size_t bytes) { std::memcpy(to, from, bytes); }
   void download(void* to, const void* from, std::size_t bytes) { std::memcpy(to, from, bytes); }
-  unsigned resident_blocks() const { return 3; }  // few, so that each takes many pieces
+  unsigned resident_blocks() const { return 3; }  // few, so that each block processes many pieces
   void mark(int number) { marks_[number] = std::chrono::steady_clock::now(); }
   double seconds(int from, int to) {
     return std::chrono::duration<double>(marks_[to] - marks_[from]).count();
@@ -57,7 +56,7 @@ class HostMachine {
     using Shared = typename Kernel::Shared;
     static_assert(std::is_trivially_copyable_v<Kernel> && std::is_trivial_v<Shared> &&
                   std::is_trivial_v<typename Kernel::Local>);
-    static_assert(sizeof(Shared) <= 48 * 1024, "what a block of any GPU has without asking");
+    static_assert(sizeof(Shared) <= 48 * 1024, "a block of any GPU has 48 KiB by default");
     const auto shared = std::make_unique<Shared>();
     std::vector<typename Kernel::Local> locals(Kernel::threads);
     for (std::size_t i = 0; i < blocks; ++i) {

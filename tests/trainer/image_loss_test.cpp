@@ -55,8 +55,8 @@ struct Pair {
   }
 };
 
-// A smooth image with noise of its own: windows with all degrees of likeness. No value of
-// `rendered` is closer to the photograph's than a fifth of a byte, where L1 has a kink.
+// A smooth image with added noise, so that windows have all degrees of similarity. No value of
+// `rendered` is closer to the photograph's than a fifth of a byte, because L1 has a kink there.
 template <class Real>
 Pair<Real> random_pair(std::uint64_t seed, int width, int height) {
   test::Random random(seed);
@@ -71,7 +71,7 @@ Pair<Real> random_pair(std::uint64_t seed, int width, int height) {
   return pair;
 }
 
-// The definition, in double and without a trick: every window, every pixel of it.
+// The definition in double, without optimisation: every window, every pixel of it.
 double reference_loss(const Pair<double>& pair, double l1_weight, double ssim_weight) {
   std::vector<double> weights = gaussian(1.5, 5);
   double all = 0, l1 = 0, ssim_sum = 0;
@@ -97,11 +97,12 @@ double reference_loss(const Pair<double>& pair, double l1_weight, double ssim_we
   return l1_weight * l1 / double(pair.rendered.size()) + ssim_weight * (1 - ssim_sum / windows) / 2;
 }
 
-// Central differences of fourth order. An image of 19 x 17 has windows that hold all weights of a
-// pixel and windows that hold some.
+// Central differences of fourth order. In an image of 19 x 17, some pixels are covered by windows
+// at all offsets, others only at some.
 std::vector<double> reference_gradient(Pair<double> pair, double l1_weight, double ssim_weight) {
-  // The error of the formula is of the order of (h / 0.03)^4 = 1e-10, 0.03^2 being the least
-  // variance SSIM divides by; that of rounding is 1e-16 / h = 1e-12 of a gradient of about 1e-4.
+  // The error of the formula is of the order of (h / 0.03)^4 = 1e-10; 0.03^2 is the smallest
+  // variance that SSIM divides by. The error of rounding is 1e-16 / h = 1e-12 of a gradient of
+  // about 1e-4.
   const double h = 1e-4;
   std::vector<double> gradient;
   for (double& value : pair.rendered) {
@@ -130,7 +131,7 @@ TEST(ImageLoss, WeightsAreANormalisedGaussian) {
 }
 
 TEST(ImageLoss, ValueIsThatOfTheMetrics) {
-  // Sizes around the window and around the band of rows, which is 128 high.
+  // Sizes near the window's, and near the height of a band of rows, 128.
   for (const auto& [width, height] :
        {std::pair{11, 11}, {12, 40}, {64, 48}, {37, 127}, {37, 129}, {29, 300}}) {
     const std::uint64_t seed = 1000 * std::uint64_t(width) + std::uint64_t(height);
@@ -142,7 +143,7 @@ TEST(ImageLoss, ValueIsThatOfTheMetrics) {
     for (int c = 0; c < 3; ++c)
       for (std::size_t i = 0; i < pair.pixels(); ++i) {
         float& value = pair.rendered[c * pair.pixels() + i];
-        value = std::clamp(value, 0.0f, 1.0f);  // as the metric does
+        value = std::clamp(value, 0.0f, 1.0f);  // like the metric
         a.pixels[i][c] = value;
         b.pixels[i][c] = float(pair.target[c * pair.pixels() + i]) / 255.0f;
         l1 += std::abs(double(a.pixels[i][c]) - b.pixels[i][c]);
@@ -150,7 +151,7 @@ TEST(ImageLoss, ValueIsThatOfTheMetrics) {
     l1 /= double(3 * pair.pixels());
     const double similarity = ssim(a, b, SsimBorder::valid);
     pair.run();
-    EXPECT_NEAR(pair.result.l1, l1, 1e-7);  // a rounding of 2^-25 a pixel
+    EXPECT_NEAR(pair.result.l1, l1, 1e-7);  // a rounding of 2^-25 per pixel
     EXPECT_NEAR(pair.result.ssim, similarity, 1e-6);
     EXPECT_NEAR(pair.result.loss, 0.8 * l1 + 0.1 * (1 - similarity), 1e-6);
     EXPECT_EQ(pair.result.non_finite, 0u);
@@ -167,7 +168,8 @@ TEST(ImageLoss, GradientIsThatOfTheDefinition) {
     const std::vector<double> expected = reference_gradient(pair, l1_weight, ssim_weight);
     const double scale = largest(expected);
     for (std::size_t i = 0; i < expected.size(); ++i)
-      // Where a derivative nearly vanishes, the differences still err like the largest ones.
+      // Where a derivative is close to 0, the differences still have the errors of the largest
+      // ones.
       ASSERT_NEAR(pair.gradient[i], expected[i], 1e-6 * std::abs(expected[i]) + 1e-8 * scale) << i;
   }
 }
@@ -182,7 +184,7 @@ TEST(ImageLoss, SinglePrecisionFollowsDouble) {
   fast.run();
   const double scale = largest(exact.gradient);
   for (std::size_t i = 0; i < exact.gradient.size(); ++i)
-    // A derivative is some two hundred additions and products; roundings of 6e-8 of the larger
+    // A derivative has about two hundred additions and products. Roundings of 6e-8 of the larger
     // ones add up like a random walk, to 4e-7 here.
     ASSERT_NEAR(fast.gradient[i], exact.gradient[i], 2e-6 * scale) << i;
   for (std::size_t i = 0; i < exact.pixel_loss.size(); ++i)
@@ -190,8 +192,8 @@ TEST(ImageLoss, SinglePrecisionFollowsDouble) {
 }
 
 TEST(ImageLoss, FlatBrightImagesKeepTheirDigits) {
-  // White with a trace of noise: variances of 1e-6 beside means of 1, which are lost in single
-  // precision when squares are subtracted naively, and may come out negative.
+  // White with weak noise: variances of 1e-6 next to means of 1. In single precision, a naive
+  // subtraction of squares loses them, or makes them negative.
   const std::uint64_t seed = 23;
   SCOPED_TRACE("seed " + std::to_string(seed));
   test::Random random(seed);
@@ -206,12 +208,12 @@ TEST(ImageLoss, FlatBrightImagesKeepTheirDigits) {
   EXPECT_NEAR(fast.result.ssim, exact.result.ssim, 1e-6);
   const double scale = largest(exact.gradient);
   for (std::size_t i = 0; i < exact.gradient.size(); ++i)
-    // Squares of 1 err by 1e-7, which is 1e-4 of the 0.03^2 that SSIM divides by; 2e-5 was seen.
+    // Squares of 1 have errors of 1e-7, 1e-4 of the 0.03^2 that SSIM divides by; 2e-5 was measured.
     ASSERT_NEAR(fast.gradient[i], exact.gradient[i], 1e-4 * scale) << i;
 }
 
 TEST(ImageLoss, EqualImagesHaveNoLossAndNoGradient) {
-  // All values of a byte, so that byte / 255 is held to be the same number here and there.
+  // All byte values, so that byte / 255 must be the same number in both.
   for (const bool flat : {false, true}) {
     Pair<float> pair(64, 64);
     for (std::size_t i = 0; i < pair.target.size(); ++i) {
@@ -253,7 +255,7 @@ TEST(ImageLoss, ImagesSmallerThanTheWindowHaveL1Alone) {
   }
 }
 
-// A pixel that does not count is as if it had the photograph's colour, and has no gradient.
+// An excluded pixel counts as equal to the photograph's, and has no gradient.
 void expect_quarantined(const Pair<float>& damaged, Pair<float>& mended,
                         const std::vector<std::size_t>& pixels) {
   for (const std::size_t pixel : pixels)

@@ -26,7 +26,7 @@ Photograph view_from(glm::dvec3 eye, glm::dvec3 target, int width = 100, int hei
           .image = {}};
 }
 
-/// Cameras at a distance from a centre, all looking at it, nearly: by a tenth of a degree.
+/// Cameras at a distance from a centre, looking at it to within a tenth of a degree.
 Dataset ring(std::uint64_t seed, glm::dvec3 centre, double distance, int count = 40) {
   test::Random random(seed);
   Dataset dataset;
@@ -55,7 +55,7 @@ TEST(Random, RepeatsForASeedAndDiffersBetweenStreams) {
   EXPECT_NE(first, other_stream.bits());
 }
 
-// The numbers themselves are part of what a seed means: checked with SplitMix64 written in Python.
+// The numbers must not change for a seed: checked with SplitMix64 written in Python.
 TEST(Random, IsSplitMix64) {
   Random random(0);
   EXPECT_EQ(random.bits(), 0xa577782bc52a9f5au);
@@ -89,7 +89,7 @@ TEST(Random, DrawsDifferentNumbersUniformly) {
     std::ranges::sort(three);
     ASSERT_TRUE(std::ranges::adjacent_find(three) == three.end());
   }
-  for (const int count : counts)  // binomial: 3000 +- 46, five of them
+  for (const int count : counts)  // binomial: 3000 +- 46; the bound is five times that
     EXPECT_NEAR(count, 3000, 5 * std::sqrt(10000 * 0.3 * 0.7));
   EXPECT_THAT(draw(random, 9, 4), testing::UnorderedElementsAre(0, 1, 2, 3));
 }
@@ -100,7 +100,7 @@ TEST(Neighbours, DistancesAreThoseOfTheSlowWay) {
   test::Random random(73);
   std::vector<glm::dvec3> points;
   for (int i = 0; i < 300; ++i) points.push_back(random.direction() * random.uniform(0, 3));
-  points.push_back(points[7]);  // a twin
+  points.push_back(points[7]);  // a duplicate
   const std::vector<double> distances = nearest_distances(points);
   for (std::size_t i = 0; i < points.size(); ++i) {
     double nearest = INFINITY;
@@ -143,8 +143,8 @@ TEST(Neighbours, FarthestPointsOfTwinsAreAllDifferent) {
 
 TEST(Region, IsWhatTheCamerasLookAt) {
   const Region region = region_of_interest(ring(75, {5, -3, 2}, 4.0));
-  EXPECT_LT(glm::distance(region.centre, {5, -3, 2}), 0.01);  // axes are off by 0.0017 x 4
-  // Up and down 40 degrees in all, to the sides more.
+  EXPECT_LT(glm::distance(region.centre, {5, -3, 2}), 0.01);  // axes miss the centre by 0.0017 x 4
+  // The vertical field of view is 40 degrees, the horizontal one is larger.
   EXPECT_NEAR(region.half_side, 4 * std::tan(glm::radians(20.0)), 0.02);
 }
 
@@ -171,7 +171,7 @@ TEST(Region, OfCamerasThatLookOutwardsHoldsThem) {
   EXPECT_LT(glm::length(region.centre), 0.3);
   EXPECT_NEAR(region.half_side, 1.0, 0.6);
   dataset.points = ball(77, 200, {1, 1, 1}, 10);
-  // Points know better: half of a ball lies within 10 / cbrt(2) = 7.9 of its centre.
+  // Points are more precise: half of a ball lies within 10 / cbrt(2) = 7.9 of its centre.
   EXPECT_NEAR(region_of_interest(dataset).half_side, 7.9, 1.0);
 }
 
@@ -215,7 +215,7 @@ TEST(EquilateralTriangles, HaveTheirCentresAndRadii) {
 }
 
 TEST(SeedsAtPoints, AreTwoThirdsSpreadAndOneThirdUniform) {
-  // A dense ball and a thin one beside it, of equal size: spread samples see both alike.
+  // A dense ball and a sparse one beside it, of equal size: spread samples cover both equally.
   std::vector<DatasetPoint> points = ball(79, 3000, {0, 0, 0}, 1);
   for (const DatasetPoint& point : ball(80, 300, {4, 0, 0}, 1)) points.push_back(point);
   Random random(81);
@@ -226,12 +226,12 @@ TEST(SeedsAtPoints, AreTwoThirdsSpreadAndOneThirdUniform) {
            double(centres.size());
   };
   EXPECT_GT(in_thin(std::span(seeds.centres).first(200)), 0.3);
-  EXPECT_LT(in_thin(std::span(seeds.centres).last(100)), 0.2);  // 1 in 11 of all
+  EXPECT_LT(in_thin(std::span(seeds.centres).last(100)), 0.2);  // 1 in 11 of all points
   const std::vector<double> distances = nearest_distances(seeds.centres);
   double mean = 0;
   for (const double distance : distances) mean += distance / 300;
-  const double rounding = 1e-13;  // of the mean, which is summed in another way here
-  EXPECT_GT(*std::ranges::min_element(distances), 0);  // no point twice
+  const double rounding = 1e-13;  // of the mean, which is summed in another order here
+  EXPECT_GT(*std::ranges::min_element(distances), 0);  // no duplicates
   for (const double radius : seeds.radii) EXPECT_NEAR(radius, 0.25 * mean, rounding);
 
   const Seeds local =
@@ -262,7 +262,7 @@ TEST(SeedsAtPoints, OfTooFewPointsLieBesideThem) {
   }
 }
 
-TEST(SeedsAtPoints, LeaveOutMistakesButNotWhatIsFar) {
+TEST(SeedsAtPoints, SkipMistakesButNotWhatIsFar) {
   std::vector<DatasetPoint> points = ball(84, 960, {0, 0, 0}, 1);
   for (const DatasetPoint& point : ball(85, 40, {50, 0, 0}, 5)) points.push_back(point);
   points.push_back({.position = {0, 1e6, 0}, .color = {}});
@@ -321,7 +321,7 @@ TEST(RandomSeeds, FillTheCube) {
     EXPECT_NEAR(mean[axis], 0, 5 * std::sqrt(1 / 3.0 / 4000));  // five standard errors
     EXPECT_NEAR(squares[axis], 1 / 3.0, 5 * std::sqrt(4 / 45.0 / 4000));
   }
-  // Chandrasekhar: 0.554 / cbrt(density), and a few percent more for the borders of the cube.
+  // Chandrasekhar: 0.554 / cbrt(density), plus a few percent for the borders of the cube.
   const double spacing = 0.554 * 3.0 / std::cbrt(4000.0);
   for (const double radius : seeds.radii) EXPECT_NEAR(radius, 0.25 * spacing, 0.1 * 0.25 * spacing);
 }
@@ -344,12 +344,12 @@ TEST(RandomSeeds, LieAroundTheCubeWhereAsked) {
     const double growth = is_near ? 1 : glm::length(size);
     ASSERT_NEAR(seeds.radii[i], seeds.radii[0] * growth, 1e-12);
   }
-  // The logarithm of the distance is uniform from about 1.3 to 8, of which 2 .. 8 are 3/4.
+  // The logarithm of the distance is uniform from about 1.3 to 8; 2 to 8 are 3/4 of it.
   EXPECT_NEAR(beyond_two, 0.75 * 1200, 0.1 * 1200);
 }
 
 TEST(RandomSeeds, AreInSomeImage) {
-  Dataset dataset;  // two cameras side by side see a part of the cube only
+  Dataset dataset;  // two cameras side by side see only a part of the cube
   dataset.train = {view_from({0, -1, 0}, {0, 5, 0}), view_from({0.1, -1, 0}, {0, 5, 0})};
   Random random(91);
   const Seeds seeds =

@@ -46,7 +46,8 @@ TEST(Levels, DecomposedLevelsAddUpToTheFunction) {
       levels::decompose(min, max, 2, fine, all);
       levels::accumulate(min, max, 2, all, again);
       for (std::size_t i = 0; i < fine.size(); ++i)
-        // A residual of up to 16 is rounded, 2^-21, and its sum with the rest, below 8, 2^-22.
+        // A residual of up to 16 is rounded by 2^-21, and its sum with the others, below 8, by
+        // 2^-22.
         ASSERT_NEAR(again[i], fine[i], 0x1p-21 + 0x1p-22) << min << " to " << max << ", " << i;
     }
 }

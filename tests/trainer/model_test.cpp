@@ -82,8 +82,8 @@ TEST(FineTexture, IsTheSigmoidOfTheSum) {
   }
 }
 
-// docs/numerics.md, T3: what is never touched stays at logit 0 and is drawn; what is below is not,
-// as far as floats tell. What the trainer draws is what the soup shows.
+// docs/numerics.md, T3: untouched texels stay at logit 0 and are drawn; lower logits are not, as
+// far as floats distinguish them. The trainer and the soup show the same pixels.
 TEST(FineTexture, AlphaKeepsItsSideOfOneHalf) {
   Model model = random_model(25, {.faces = 1, .min_level = 0, .max_level = 0});
   const auto alpha_of = [&](float logit) {
@@ -94,7 +94,7 @@ TEST(FineTexture, AlphaKeepsItsSideOfOneHalf) {
   };
   EXPECT_EQ(alpha_of(0.0f), 0.5f);
   EXPECT_EQ(alpha_of(-0.0f), 0.5f);
-  // A triangle that fills the image of a camera before it.
+  // A triangle that fills the image of a camera in front of it.
   model.origin = glm::dvec3(0.0);
   model.positions = {{-50, -50, -3}, {50, -50, -3}, {0, 50, -3}};
   const std::vector<TrainingView> views = {{.camera = test::axis_camera(8, 8, 8),
@@ -116,13 +116,13 @@ TEST(FineTexture, AlphaKeepsItsSideOfOneHalf) {
     if (logit > 2e-7f) {
       ASSERT_LT(alpha_of(-logit), alpha_threshold) << logit;
     }
-    if (logit > 1e-7f && logit < 1e-6f) continue;  // there the rounding of weights has its say
+    if (logit > 1e-7f && logit < 1e-6f) continue;  // there the rounding of weights decides
     for (const float each : {logit, -logit})
       ASSERT_EQ(alpha_of(each) >= alpha_threshold, is_drawn(each)) << each;
   }
 }
 
-/// Everything that from_scene keeps of a model that was made a scene.
+/// Compares everything that from_scene keeps of a model converted by to_scene.
 void expect_same_fields(const Model& actual, const Model& expected, double tolerance) {
   EXPECT_EQ(actual.positions, expected.positions);
   EXPECT_EQ(actual.origin, expected.origin);
@@ -141,7 +141,7 @@ TEST(FromScene, ReturnsWhatToSceneMade) {
   const Model model = random_model(26, {.faces = 10, .min_level = 1, .max_level = 3});
   const Scene scene = to_scene(model);
   ASSERT_EQ(defect(std::get<TriangleSoup>(scene.primitives)), std::nullopt);
-  // Values are kept 1e-4 from 0 and 1; beside that, roundings of logits below 10.
+  // Values are clamped to 1e-4 from 0 and 1; the rest is roundings of logits below 10.
   expect_same_fields(from_scene(scene, {.min_level = 1, .max_level = 3}), model, 1.01e-4);
   expect_same_fields(from_scene(scene, {.min_level = 0, .max_level = 3}), model, 1.01e-4);
 }
@@ -167,7 +167,7 @@ TEST_F(OnDisk, TheSceneIsWrittenAndReadAgain) {
   expect_same_fields(from_scene(read, {.min_level = 0, .max_level = 2}), model, 1.01e-4);
 }
 
-// A texture of another level than the model's: finer texels interpolate, coarser ones are picked.
+// The texture has another level than the model: finer texels interpolate, coarser ones are picked.
 TEST(FromScene, TakesTheTextureAtTheTexelsOfItsOwnLevel) {
   const Model model = random_model(28, {.faces = 4, .min_level = 2, .max_level = 2});
   for (int level : {1, 4}) {
@@ -187,7 +187,7 @@ TEST(FromScene, TakesTheTextureAtTheTexelsOfItsOwnLevel) {
   }
 }
 
-// The network is the same function when the convention of its directions is turned round.
+// The network is the same function with the other convention of directions.
 TEST(FromScene, TurnsTheDirectionsOfANetworkRound) {
   const ColorMlp ours = color_mlp(initial_mlp(5));
   ColorMlp turned = ours;
@@ -281,8 +281,8 @@ TEST(Mlp, BeginsWithinItsBoundsAndTheSameForASeed) {
     for (const float weight : mlp.layers[layer].weights)
       largest = std::max(largest, std::abs(double(weight)));
     EXPECT_LE(largest, bounds[layer] * (1 + 1e-7));  // rounded to float
-    // All of 48 or more uniform numbers are below 0.9 of their bound once in 150 seeds: not in
-    // this.
+    // With 48 or more uniform numbers, all are below 0.9 of their bound once in 150 seeds; not with
+    // this seed.
     EXPECT_GT(largest, 0.9 * bounds[layer]);
   }
 }

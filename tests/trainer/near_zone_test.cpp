@@ -1,4 +1,4 @@
-// The room before cameras: held against many points of each triangle, looked at one by one.
+// The near zone of cameras, compared with a search over many points of each triangle.
 #include "trainer/diffsoup/near_zone.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ bool in_near_zone(const Camera& camera, glm::dvec3 point, double near) {
   return x >= 0 && x <= camera.width && y >= 0 && y <= camera.height;
 }
 
-/// Some point of the triangle is there, of those on a grid over it.
+/// Whether some point of a grid on the triangle is in the near zone.
 bool some_point_in_near_zone(const Model& model, std::size_t face, const Camera& camera,
                              double near) {
   constexpr int steps = 300;
@@ -62,7 +62,7 @@ TEST(NearZone, IsWhereSomePointOfTheTriangleIs) {
     for (std::size_t face = 0; face < model.faces(); ++face) {
       const bool expected = some_point_in_near_zone(model, face, camera, 1.2);
       reaching += expected;
-      // A grid may step over a corner that is barely cut off, but finds nothing that is not there.
+      // The grid may miss a corner that is barely inside, but finds no point outside.
       if (expected) {
         EXPECT_TRUE(found[face]) << face;
       }
@@ -94,9 +94,9 @@ TEST(NearZone, HoldsNothingBehindBeyondOrBeside) {
   EXPECT_FALSE(reaches(triangle({0, 0, 0.5f}, {0.1f, 0, 0.5f}, {0, 0.1f, 0.5f})));
   EXPECT_FALSE(reaches(triangle({0, 0, -1.5f}, {0.1f, 0, -1.5f}, {0, 0.1f, -1.5f})));
   EXPECT_FALSE(reaches(triangle({2, 0, -0.5f}, {2.1f, 0, -0.5f}, {2, 0.1f, -0.5f})));
-  // No corner is there, but the triangle goes across.
+  // No corner is inside, but the triangle crosses the zone.
   EXPECT_TRUE(reaches(triangle({-9, -9, -0.5f}, {9, -9, -0.5f}, {0, 9, -0.5f})));
-  // From behind to beyond, through it and beside it.
+  // From behind the eye to beyond the zone, through it and beside it.
   EXPECT_TRUE(reaches(triangle({0, 0, 5}, {0.1f, 0, -5}, {-0.1f, 0, -5})));
   EXPECT_FALSE(reaches(triangle({9, 0, 5}, {9.1f, 0, -5}, {8.9f, 0, -5})));
 }
@@ -106,7 +106,8 @@ TEST(NearZone, HoldsNoPositionThatIsNoNumber) {
   EXPECT_FALSE(reaches(triangle({nan, nan, nan}, {nan, nan, nan}, {nan, nan, nan})));
 }
 
-// What is left of such a triangle is rounding, and the sanitizer of the memory it is clipped in.
+// Coordinates of such triangles are mostly rounding errors. The sanitizer checks the memory used
+// for clipping.
 TEST(NearZone, TakesTrianglesAtTheVeryEye) {
   Random random(5);
   std::vector<Camera> cameras;
@@ -118,7 +119,7 @@ TEST(NearZone, TakesTrianglesAtTheVeryEye) {
   model.origin = glm::dvec3(0.0);
   for (std::size_t i = 0; i < model.positions.size(); ++i)
     model.positions[i] = float(std::pow(10.0, -double(i % 40))) * glm::vec3(random.direction());
-  for (std::size_t face = 0; face < model.faces(); face += 7)  // some all around it, or at it
+  for (std::size_t face = 0; face < model.faces(); face += 7)  // some with all corners at the eye
     for (std::size_t corner = 0; corner < 3; ++corner)
       model.positions[3 * face + corner] = glm::vec3(0.0f);
   const std::vector<std::uint8_t> reaching = reaching_near_zone(model, cameras, 1.0);
@@ -126,21 +127,22 @@ TEST(NearZone, TakesTrianglesAtTheVeryEye) {
 }
 
 TEST(NearZone, IsEmptyAsFarAsPointsTell) {
-  Dataset dataset;  // a camera that looks along -z, and others at the same place
+  Dataset dataset;  // five cameras at the same position, looking along -z
   for (int i = 0; i < 5; ++i)
     dataset.train.push_back({.camera = test::axis_camera(100, 80, 50), .image = {}});
   Config config;
   config.near = 1.5f;
   config.clear_near = true;
   const Region before{{0, 0, -4}, 3.0}, behind{{0, 0, 4}, 3.0};
-  // Half the distance of the centre; where that is behind nothing is known.
+  // Half the distance of the centre. If the centre is behind the cameras, there is no estimate.
   EXPECT_EQ(with_empty_near_zone(config, dataset, before).near, 1.5f);
   config.near = 2.5f;
   EXPECT_EQ(with_empty_near_zone(config, dataset, before).near, 2.0f);
   EXPECT_TRUE(with_empty_near_zone(config, dataset, before).clear_near);
   EXPECT_FLOAT_EQ(with_empty_near_zone(config, dataset, behind).near, 0.02f);
   EXPECT_FALSE(with_empty_near_zone(config, dataset, behind).clear_near);
-  // Points in the image: at 3 and beyond, but for one of a thousand; those beside it are others'.
+  // Points in the image: at 3 and beyond, except one of a thousand. Points beside the image do not
+  // count.
   dataset.points.push_back({.position = {0, 0, -0.1}, .color = {}});
   for (int i = 0; i < 999; ++i)
     dataset.points.push_back({.position = {0, 0.001 * i, -3.0 - 0.001 * i}, .color = {}});

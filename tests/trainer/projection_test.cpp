@@ -1,4 +1,4 @@
-// Projection against rays: e_k = b_k / w of the triangle's edge functions, in float, against the
+// Projection compared with rays: e_k = b_k / w of the triangle's edge functions, in float, and the
 // intersection of a pixel's ray with the triangle's plane, in double.
 #include "trainer/common/kernels/projection.hpp"
 
@@ -17,8 +17,8 @@ using tureen::test::Random;
 
 constexpr int width = 64, height = 48;
 
-// Every kind of triangle: what the edge functions say agrees with the rays wherever rounding leaves
-// no doubt, and there are few doubts.
+// For every kind of triangle, edge functions agree with the rays wherever rounding allows a
+// decision, and few pixels are undecided.
 class ProjectionOf : public testing::TestWithParam<test::TriangleKind> {};
 
 TEST_P(ProjectionOf, AgreesWithRays) {
@@ -36,7 +36,7 @@ TEST_P(ProjectionOf, AgreesWithRays) {
         const test::RayHit ray = test::intersect(view, corners, x, y);
         const bool inside = x >= face.x0 && x < face.x1 && y >= face.y0 && y < face.y1;
         if (!inside) {
-          // Nothing that a ray certainly hits lies outside the rectangle.
+          // No ray through a pixel outside the rectangle clearly hits.
           if (test::hits(ray, view)) {
             const double margin = std::min({ray.e[0], ray.e[1], ray.e[2]});
             const double scale = std::max({ray.slope[0], ray.slope[1], ray.slope[2]});
@@ -76,7 +76,7 @@ TEST(Projection, TrianglesThatCannotBeSeenAreEmpty) {
   EXPECT_TRUE(empty({0, 100, 2, 1, 100, 2, 0, 101, 2})) << "below the image";
   EXPECT_TRUE(empty({1, 1, 2, 1, 1, 2, 1, 1, 2})) << "a point";
   EXPECT_TRUE(empty({0, 0, 2, 0.25f, 0, 2, 0.5f, 0, 2})) << "collinear corners";
-  EXPECT_TRUE(empty({0, 0, 1, 0, 0, 2, 0, 1, 3})) << "edge-on: its plane holds the eye";
+  EXPECT_TRUE(empty({0, 0, 1, 0, 0, 2, 0, 1, 3})) << "edge-on: the eye is in its plane";
 }
 
 TEST(Projection, NumbersThatAreNoneAreEmptyWhereverTheyStand) {
@@ -92,8 +92,8 @@ TEST(Projection, NumbersThatAreNoneAreEmptyWhereverTheyStand) {
 }
 
 TEST(Projection, TheEyesPlaneAndHugeCoordinatesAreSafe) {
-  // Depths of exactly 0, next to it, and of coordinates whose products leave the floats: no cast
-  // may overflow (the sanitizers watch) and what is not empty lies within the image.
+  // Depths of exactly 0 and next to it, and coordinates with products that overflow. No cast may
+  // overflow (checked by the sanitizers), and a rectangle that is not empty lies within the image.
   Random random(7);
   const kernels::View view = test::plain_view(width, height);
   const float depths[] = {0.0f, 1e-30f, -1e-30f, -1.0f, 1e-38f, 0.01f, 1.0f, 1e30f, 3e38f};

@@ -1,4 +1,4 @@
-// Models with random everything, for tests of what is done to models.
+// Random models, for tests that transform models.
 #pragma once
 
 #include <cmath>
@@ -35,7 +35,7 @@ inline Model random_model(std::uint64_t seed, const ModelOptions& options) {
   return model;
 }
 
-/// The fine texture of a face at barycentrics (b0, b1): what a pixel there fetches.
+/// The fine texture of a face at barycentrics (b0, b1), as a pixel there fetches it.
 inline double textured(const std::vector<float>& fine, int level, double b0, double b1,
                        int channel) {
   const auto at = lattice::footprint(level, b0, b1);
@@ -45,8 +45,8 @@ inline double textured(const std::vector<float>& fine, int level, double b0, dou
   return value;
 }
 
-/// The sum of all levels of a face at barycentrics (b0, b1), in double, each level interpolated on
-/// its own: the obvious way.
+/// The sum of all levels of a face at barycentrics (b0, b1), in double, with each level
+/// interpolated separately.
 inline double summed_logit(const Model& model, std::size_t face, double b0, double b1,
                            int channel) {
   std::span<const float> logits = model.face_logits(face);

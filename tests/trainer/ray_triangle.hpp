@@ -1,6 +1,5 @@
-// Where the ray of a pixel meets a triangle, in double precision, by solving for the point; and
-// triangles of every kind that projection meets. Shares nothing with kernels/projection.hpp but its
-// types.
+// The intersection of a pixel's ray with a triangle, in double precision, by solving for the point;
+// and triangles of every kind. Shares only the types with kernels/projection.hpp.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +21,7 @@ using tureen::test::Random;
 struct RayHit {
   double e[3];           // barycentrics over the depth
   double inverse_depth;  // their sum
-  double slope[3];       // how much e changes from one pixel to the next, about
+  double slope[3];       // approximate change of e from one pixel to the next
 };
 
 inline glm::dvec3 ray(const kernels::View& view, double x, double y) {
@@ -32,8 +31,8 @@ inline glm::dvec3 ray(const kernels::View& view, double x, double y) {
   return d;  // of depth 1
 }
 
-/// Barycentrics b and depth w solve b0 A + b1 B + b2 C = w d with sum b = 1: so e = b / w is the
-/// solution of [A B C] e = d, with corners relative to the eye.
+/// Barycentrics b and depth w solve b0 A + b1 B + b2 C = w d with sum b = 1. Thus e = b / w solves
+/// [A B C] e = d, with corners relative to the eye.
 inline std::array<double, 3> solve(const kernels::View& view, const float* corners, double x,
                                    double y) {
   glm::dmat3 m;
@@ -63,9 +62,9 @@ inline bool hits(const RayHit& hit, const kernels::View& view) {
          hit.inverse_depth <= 1 / view.near;
 }
 
-/// How far edge functions in float may be from the exact ones at a pixel: coefficients and the two
-/// sums are rounded, five times half a unit in the last place of what is added. Double precision
-/// in turn has 2^-53 of products that cancel where a needle is thin: 2^-40 covers aspects of 1e4.
+/// Largest error of float edge functions at a pixel. Coefficients and the two sums are rounded:
+/// five times half a unit in the last place of the terms. In double precision, products that cancel
+/// for thin needles have errors of 2^-53; 2^-40 covers aspects of 1e4.
 inline std::array<double, 3> rounding_bounds(const kernels::ProjectedFace& face, int x, int y) {
   std::array<double, 3> bounds;
   for (int k = 0; k < 3; ++k)
@@ -92,7 +91,7 @@ inline kernels::View plain_view(int width, int height) {
           .far = 100};
 }
 
-/// Anywhere, turned anyhow, unequal focal lengths, the principal point far from the middle.
+/// Random position and rotation, unequal focal lengths, the principal point far from the middle.
 inline kernels::View random_view(Random& random, int width, int height) {
   kernels::View view = plain_view(width, height);
   view.fx = random.uniform(20, 100);
@@ -137,14 +136,14 @@ inline std::string name(TriangleKind kind) {
   return {};
 }
 
-/// Whether pixels show any of them.
+/// Whether some pixels show triangles of this kind.
 inline bool is_drawn(TriangleKind kind) {
   return kind != TriangleKind::behind && kind != TriangleKind::far_outside;
 }
 
 inline void random_triangle(Random& random, const kernels::View& view, TriangleKind kind,
                             float (&corners)[9]) {
-  // About a point that the image shows.
+  // Around a point in the image.
   const double px = random.uniform(0, view.width), py = random.uniform(0, view.height);
   const double depth = random.uniform(1, 5), pixel = depth / view.fx;
   glm::dvec3 eye(view.eye[0], view.eye[1], view.eye[2]);

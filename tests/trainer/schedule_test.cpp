@@ -1,5 +1,5 @@
-// The schedule of a run, on a backend that learns nothing and sees what it is told: batches, and
-// the budget at the end.
+// The schedule of a run, on a backend that learns nothing: batches, resampling, and the budget at
+// the end.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace tureen::trainer {
 
 namespace schedule_test {
 
-/// Every face errs by its number, and every `unseen`-th has no pixel.
+/// The error of each face is its index plus 1, and every `unseen`-th face has no pixel.
 class BlindBackend : public Backend {
  public:
   explicit BlindBackend(std::size_t unseen) : unseen_(unseen) {}
@@ -156,7 +156,8 @@ TEST(Schedule, PublishedScenesAreSplitBeyondTheBudgetAndPrunedToIt) {
     trainer.step();
     const ResampleReport& report = trainer.last_resample();
     if (step == 10) {
-      // At the budget, so nothing is pruned, unseen or not, and long edges are split all the same.
+      // The model is at the budget, so nothing is pruned, not even unseen faces; long edges are
+      // still split.
       EXPECT_EQ(report.unseen + report.pruned, 0u);
       EXPECT_GT(report.split, 10u);
       EXPECT_EQ(trainer.faces(), 50 + report.split);
@@ -165,7 +166,7 @@ TEST(Schedule, PublishedScenesAreSplitBeyondTheBudgetAndPrunedToIt) {
       EXPECT_GT(report.pruned, 10u);
       EXPECT_EQ(trainer.faces(), 50 + report.split);
     }
-    if (step == 50) {  // the last one prunes only; 57 is rounded down to a multiple of ten
+    if (step == 50) {  // the last one only prunes; 57 is rounded down to a multiple of ten
       EXPECT_EQ(report.pruned, before - 50);
       EXPECT_EQ(report.split, 0u);
     }
@@ -175,7 +176,7 @@ TEST(Schedule, PublishedScenesAreSplitBeyondTheBudgetAndPrunedToIt) {
   }
 }
 
-/// Shows `seen_once` faces in the first camera only, the others in all.
+/// Shows `seen_once` faces only in the first camera, the others in all cameras.
 class NarrowBackend final : public BlindBackend {
  public:
   NarrowBackend(std::size_t seen_once, glm::dmat4 first)
@@ -213,7 +214,7 @@ TEST(Schedule, RemovesFacesThatTooFewImagesShow) {
   for (const auto& [least, removed] : {std::pair(1, 0u), {2, 12u}, {3, 12u}}) {
     config.min_views = least;
     EXPECT_EQ(removed_of(config, 12), removed) << least;
-    EXPECT_EQ(removed_of(config, 12, 19), 0u);  // too few images to ask for two
+    EXPECT_EQ(removed_of(config, 12, 19), 0u);  // too few images to require two
   }
 }
 
@@ -233,7 +234,7 @@ TEST(Schedule, RemovesFacesBeforeTheNearPlane) {
   EXPECT_EQ(removed_of(config, 0), 0u);
 }
 
-/// Leaves moments by which a face is known again: all are its first corner's x.
+/// Marks each face with moments: all are the x of its first corner.
 class MarkingBackend final : public BlindBackend {
  public:
   using BlindBackend::BlindBackend;
@@ -287,13 +288,13 @@ TEST(Schedule, MomentsFollowTheirFacesThroughAResampling) {
     if (reset) {
       EXPECT_EQ(followed, 0u);
     } else {
-      EXPECT_GT(followed, 10u) << "what was asked of too few proves nothing";
+      EXPECT_GT(followed, 10u) << "too few to prove anything";
     }
   }
 }
 
 TEST(Schedule, FacesStayAfterTheLastResampling) {
-  // 0.95f is below 0.95: of 200 steps it must still be step 190 and not 180.
+  // 0.95f is below 0.95: with 200 steps the last resampling must be at step 190, not 180.
   Config config;
   config.steps = 200;
   config.triangles = 50;

@@ -1,5 +1,5 @@
-// The score function of opacity: exactly by enumeration of all outcomes, and on average through the
-// stages of a step.
+// The score function of opacity: exactly, by enumeration of all outcomes, and on average, through
+// the stages of a step.
 #include "trainer/common/kernels/score.hpp"
 
 #include <gtest/gtest.h>
@@ -22,10 +22,10 @@ using kernels::FragmentRole;
 using kernels::logit_score;
 using tureen::test::Random;
 
-// One fragment: alpha is the mean of three texels' by weights that sum to 1.
+// One fragment. Its alpha is the weighted mean of three texels' alphas; the weights sum to 1.
 struct Layer {
   std::array<double, 3> texels{}, weights{};
-  double loss = 0;  // of the pixel, where this one shows
+  double loss = 0;  // of the pixel, if this fragment shows
 
   double alpha() const {
     return weights[0] * texels[0] + weights[1] * texels[1] + weights[2] * texels[2];
@@ -39,14 +39,14 @@ struct Stack {
   double loss(std::size_t winner) const {
     return winner < layers.size() ? layers[winner].loss : background_loss;
   }
-  /// That this one shows; layers.size() is the background.
+  /// The probability that this fragment shows; layers.size() is the background.
   double probability(std::size_t winner) const {
     double p = winner < layers.size() ? layers[winner].alpha() : 1;
     for (std::size_t i = 0; i < winner; ++i) p *= 1 - layers[i].alpha();
     return p;
   }
-  /// dE[loss]/dlogit of a texel: alpha's chain times T (l_k - E[l | k rejected]), T being the
-  /// chance that k is reached. E is linear in each alpha (DiffSoup, arXiv 2603.27151).
+  /// dE[loss]/dlogit of a texel: alpha's derivative times T (l_k - E[l | k rejected]), where T is
+  /// the probability of reaching k. E is linear in each alpha (DiffSoup, arXiv 2603.27151).
   double derivative(std::size_t k, std::size_t texel) const {
     double reached = 1;
     for (std::size_t i = 0; i < k; ++i) reached *= 1 - layers[i].alpha();
@@ -56,7 +56,7 @@ struct Stack {
     const double a = layers[k].texels[texel];
     return layers[k].weights[texel] * a * (1 - a) * reached * (layers[k].loss - behind);
   }
-  /// The score of texel of layer k when `winner` shows.
+  /// The score of a texel of layer k if `winner` shows.
   double score(std::size_t winner, std::size_t k, std::size_t texel) const {
     if (k > winner) return 0;
     const Layer& layer = layers[k];
@@ -66,7 +66,7 @@ struct Stack {
   struct Mean {
     double mean = 0, variance = 0;
   };
-  /// Over all outcomes of (loss - baseline) * score.
+  /// Mean and variance of (loss - baseline) * score over all outcomes.
   Mean enumerate(std::size_t k, std::size_t texel, double baseline) const {
     Mean result;
     for (std::size_t winner = 0; winner <= layers.size(); ++winner) {
@@ -142,8 +142,8 @@ TEST(Score, WhatIsNoNumberStaysNone) {
 }
 
 TEST(Score, ABaselineLowersTheVariance) {
-  // Four fragments of alpha 1/2 with losses like those of an image that is half way there: the
-  // mean of the pixel's loss as the baseline, as a running mean comes to be.
+  // Four fragments of alpha 1/2 with losses like those in the middle of a training. The baseline is
+  // the mean of the pixel's loss, which a running mean converges to.
   Random random(3);
   double without = 0, with = 0;
   for (int trial = 0; trial < 1000; ++trial) {
@@ -168,7 +168,8 @@ float logit(double alpha) {
   return alpha <= 0 ? -200.0f : alpha >= 1 ? 200.0f : float(std::log(alpha / (1 - alpha)));
 }
 
-// Three faces that cover the whole image, one behind the other; all their texels' alphas given.
+// Three faces that cover the whole image, one behind the other, with given alphas for all their
+// texels.
 class ScoreThroughTheStep : public testing::TestWithParam<int> {
  protected:
   static std::vector<glm::vec3> positions() {
@@ -182,7 +183,7 @@ class ScoreThroughTheStep : public testing::TestWithParam<int> {
 TEST_P(ScoreThroughTheStep, HasTheDerivativeAsItsMean) {
   constexpr int side = 48, steps = 300;
   constexpr double losses[4] = {0.3, 1.1, 0.2, 0.7};
-  // The texels of the three faces: one alpha each from the list, or a mixture of all.
+  // The texels of the three faces: the middle face has one alpha from the list, or all are mixed.
   constexpr double values[5] = {0, 1e-7, 0.5, 1 - 1e-7, 1};
   test::Faces faces(positions());
   for (std::size_t i = 0; i < 9; ++i) {
@@ -192,7 +193,7 @@ TEST_P(ScoreThroughTheStep, HasTheDerivativeAsItsMean) {
   }
   faces.refresh();
 
-  // What is expected, pixel by pixel, with the alphas that the step sees.
+  // The expected gradient, pixel by pixel, with the step's float alphas.
   std::vector<BatchImage> images{test::make_image(test::axis_camera(side, side, 24))};
   BatchImage& image = images[0];
   double expected[9] = {}, variance[9] = {};
@@ -232,8 +233,8 @@ TEST_P(ScoreThroughTheStep, HasTheDerivativeAsItsMean) {
     }
   }
   for (std::size_t i = 0; i < 9; ++i) {
-    // Sums of floats: 2304 terms of up to 1, some 1e-5 of their total; and draws are multiples of
-    // 2^-24, which is that much in a probability of each pixel.
+    // Float sums of 2304 terms of up to 1 have errors of about 1e-5 of their total. Draws are
+    // multiples of 2^-24, which changes each pixel's probability by as much.
     const double rounding = 1e-5 * std::abs(expected[i]) + image.pixels() * 3 * 0x1p-24;
     const double standard_error = std::sqrt(std::max(variance[i], 0.0) / steps);
     EXPECT_NEAR(sum[i] / steps, expected[i], 4 * standard_error + rounding)
@@ -250,9 +251,9 @@ std::string case_name(const testing::TestParamInfo<int>& tested) {
 INSTANTIATE_TEST_SUITE_P(, ScoreThroughTheStep, testing::Range(0, 6), case_name);
 
 TEST(ScoreOfCoincidentFaces, TheOneBehindByItsNumberGetsNothing) {
-  // docs/numerics.md, G9. Both cover all; the lower one shows wherever it is accepted, and then the
-  // other has no part in the pixel. Its score is that of a fragment that is reached only where the
-  // lower one is rejected.
+  // docs/numerics.md, G9. Both faces cover everything. The lower one shows wherever it is accepted,
+  // and the other then has no effect on the pixel. The other's score is that of a fragment reached
+  // only if the lower one is rejected.
   constexpr int side = 32, steps = 200;
   std::vector<glm::vec3> positions{{-9, -8, -2}, {9, -7, -2}, {0.5f, 12, -2}};
   for (int k = 0; k < 3; ++k) positions.push_back(positions[std::size_t(k)]);
@@ -273,7 +274,7 @@ TEST(ScoreOfCoincidentFaces, TheOneBehindByItsNumberGetsNothing) {
     }
   }
   const double pixels = side * side;
-  // All texels have alpha a = 1/2, so by the common logit: a (1 - a) T (l - E[l | rejected]).
+  // All texels have alpha a = 1/2, so for a common logit: a (1 - a) T (l - E[l | rejected]).
   const double expected[2] = {0.25 * (1.0 - (0.5 * 0.2 + 0.5 * 0.6)) * pixels,
                               0.25 * 0.5 * (0.2 - 0.6) * pixels};
   // A pixel's contribution has a deviation below 1/2.

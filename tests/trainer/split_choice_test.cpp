@@ -25,7 +25,7 @@ double longest_edge(const Model& model, std::size_t face) {
   return longest;
 }
 
-// Held against the obvious way: look at all faces before each split.
+// Compared with a simple method: search all faces before each split.
 TEST(LongestEdges, AreBisectedUntilTheBudgetIsMet) {
   for (const std::size_t budget : {0u, 10u, 11u, 57u}) {
     const Model model = random_model(61, {.faces = 10, .max_level = 0});
@@ -56,7 +56,7 @@ TEST(LongestEdges, EndWithFacesOfNoSizeOrNumber) {
   EXPECT_THAT(longest_edges(random_model(62, {.faces = 0}), 50), IsEmpty());
 }
 
-// Held against the obvious way, as above.
+// Compared with a simple method, as above.
 TEST(GreatestErrors, AreHalvedUntilTheBudgetIsMet) {
   const Model model = random_model(63, {.faces = 8, .max_level = 0});
   std::vector<float> errors;
@@ -90,7 +90,7 @@ TEST(GreatestErrors, OfZeroStillMeetTheBudget) {
   EXPECT_THAT(greatest_errors(model, std::vector<float>(3), 20), SizeIs(17));
 }
 
-// Where nothing errs the longest edges are cut: no face takes all of the budget.
+// Without errors, the longest edges are split: no single face uses the whole budget.
 TEST(GreatestErrors, OfZeroGoByLength) {
   const Model model = random_model(65, {.faces = 12, .max_level = 0});
   const std::vector<float> none(12);
@@ -98,14 +98,15 @@ TEST(GreatestErrors, OfZeroGoByLength) {
     return split(model, splits, ChildTexture::copied).model.positions;
   };
   EXPECT_EQ(positions(greatest_errors(model, none, 90)), positions(longest_edges(model, 90)));
-  // What errs at all comes first.
+  // Any face with an error comes first.
   std::vector<float> one = none;
   one[7] = 1e-20f;
   for (const Split& each : greatest_errors(model, one, 20))
     EXPECT_TRUE(each.face == 7 || each.face >= 12) << each.face;
 }
 
-/// A camera at the origin that looks along -z: at depth 1 an image of 200 x 100 pixels is 2 x 1.
+/// A camera at the origin that looks along -z: at depth 1, the image of 200 x 100 pixels is 2 x 1
+/// units.
 Camera plain_camera() {
   return {.name = "",
           .width = 200,
@@ -138,7 +139,7 @@ TEST(LongestProjectedEdges, AreHalvedInTheImage) {
   ASSERT_THAT(splits, SizeIs(1));
   EXPECT_EQ(splits[0].face, 0u);
   EXPECT_EQ(splits[0].edge, 0);
-  EXPECT_FLOAT_EQ(splits[0].t, 1.0f / 5.0f);  // 1 / (1 + 4): the nearer end is the nearer to it
+  EXPECT_FLOAT_EQ(splits[0].t, 1.0f / 5.0f);  // 1 / (1 + 4): close to the nearer end
   const Resampled result = split(model, splits, ChildTexture::copied);
   const glm::vec3 point = result.model.positions[1];
   EXPECT_NEAR(100 + 100 * point.x / -point.z, 100, 1e-4);  // between 20 and 180 pixels
@@ -149,7 +150,7 @@ TEST(LongestProjectedEdges, StopAtTheThreshold) {
   const Model model = triangle({0, 0, -1}, {0.4f, 0, -1}, {0, 0.3f, -1});
   EXPECT_THAT(choose(model, 0.51, 100), IsEmpty());
   EXPECT_THAT(choose(model, 0.45, 100), SizeIs(1));  // halves of 25, 30 or 40, and a median of 25
-  // The queue ends with nothing longer than the threshold.
+  // In the end, no edge is longer than the threshold.
   const Model all = split(model, choose(model, 0.1, 1000), ChildTexture::copied).model;
   EXPECT_GT(all.faces(), 10u);
   for (std::size_t face = 0; face < all.faces(); ++face)
@@ -176,7 +177,7 @@ TEST(LongestProjectedEdges, KeepTheBudgetAndTakeTheLongestFirst) {
 TEST(LongestProjectedEdges, OnlyOfVisibleFacesAndTheirChildren) {
   Model model = random_model(65, {.faces = 2, .max_level = 0});
   model.origin = glm::dvec3(0.0);
-  for (int corner = 0; corner < 3; ++corner)  // twice the same face
+  for (int corner = 0; corner < 3; ++corner)  // two copies of the same face
     model.positions[3 + corner] = model.positions[corner] -= glm::vec3(0, 0, 6);
   const std::vector<std::uint8_t> visible = {0, 1}, none = {0, 0};
   const std::vector<SplitView> views = {{.camera = plain_camera(), .visible = none},
@@ -189,30 +190,31 @@ TEST(LongestProjectedEdges, OnlyOfVisibleFacesAndTheirChildren) {
 }
 
 TEST(LongestProjectedEdges, CountByThePartInTheImage) {
-  // From pixel 150 far out to the right, and a third corner off the image too.
+  // From pixel 150 far outside to the right; the third corner is outside the image, too.
   const Model out = triangle({0.5f, 0, -1}, {100, 0, -1}, {100, 1, -1});
   const std::vector<Split> splits = choose(out, 0.2, 2);
   ASSERT_THAT(splits, SizeIs(1));
   const glm::vec3 point =
       split(out, splits, ChildTexture::copied).model.positions[(splits[0].edge + 1) % 3];
-  // Pixels 150 .. 200 are halved at 175: 0.75 at depth 1. (The third edge rises half a pixel.)
+  // Pixels 150 to 200 are halved at 175: 0.75 at depth 1. (The third edge rises half a pixel.)
   EXPECT_NEAR(point.x, 0.75, 0.01);
 
-  // From before the camera to behind it, below the axis: seen where it is before the near plane
-  // and in the image, y = -0.4 at depths 0.8 and more.
+  // From in front of the camera to behind it, below the axis. It is visible beyond the near plane
+  // and inside the image: y = -0.4 at depths of at least 0.8.
   const Model through = triangle({0, -0.4f, -4}, {0, -0.4f, 4}, {0.01f, -0.4f, -4});
   ASSERT_THAT(choose(through, 0.2, 2), SizeIs(1));
   const Split cut = choose(through, 0.2, 2)[0];
   const double depth = glm::abs(split(through, std::span(&cut, 1), ChildTexture::copied)
                                     .model.positions[(cut.edge + 1) % 3]
                                     .z);
-  // Depth 4 is 10 pixels below the axis, the border 50: the middle, 30 pixels, is depth 4/3.
+  // Depth 4 is 10 pixels below the axis, the border 50 pixels. The middle, 30 pixels, is at depth
+  // 4/3.
   EXPECT_NEAR(depth, 4.0 / 3.0, 1e-4);
 
   // Behind the camera, and beside the image: nothing to split.
   EXPECT_THAT(choose(triangle({-5, 0, 1}, {5, 0, 1}, {0, 5, 2}), 0.01, 100), IsEmpty());
   EXPECT_THAT(choose(triangle({5, -9, -1}, {5, 9, -1}, {9, 0, -1}), 0.01, 100), IsEmpty());
-  // Across the whole image with every corner outside: published code never splits it.
+  // Across the whole image with every corner outside: the published code never splits it.
   EXPECT_THAT(choose(triangle({-9, 0.1f, -1}, {9, 0.1f, -1}, {0, -9, -1}), 0.5, 2), SizeIs(1));
 }
 

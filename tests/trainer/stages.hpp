@@ -1,5 +1,5 @@
-// The stages of a training step on their own: an image as the backend prepares it, and the
-// gradient that a face was stepped with.
+// Single stages of a training step: an image as prepared by the backend, and the gradient that
+// steps a face.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 namespace tureen::trainer::test {
 
 /// A camera at the origin that looks along -z, with square pixels and the principal point in the
-/// middle. At distance z a unit measures focal / z pixels.
+/// middle. At distance z, a unit measures focal / z pixels.
 inline Camera axis_camera(int width, int height, double focal) {
   return {.name = {},
           .width = width,
@@ -46,7 +46,7 @@ struct Faces {
   TextureStore store;
   std::vector<float> errors;
 
-  /// Three positions a face; all logits 0 but those of alpha, which are `alpha_logit`.
+  /// Three positions per face; all logits are 0 except alpha's, which are `alpha_logit`.
   explicit Faces(std::vector<glm::vec3> positions, float alpha_logit = 200.0f, int level = 0)
       : pyramid(level, level) {
     model.min_level = model.max_level = level;
@@ -57,7 +57,7 @@ struct Faces {
     refresh();
   }
 
-  /// After changes of the logits.
+  /// Call after changes of the logits.
   void refresh() {
     moments.reset_faces(model);
     store.values.resize(model.faces() * pyramid.fine_texels() * channels);
@@ -73,8 +73,8 @@ struct Faces {
       find_visible(image, tile, store.alpha.data(), model.max_level, masking);
   }
 
-  /// What the face gathers from the images, as the moments of a first step hold it: with
-  /// beta1 = 0 the first moment is the gradient. Rates are 0: nothing moves.
+  /// Gathers the face's gradient from the images. It is stored in the moments of a first step: with
+  /// beta1 = 0 the first moment is the gradient. Rates are 0, so nothing moves.
   unsigned gather(std::span<const BatchImage> images, std::size_t face) {
     moments.reset_faces(model);
     errors.assign(model.faces(), 0.0f);

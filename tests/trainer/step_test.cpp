@@ -1,5 +1,5 @@
-// Whole steps of the processor's backend: its gradient against finite differences of the loss of a
-// image in double, the same bits with any number of threads, and what is not a number.
+// Whole steps of the processor's backend: its gradient compared with finite differences of an
+// image's loss in double, identical bits with any number of threads, and non-finite numbers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ using tureen::test::Random;
 
 constexpr int width = 40, height = 33;
 
-// Cameras around the model, each with an image that is nothing in particular.
+// Cameras around the model, each with an image of noise.
 std::vector<TrainingView> random_views(std::uint64_t seed, int count, const glm::dvec3& middle) {
   Random random(seed);
   std::vector<TrainingView> views;
@@ -54,7 +54,7 @@ TrainingState random_state(std::uint64_t seed, std::size_t faces, int min_level,
   return state;
 }
 
-// Fragments are accepted whatever is drawn: only what is differentiable is left.
+// Every draw accepts the fragments, so the loss is differentiable.
 void make_opaque(Model& model) {
   const std::size_t coarse = lattice::texel_count(model.min_level);
   for (std::size_t face = 0; face < model.faces(); ++face) {
@@ -66,7 +66,7 @@ void make_opaque(Model& model) {
 
 constexpr Rates rates = {.texture = 5e-2f, .mlp = 1e-2f, .vertex = 1e-3f};
 
-// The loss of a model as formulas say it, in double, pixels' faces and barycentrics given.
+// The loss of a model by its formulas in double, for given faces and barycentrics of pixels.
 class ReferenceLoss {
  public:
   ReferenceLoss(const Model& model, const TrainingView& view, const Config& config)
@@ -132,7 +132,7 @@ class ReferenceLoss {
     return pixel;
   }
 
-  // Levels summed at the fine texels, the sigmoid, then interpolated.
+  // Levels are summed at the fine texels, followed by the sigmoid and the interpolation.
   static void features(const Model& model, const std::vector<double>& logits, const Pixel& pixel,
                        double* out) {
     const auto fine = lattice::footprint(model.max_level, pixel.b0, pixel.b1);
@@ -182,8 +182,9 @@ TEST(CpuStep, ItsGradientIsThatOfTheLoss) {
     EXPECT_NEAR(report.loss, loss(state.model, logits, mlp), 1e-5);
     EXPECT_EQ(report.non_finite, 0u);
 
-    // Differences of h = 1e-5 are exact to 1e-10 of the loss, gradients of texels are about 1e-4;
-    // |C - G| has its kink at a byte's value in few of 1320 x 3 pixels, and none within 1e-5.
+    // Differences with h = 1e-5 have errors of 1e-10 of the loss; gradients of texels are about
+    // 1e-4. |C - G| has its kink at a byte's value: close in few of 1320 x 3 values, and never
+    // within 1e-5.
     constexpr double h = 1e-5;
     const auto difference = [&](double& number) {
       const double kept = number;
@@ -199,8 +200,8 @@ TEST(CpuStep, ItsGradientIsThatOfTheLoss) {
       for (const float g : gradient) result = std::max(result, std::abs(double(g)));
       return result;
     };
-    // Sums of hundreds of floats, and barycentrics that are known to some 1e-6: a thousandth of
-    // each gradient or of a hundredth of the largest.
+    // Sums of hundreds of floats, and barycentrics with errors of about 1e-6: the bound is a
+    // thousandth of each gradient, plus a thousandth of a hundredth of the largest.
     Random random(23);
     const double most = largest(after.moments.first);
     ASSERT_GT(most, 1e-5);
@@ -225,7 +226,7 @@ TEST(CpuStep, ItsGradientIsThatOfTheLoss) {
   }
 }
 
-/// Of vectors and arrays.
+/// For vectors and arrays.
 template <class Values>
 bool same_bits(const Values& a, const Values& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
@@ -265,7 +266,7 @@ TEST(CpuStep, GivesTheSameBitsWithAnyNumberOfThreads) {
   EXPECT_FALSE(same_bits(one.model.positions, state.model.positions));
   for (const int threads : {2, 3})
     EXPECT_TRUE(same_bits(one, after_steps(state, views, Config{}, threads, 5))) << threads;
-  // And another seed gives others, so the draws do matter.
+  // Another seed gives other results, so the draws have an effect.
   Config other;
   other.seed = 1;
   EXPECT_FALSE(same_bits(one, after_steps(state, views, other, 1, 5)));
@@ -289,7 +290,7 @@ TEST(CpuStep, GoesOnFromASavedState) {
   EXPECT_TRUE(same_bits(straight, resumed));
 }
 
-// Everything finite but for what `skipped_face` owns.
+// Expects that everything is finite except the data of `skipped_face`.
 void expect_finite(const TrainingState& state, std::size_t skipped_face) {
   const std::size_t face_logits = state.model.texels() * channels;
   const auto finite = [&](const auto& values, std::size_t a_face, const char* what) {
@@ -310,8 +311,9 @@ void expect_finite(const TrainingState& state, std::size_t skipped_face) {
 
 class ATexelThatIsNoNumber : public testing::TestWithParam<int> {};  // the channel
 
-TEST_P(ATexelThatIsNoNumber, IsCountedAndHurtsNobodyElse) {
-  // docs/numerics.md, O5. A wall that much is seen of, before which and beside which others are.
+TEST_P(ATexelThatIsNoNumber, IsCountedAndDoesNotSpread) {
+  // docs/numerics.md, O5. A wall that is visible in many pixels, with other faces in front of it
+  // and beside it.
   constexpr std::size_t bad_face = 40;
   TrainingState state = random_state(41, 80, 0, 1);
   const auto views = random_views(42, 4, state.model.origin);
@@ -322,7 +324,7 @@ TEST_P(ATexelThatIsNoNumber, IsCountedAndHurtsNobodyElse) {
   const TrainingState after = after_steps(bad, views, Config{}, 2, 4);
   EXPECT_GT(after.non_finite, 0u);
   expect_finite(after, bad_face);
-  // The rest goes on learning, the network among it.
+  // Everything else continues to learn, including the network.
   EXPECT_EQ(after.moments.mlp_steps, 4u);
   EXPECT_NE(after.model.mlp, bad.model.mlp);
   std::size_t moved = 0, seen = 0;
@@ -332,7 +334,7 @@ TEST_P(ATexelThatIsNoNumber, IsCountedAndHurtsNobodyElse) {
   }
   EXPECT_GT(seen, 50u);
   EXPECT_GT(moved, seen * 9 / 10);  // some are never accepted in four steps
-  // The same without the texel: nothing to count.
+  // The same without the bad texel: nothing is counted.
   EXPECT_EQ(after_steps(state, views, Config{}, 2, 4).non_finite, 0u);
 }
 
@@ -340,8 +342,9 @@ INSTANTIATE_TEST_SUITE_P(InChannel, ATexelThatIsNoNumber, testing::Values(0, 3, 
                          testing::PrintToStringParamName());
 
 TEST(CpuStep, WhatDoesNotCountLeavesTheBaselineAlone) {
-  // A wall behind everything whose blend between base colour and network is no number: its pixels
-  // are put aside, and their running means wait. So do those of pixels that the caller left out.
+  // A wall behind everything, with NaN as its blend between base colour and network. Its pixels are
+  // excluded, and their running means do not change. The same holds for pixels that the caller
+  // ignores.
   TrainingState state = random_state(45, 1, 0, 0);
   make_opaque(state.model);
   state.model.origin = glm::dvec3(0.0);
@@ -371,7 +374,7 @@ TEST(CpuStep, WhatDoesNotCountLeavesTheBaselineAlone) {
   }
 }
 
-TEST(CpuStep, APositionThatIsNoNumberHurtsNobodyElse) {
+TEST(CpuStep, APositionThatIsNoNumberDoesNotSpread) {
   TrainingState state = random_state(43, 60, 0, 1);
   const auto views = random_views(44, 4, state.model.origin);
   state.model.positions[3 * 7 + 1].y = std::numeric_limits<float>::quiet_NaN();
@@ -387,8 +390,8 @@ TEST(CpuStep, APositionThatIsNoNumberHurtsNobodyElse) {
   expect_finite(cleared, ~std::size_t(0));
 }
 
-TEST(CpuStep, AGradientWhoseSquareIsInfiniteIsLeftOut) {
-  // A second moment that is infinite would keep its number where it is for ever.
+TEST(CpuStep, AGradientWhoseSquareIsInfiniteIsSkipped) {
+  // With an infinite second moment, a parameter would never move again.
   test::Faces faces({{-2, -2, -2}, {2, -2, -2}, {0, 3, -2}});
   std::vector<BatchImage> images{test::make_image(test::axis_camera(32, 32, 32))};
   faces.find(images[0], Masking::threshold);
@@ -402,12 +405,12 @@ TEST(CpuStep, AGradientWhoseSquareIsInfiniteIsLeftOut) {
 TEST(CpuStep, WhatNoImageShowsStaysAsItIs) {
   TrainingState state = random_state(51, 20, 0, 1);
   const auto views = random_views(52, 4, state.model.origin);
-  // Far behind all that the cameras look at, beyond the far plane.
+  // Far behind everything in view, beyond the far plane.
   for (std::size_t k = 0; k < 3; ++k) state.model.positions[3 * 5 + k] += glm::vec3(1e4f, 0, 0);
   for (const bool dense : {false, true}) {
     Config config;
     config.dense_updates = dense;
-    // With moments from before, so that a dense step moves it.
+    // With earlier moments, so that a dense step moves the face.
     TrainingState before = state;
     std::ranges::fill(before.moments.first, 0.1f);
     std::ranges::fill(before.moments.second, 0.1f);
@@ -427,7 +430,7 @@ TEST(CpuRender, ShowsWhatTheFormulasSay) {
   const auto backend = make_cpu_backend(views, Config{}, 2);
   backend->upload(state);
   std::vector<float> image = backend->render(views[0].camera);
-  // Against targets of 0 the loss without SSIM is the mean of the image.
+  // With targets of 0 and without SSIM, the loss is the mean of the image.
   TrainingView black = views[0];
   std::ranges::fill(black.target, std::uint8_t(0));
   Config config;

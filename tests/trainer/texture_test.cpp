@@ -33,7 +33,7 @@ TEST(TextureKernel, ParentsAreWhatTheRefinedLatticeIsTheMeanOf) {
       const kernels::Parents parents = kernels::parents(x, y);
       ASSERT_LT(parents.a, coarse.size());
       ASSERT_LT(parents.b, coarse.size());
-      // Halves are exact, the sum is rounded once.
+      // Halves are exact; the sum is rounded once.
       ASSERT_EQ(fine[texel], 0.5f * coarse[parents.a] + 0.5f * coarse[parents.b])
           << "level " << level << ", texel " << texel;
     }
@@ -63,7 +63,7 @@ TEST_P(PyramidOfLevels, SumsLikeTheLevelsInterpolatedOnTheirOwn) {
   for (std::uint32_t texel = 0; texel < pyramid.fine_texels(); ++texel) {
     const auto [x, y] = lattice::texel_coordinates(texel);
     for (int c = 0; c < channels; ++c)
-      // Sums stay below 64; two roundings a level of at most 64 / 2^25 each.
+      // Sums stay below 64; each level has two roundings of at most 64 / 2^25.
       ASSERT_NEAR(fine[std::size_t(texel) * channels + std::size_t(c)],
                   test::summed_logit(model, 0, x * step, y * step, c), 16 * 0x1p-19)
           << "texel " << texel << ", channel " << c;
@@ -80,7 +80,7 @@ TEST_P(PyramidOfLevels, ScattersByTheTransposeOfTheSum) {
     const std::vector<float> x = random_values(2 * seed, texels);
     std::vector<float> y = random_values(2 * seed + 1, fine_texels);
     const std::vector<float> kept = y;
-    // Poisoned: scatter must write every texel.
+    // Initialised with NaN: scatter must write every texel.
     std::vector<float> sum(fine_texels), scratch(fine_texels), scattered(texels, NAN);
     pyramid.sum(x.data(), sum.data(), scratch.data());
     pyramid.scatter(y.data(), scattered.data());
@@ -107,8 +107,8 @@ TEST_P(PyramidOfLevels, TheStoreHoldsTheTextureOfTheModel) {
   for (std::size_t face = 0; face < model.faces(); ++face) {
     fine_texture(model, face, expected);
     const float* values = &store.values[face * expected.size()];
-    // Logits agree to 16 / 2^19 (above) and the sigmoid's slope is at most 1/4; its exponential is
-    // exact to 3e-7.
+    // Logits agree to 16 / 2^19 (above), and the sigmoid's slope is at most 1/4. Its exponential
+    // has a relative error of 3e-7.
     for (std::size_t i = 0; i < expected.size(); ++i)
       ASSERT_NEAR(values[i], expected[i], 4 * 0x1p-19 + 3e-7) << "face " << face << ", " << i;
     for (std::size_t i = 0; i < pyramid.fine_texels(); ++i)

@@ -17,7 +17,7 @@ TEST(ThreadPool, EveryTaskRunsOnce) {
   for (const int threads : {1, 2, 3, 8}) {
     ThreadPool pool(threads);
     EXPECT_EQ(pool.threads(), threads);
-    // Runs that follow each other at once meet workers that are still on their way to sleep.
+    // Runs in immediate succession, so that workers may not be asleep yet.
     for (const std::size_t tasks : {0u, 1u, 2u, 1000u, 3u, 0u, 17u}) {
       std::vector<std::atomic<int>> runs(tasks);
       pool.run(tasks, [&](std::size_t task) { ++runs.at(task); });
@@ -41,8 +41,8 @@ TEST(ThreadPool, TasksRunSideBySide) {
   std::atomic<int> arrived = 0;
   std::atomic<bool> met = true;
   pool.run(3, [&](std::size_t) {
-    // Each waits for the others: one thread alone would never see all three. A minute is forever
-    // for three threads to be scheduled.
+    // Each task waits for the others, which needs three threads. A minute is long enough to
+    // schedule them.
     ++arrived;
     const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
     while (arrived < 3 && std::chrono::steady_clock::now() < end) std::this_thread::yield();

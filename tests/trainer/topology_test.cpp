@@ -17,7 +17,7 @@ using test::random_model;
 using testing::Each;
 using testing::ElementsAre;
 
-/// Face t of the result is face `from` of the model, bit by bit.
+/// Expects that face t of the result is face `from` of the model, bit by bit.
 void expect_same_face(const Resampled& result, std::size_t t, const Model& model,
                       std::size_t from) {
   EXPECT_EQ(result.origin[t], from);
@@ -39,7 +39,7 @@ TEST(Prune, KeepsThoseOfMostPixelsInTheirOrder) {
   const Model model = random_model(41, {.faces = 6});
   const std::vector<std::uint64_t> pixels = {5, 0, 9, 5, 5, 1};
   const Resampled result = prune(model, pixels, 3);
-  ASSERT_THAT(result.origin, ElementsAre(0, 2, 3));  // of three fives the first two
+  ASSERT_THAT(result.origin, ElementsAre(0, 2, 3));  // the first two of three fives
   EXPECT_THAT(result.is_new, Each(0));
   expect_same_kind(result.model, model);
   for (std::size_t t = 0; t < 3; ++t) expect_same_face(result, t, model, result.origin[t]);
@@ -54,7 +54,7 @@ TEST(Prune, MeetsTheBudgetExactly) {
     const Resampled result = prune(model, pixels, budget);
     ASSERT_EQ(result.model.faces(), budget);
     ASSERT_TRUE(std::ranges::is_sorted(result.origin));
-    // The slow way: sorted stably by pixels, of which the first are kept.
+    // The simple method: a stable sort by pixels, then the first faces.
     std::vector<std::uint32_t> order(100);
     std::iota(order.begin(), order.end(), 0u);
     std::ranges::stable_sort(order, std::greater{}, [&](std::uint32_t i) { return pixels[i]; });
@@ -100,7 +100,7 @@ TEST(Split, CutsGeometryAndKeepsOrientation) {
       return glm::cross(glm::dvec3(corner[1] - corner[0]), glm::dvec3(corner[2] - corner[0]));
     };
     const glm::dvec3 whole = normal(parent);
-    // Areas are 0.3 and 0.7 of the parent's, on its plane, the same way round.
+    // Areas are 0.3 and 0.7 of the parent's, in its plane, with the same orientation.
     EXPECT_LT(glm::distance(normal(first), double(0.3f) * whole), 1e-5);
     EXPECT_LT(glm::distance(normal(second), double(1 - 0.3f) * whole), 1e-5);
   }
@@ -116,8 +116,8 @@ TEST(Split, CopiesTexelsVerbatim) {
         std::ranges::equal(result.model.face_logits(t), model.face_logits(result.origin[t])));
 }
 
-/// Barycentrics on the model's face `origin` of a point on the result's face t. Least squares in
-/// double on float positions.
+/// Barycentrics on the model's face `origin` of a point on the result's face t: least squares in
+/// double, from float positions.
 glm::dvec3 on_parent(const Resampled& result, std::size_t t, glm::dvec3 b, const Model& model) {
   const glm::vec3* child = &result.model.positions[3 * t];
   const glm::vec3* parent = &model.positions[3 * std::size_t(result.origin[t])];
@@ -132,7 +132,7 @@ glm::dvec3 on_parent(const Resampled& result, std::size_t t, glm::dvec3 b, const
   return {b0, b1, 1 - b0 - b1};
 }
 
-/// A model whose faces are large and far from degenerate, so that on_parent is exact to 1e-6.
+/// A model with large faces far from degenerate, so that on_parent has errors of 1e-6.
 Model sturdy_model(std::uint64_t seed, const test::ModelOptions& options) {
   Model model = random_model(seed, options);
   for (std::size_t face = 0; face < model.faces(); ++face) {
@@ -178,7 +178,7 @@ TEST(Split, ResampledChildrenShowAtEveryTexelWhatTheParentShowed) {
         const auto [x, y] = lattice::texel_coordinates(texel);
         const glm::dvec3 b = on_parent(result, t, {x * step, y * step, 1 - (x + y) * step}, model);
         for (int c = 0; c < channels; ++c)
-          // Positions are floats of up to 12, rounded at every cut: 1e-6 of an edge; neighbouring
+          // Positions are floats of up to 12, rounded at every cut: 1e-6 of an edge. Neighbouring
           // texels differ by at most 1, and there are 2^level of them along an edge.
           ASSERT_NEAR(child[std::size_t(texel) * channels + c],
                       test::textured(parent, level, b[0], b[1], c), 2e-6 * (1 << level) + 1e-6)
@@ -188,7 +188,7 @@ TEST(Split, ResampledChildrenShowAtEveryTexelWhatTheParentShowed) {
   }
 }
 
-// An affine function on a face is the same function on its halves, wherever they were cut.
+// An affine function on a face is the same function on its parts, for any cut.
 TEST(Split, ResamplingKeepsAffineFunctionsEverywhere) {
   Model model = sturdy_model(50, {.faces = 1, .min_level = 0, .max_level = 0});
   for (int c = 0; c < channels; ++c)  // affine after the sigmoid: 0.2 .. 0.8
@@ -208,7 +208,7 @@ TEST(Split, ResamplingKeepsAffineFunctionsEverywhere) {
       const glm::dvec3 b = on_parent(result, t, {b0, b1, 1 - b0 - b1}, model);
       for (int c = 0; c < channels; ++c)
         ASSERT_NEAR(test::textured(child, 0, b0, b1, c), test::textured(parent, 0, b[0], b[1], c),
-                    3e-6);  // positions, see above
+                    3e-6);  // rounding of positions, see above
     }
   }
 }
@@ -238,8 +238,8 @@ double mean_error(const Model& model, ChildTexture texture) {
   return sum / count;
 }
 
-// Between texels the halves have other cells, so a coarse function comes back with an error of
-// second order: a quarter with every level.
+// Between texels, the children have other cells, so a function has an error of second order: a
+// quarter with each level.
 TEST(Split, ResamplingConvergesWithTheLevel) {
   double last = 0;
   for (int level = 3; level <= 6; ++level) {
@@ -248,7 +248,7 @@ TEST(Split, ResamplingConvergesWithTheLevel) {
     for (std::size_t face = 0; face < model.faces(); ++face)
       for (std::uint32_t texel = 0; texel < lattice::texel_count(level); ++texel) {
         const auto [x, y] = lattice::texel_coordinates(texel);
-        for (int c = 0; c < channels; ++c)  // smooth, of some curvature everywhere
+        for (int c = 0; c < channels; ++c)  // smooth, with curvature everywhere
           model.face_logits(face)[std::size_t(texel) * channels + c] =
               float(2 * std::sin(5 * x * step + double(face)) * std::cos(4 * y * step));
       }
@@ -258,7 +258,8 @@ TEST(Split, ResamplingConvergesWithTheLevel) {
       EXPECT_GT(error, 0.2 * last) << level;
     }
     last = error;
-    // The copied texture is another image: at every level the error is of the image's size.
+    // The copied texture is a different image: at every level the error is of the image's
+    // magnitude.
     EXPECT_GT(mean_error(model, ChildTexture::copied), 0.1) << level;
   }
 }
@@ -271,7 +272,7 @@ TEST(Split, ResamplingSurvivesSaturatedLogits) {
   EXPECT_TRUE(std::ranges::all_of(result.model.logits, [](float x) { return std::isfinite(x); }));
 }
 
-/// How far it is from each face's centre to the next one's, all together.
+/// The sum of distances from each face's centre to the next one's.
 double length_of_tour(const Model& model) {
   const auto centre = [&](std::size_t face) {
     const glm::vec3* p = &model.positions[3 * face];
@@ -292,8 +293,8 @@ TEST(SpaceOrder, KeepsFacesAndPutsNeighboursTogether) {
   std::sort(origins.begin(), origins.end());
   for (std::uint32_t i = 0; i < origins.size(); ++i) ASSERT_EQ(origins[i], i);
   for (std::size_t t = 0; t < 50; ++t) expect_same_face(ordered, t, model, ordered.origin[t]);
-  // A Morton curve through n random points is O(n^(2/3)) long, a random tour O(n): here about a
-  // fifth; a third would still be a curve, a half hardly.
+  // A Morton curve through n random points has a length of O(n^(2/3)), a random order of O(n): here
+  // about a fifth. A third would still be a curve, a half hardly.
   EXPECT_LT(length_of_tour(ordered.model), length_of_tour(model) / 3);
 }
 

@@ -40,7 +40,7 @@ TEST(TrainingViews, AreThePhotographsOverTheBackgroundPlaneByPlane) {
       const glm::u8vec4 pixel = photograph.image.pixels[p];
       const double a = pixel.a / 255.0;
       const double exact = a * pixel[c] + (1 - a) * 255 * double(config.background[c]);
-      // The nearest byte, and an ulp of slack for values half way between two.
+      // The nearest byte, plus rounding for values half way between two.
       EXPECT_NEAR(view.target[std::size_t(c) * pixels + p], exact, 0.5 + 1e-9) << p << " " << c;
     }
   for (std::size_t c = 0; c < 3; ++c) {

@@ -1,4 +1,4 @@
-// Stochastic masking: the draws themselves, and what the visibility stage makes of them.
+// Stochastic masking: the draws, and the visibility stage that uses them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using tureen::test::Random;
 
 constexpr int image_width = 512;
 
-// Draw number i along one of the things that draws are counted by; everything else stays.
+// Draw number i along one of the inputs of a draw; all other inputs are fixed.
 struct Sequence {
   std::string name;
   std::function<float(std::uint32_t)> draw;
@@ -41,7 +41,7 @@ std::vector<Sequence> sequences() {
        [](std::uint32_t i) {
          return uniform_draw(draw_key(std::uint64_t(i) << 32, 100, 3), 12345, 4711);
        }},
-      // Pixels and faces at once, as a step has them.
+      // Pixels and faces together, as in a step.
       {"PixelsOfFaces", [=](std::uint32_t i) { return uniform_draw(key, i >> 4, i & 15); }},
   };
 }
@@ -65,8 +65,8 @@ TEST_P(DrawsAlong, AreUniform) {
   const double expected = double(count) / bins;
   double chi_squared = 0;
   for (const double n : found) chi_squared += (n - expected) * (n - expected) / expected;
-  // Mean 255, variance 510: within five deviations, as sequences that are more even than chance
-  // are no random draws either.
+  // Mean 255, variance 510: within five deviations. The bound is two-sided, because a sequence that
+  // is too even is not random either.
   EXPECT_NEAR(chi_squared, 255, 5 * std::sqrt(510.0));
 }
 
@@ -83,8 +83,8 @@ TEST_P(DrawsAlong, DoNotDependOnTheOnesBefore) {
     double chi_squared = 0;
     constexpr double expected = double(count) / (bins * bins);
     for (const double n : found) chi_squared += (n - expected) * (n - expected) / expected;
-    // The correlation's deviation is 1 / sqrt(count). Overlapping pairs widen chi squared a little
-    // beyond that of 255 degrees of freedom: six deviations.
+    // The correlation's deviation is 1 / sqrt(count). Overlapping pairs make chi squared slightly
+    // wider than with 255 degrees of freedom: six deviations.
     EXPECT_LT(std::abs(correlation), 5 / std::sqrt(double(count))) << "lag " << lag;
     EXPECT_NEAR(chi_squared, 255, 6 * std::sqrt(510.0)) << "lag " << lag;
   }
@@ -142,7 +142,7 @@ TEST(StochasticVisibility, FacesShowAsOftenAsTheirAlphasSay) {
   }
 }
 
-// Many faces, with textures of alpha that vary, seen from anywhere.
+// Many faces, with varying alphas, in a random volume.
 test::Faces random_faces(std::uint64_t seed, int count) {
   Random random(seed);
   std::vector<glm::vec3> positions;
@@ -156,7 +156,7 @@ test::Faces random_faces(std::uint64_t seed, int count) {
   return faces;
 }
 
-// Every face on every pixel, one after the other, without tiles.
+// A simple method: every face on every pixel, one after the other, without tiles.
 std::vector<VisiblePixel> obvious(const test::Faces& faces, const BatchImage& image,
                                   Masking masking) {
   std::vector<VisiblePixel> visible(image.pixels());
@@ -198,7 +198,7 @@ TEST(StochasticVisibility, IsTheNearestAcceptedFragmentInAnyTile) {
     }
     EXPECT_GT(covered, 5000);
     // The stage may be compiled with fused multiply-adds and this test without: a centre on an
-    // edge or an alpha within rounding of its draw.
+    // edge, or an alpha within rounding of its draw, may differ.
     EXPECT_LE(different, 2);
   }
 }
@@ -209,7 +209,7 @@ TEST(StochasticVisibility, DoesNotDependOnTheOrderOfTiles) {
   image.draw_key = kernels::draw_key(4, 1, 1);
   faces.find(image, Masking::stochastic);
   const auto first = image.visible;
-  std::ranges::fill(image.visible, VisiblePixel{7, 1e9f, 7, 7});  // what is there is overwritten
+  std::ranges::fill(image.visible, VisiblePixel{7, 1e9f, 7, 7});  // old content is overwritten
   for (std::size_t tile = image.bin_begin.size() - 1; tile-- > 0;)
     find_visible(image, tile, faces.store.alpha.data(), 2, Masking::stochastic);
   for (std::size_t pixel = 0; pixel < first.size(); ++pixel) {
@@ -220,7 +220,7 @@ TEST(StochasticVisibility, DoesNotDependOnTheOrderOfTiles) {
 }
 
 TEST(Visibility, OfEqualDepthsTheLowerFaceShows) {
-  // docs/numerics.md, G9: coincident faces, in tiles of their own order.
+  // docs/numerics.md, G9: coincident faces, with tiles in any order.
   std::vector<glm::vec3> positions = stack(1);
   for (int copy = 0; copy < 2; ++copy)
     for (int k = 0; k < 3; ++k) positions.push_back(positions[std::size_t(k)]);

@@ -12,11 +12,12 @@ namespace tureen::test {
 
 Display::Display() {
   int ends[2];
-  if (::pipe(ends) != 0) throw std::runtime_error("no pipe can be made");
+  if (::pipe(ends) != 0) throw std::runtime_error("cannot create a pipe");
   pid_ = ::fork();
-  if (pid_ < 0) throw std::runtime_error("no process can be made");
+  if (pid_ < 0) throw std::runtime_error("cannot create a process");
   if (pid_ == 0) {
-    // The server says on this descriptor which number it took: no two tests fight for one.
+    // The server chooses a free display number and writes it here, so parallel tests do not
+    // collide.
     const std::string descriptor = std::to_string(ends[1]);
     const int nowhere = ::open("/dev/null", O_WRONLY);
     ::dup2(nowhere, STDERR_FILENO);
@@ -28,7 +29,7 @@ Display::Display() {
   std::string number;
   for (char letter = 0; ::read(ends[0], &letter, 1) == 1 && letter != '\n';) number += letter;
   ::close(ends[0]);
-  if (number.empty()) throw std::runtime_error("Xvfb did not start: is xvfb installed?");
+  if (number.empty()) throw std::runtime_error("Xvfb did not start; install xvfb");
   ::setenv("DISPLAY", (":" + number).c_str(), 1);
 }
 

@@ -1,4 +1,4 @@
-// An X server that draws into memory (Xvfb), for tests that open windows.
+// An X server that draws into memory (Xvfb), for tests with windows.
 #pragma once
 
 #include <sys/types.h>
@@ -9,7 +9,7 @@ namespace tureen::test {
 
 class Display {
  public:
-  /// Starts a server and names it in DISPLAY. Throws std::runtime_error where there is none.
+  /// Starts a server and sets DISPLAY to it. Throws std::runtime_error if it cannot be started.
   Display();
   ~Display();
   Display(const Display&) = delete;

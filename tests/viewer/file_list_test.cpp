@@ -1,4 +1,4 @@
-// The list that files are picked from.
+// The list in the file dialog.
 #include "viewer/files/file_list.hpp"
 
 #include <gmock/gmock.h>

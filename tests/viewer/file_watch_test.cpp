@@ -1,4 +1,4 @@
-// Files that change are noticed once, and only when whoever writes them has come to rest.
+// A changed file is reported once, after its writer has finished.
 #include "viewer/files/file_watch.hpp"
 
 #include <gtest/gtest.h>
@@ -27,11 +27,11 @@ TEST(FileWatch, AChangeIsToldOnceWhenItIsOver) {
   FileWatch watch(file);
   EXPECT_FALSE(watch.changed());
   append(file);
-  EXPECT_FALSE(watch.changed()) << "it may still be written";
+  EXPECT_FALSE(watch.changed()) << "the writer may not have finished";
   append(file);
-  EXPECT_FALSE(watch.changed()) << "it was";
+  EXPECT_FALSE(watch.changed()) << "it changed again";
   EXPECT_TRUE(watch.changed());
-  EXPECT_FALSE(watch.changed()) << "once";
+  EXPECT_FALSE(watch.changed()) << "reported twice";
 }
 
 TEST(FileWatch, AFileThatIsReplacedOrGoneAndBackIsAChange) {
@@ -39,7 +39,7 @@ TEST(FileWatch, AFileThatIsReplacedOrGoneAndBackIsAChange) {
   FileWatch watch(file);
   fs::remove(file);
   EXPECT_FALSE(watch.changed());
-  EXPECT_FALSE(watch.changed()) << "nothing to read";
+  EXPECT_FALSE(watch.changed()) << "the file is missing";
   std::ofstream(file) << "another";
   EXPECT_FALSE(watch.changed());
   EXPECT_TRUE(watch.changed());

@@ -1,6 +1,6 @@
-// A window whose device is reset ends with that error, and what people would miss is kept; one
-// whose device has too little memory says so and goes on. The display is that of window_test.cpp's
-// environment, what the device lacks a function in the driver's place.
+// If the device is reset, the window ends with that error, and keeps the recording and the
+// settings. If the device has too little memory, the window reports this and continues. The display
+// is that of window_test.cpp's environment. Replaced driver functions simulate the faults.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ class LostDevice : public testing::Test {
   }
   void TearDown() override { glad_glGetGraphicsResetStatus = its_own; }
 
-  /// Flies through a window of 480 x 320; the device is lost before the tenth frame.
+  /// Flies in a window of 480 x 320; the device is lost before the tenth frame.
   ApplicationOptions options() {
     Session session;
     session.window = {480, 320};
@@ -67,13 +67,13 @@ TEST_F(LostDevice, EndsWithItsErrorAndKeepsTheRecordingAndTheSettings) {
   EXPECT_EQ(frames, 10);
   const Session recorded = read_session(folder / "session.json");
   EXPECT_EQ(recorded.window, glm::ivec2(480, 320));
-  EXPECT_GE(recorded.events.size(), 3u) << "what happened until then";
+  EXPECT_GE(recorded.events.size(), 3u) << "the events before the reset";
   EXPECT_LT(recorded.events.size(), 100u);
   EXPECT_EQ(read_settings(folder / "viewer.json").window, glm::ivec2(480, 320));
 }
 
 TEST_F(LostDevice, IsToldAlsoWhereNothingCanBeKept) {
-  fs::create_directory(folder / "session.json");  // in the recording's place
+  fs::create_directory(folder / "session.json");  // the recording cannot be written
   Application application(options());
   EXPECT_THAT([&] { application.run(); }, Throws<ContextError>());
   EXPECT_EQ(read_settings(folder / "viewer.json").window, glm::ivec2(480, 320));
@@ -81,8 +81,8 @@ TEST_F(LostDevice, IsToldAlsoWhereNothingCanBeKept) {
 
 // -- Too little memory for an image --------------------------------------------------------------
 
-/// The longest side of a target that the device has memory for: enough for 400 x 300 with four
-/// samples a pixel and for 600 x 450 with one, not with four.
+/// The longest side of a target that fits in the device's memory: enough for 400 x 300 with four
+/// samples per pixel, and for 600 x 450 with one but not with four.
 constexpr int max_pixels_a_side = 900;
 
 PFNGLCHECKFRAMEBUFFERSTATUSPROC own_status = nullptr;  // the driver's
@@ -130,13 +130,13 @@ class SmallDevice : public testing::Test {
     add(KeyChanged{key, true});
     add(KeyChanged{key, false});
   }
-  /// An image of the window, once all is at rest.
+  /// A screenshot, once loading and motion are finished.
   void look(const std::string& name) {
     wait();
     add(WindowScreenshot{name + ".png"});
   }
 
-  /// Runs the session on a device that has less; returns the errors that are shown at its end.
+  /// Runs the session on a device with this limit; returns the errors shown at its end.
   std::vector<std::string> run(ApplicationOptions options) {
     options.replay = session;
     Application application(options);
@@ -145,7 +145,7 @@ class SmallDevice : public testing::Test {
     return application.errors();
   }
 
-  /// Of the window's lower half: messages lie in the upper one.
+  /// Compares only the window's lower half: messages are in the upper half.
   void expect_same_image(const std::string& name, const std::string& expected_name) const {
     const auto lower_half = [&](const std::string& each) {
       Input input = Input::open(folder / (each + ".png"));
@@ -160,7 +160,7 @@ class SmallDevice : public testing::Test {
       scene += expected[i] != expected.front();
     }
     EXPECT_EQ(off, 0u) << "pixels of " << actual.size();
-    // The example fills more than a third of it from where it is seen here.
+    // In this view, the example fills more than a third of the half.
     EXPECT_GT(scene, actual.size() / 4) << "pixels that are not empty";
   }
 
@@ -197,7 +197,7 @@ TEST_F(SmallDevice, ShowsTheImageAgainInAWindowThatIsSmallAgain) {
 }
 
 TEST_F(SmallDevice, PutsAPhotographThatIsTooLargeAsideAndShowsTheImage) {
-  // A photograph larger than the device draws; it would be shown as it is, plainly green.
+  // A photograph larger than the device's limit; it would be displayed unchanged, plain green.
   constexpr int width = 1000, height = 500;
   fs::create_directory(folder / "photographs");
   write_file(folder / "photographs/green.png",

@@ -1,4 +1,4 @@
-// Which drag and which key moves what. The movements themselves are runtime/camera_controls's.
+// The actions of drags and keys. runtime/camera_controls tests the movements.
 #include "viewer/input/navigation_input.hpp"
 
 #include <gtest/gtest.h>
@@ -73,9 +73,9 @@ TEST_F(NavigationTest, KeysFlyFasterAndSlower) {
   send(KeyChanged{Key::alt, true});
   EXPECT_EQ(input.flight().factor, slow_factor);
   send(KeyChanged{Key::d, true});
-  EXPECT_NEAR(glm::length(input.flight().direction), 1, 1e-15) << "not faster across";
+  EXPECT_NEAR(glm::length(input.flight().direction), 1, 1e-15) << "diagonal flight is not faster";
   send(FocusChanged{false});
-  EXPECT_FALSE(input.flying()) << "keys let go of elsewhere";
+  EXPECT_FALSE(input.flying()) << "keys may be released outside the window";
 }
 
 TEST_F(NavigationTest, LettersTypedIntoAFieldOrWithCtrlFlyNowhere) {

@@ -1,4 +1,4 @@
-// A photograph lies over the part of the image that its camera saw.
+// A photograph covers the part of the image that its camera saw.
 #include <gtest/gtest.h>
 
 #include "viewer/comparison.hpp"
@@ -26,10 +26,10 @@ TEST(PhotographPlace, OfItsOwnCameraItFillsTheImage) {
 TEST(PhotographPlace, InAWiderImageItKeepsItsRays) {
   const Camera camera = off_centre(), view = resized(camera, 1000, 600);
   const PlacedPhotograph placed = place(camera, view, 0.5);
-  // The ray through any pixel is the same in both: here those of the corners.
+  // The ray through any pixel is the same in both; these are the corners.
   EXPECT_NEAR((placed.low.x / 0.5 - view.cx) / view.fx, (0 - camera.cx) / camera.fx, 1e-12);
   EXPECT_NEAR((placed.high.y / 0.5 - view.cy) / view.fy, (300 - camera.cy) / camera.fy, 1e-12);
-  EXPECT_NEAR(placed.high.y - placed.low.y, 300, 1e-9) << "as high as the image, in points";
+  EXPECT_NEAR(placed.high.y - placed.low.y, 300, 1e-9) << "the image's height, in points";
 }
 
 }  // namespace photograph_place_test

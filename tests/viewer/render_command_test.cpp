@@ -1,5 +1,5 @@
-// The command line that draws the window's image: what a shell and tureen render make of it is
-// the same camera.
+// The command line that draws the window's image: parsed by a shell and by `tureen render`, it
+// results in the same camera.
 #include "viewer/render_command.hpp"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ namespace render_command_test {
 using testing::HasSubstr;
 using testing::Not;
 
-/// The words that a POSIX shell makes of a line.
+/// The words of a line, split by a POSIX shell.
 std::vector<std::string> words_of(const std::string& line) {
   std::FILE* shell =
       popen(("for word in " + line + "; do printf '%s\\n' \"$word\"; done").c_str(), "r");
@@ -61,7 +61,7 @@ TEST(RenderCommand, NamesTheSameCamera) {
   ASSERT_EQ(std::sscanf(at[1].c_str(), "%lf", &fov), 1);
   const Camera read = look_at(vector_after(words, "--eye"), vector_after(words, "--target"),
                               vector_after(words, "--up"), fov / 57.295779513082320877, 801, 633);
-  // Rounding alone: far below the 1/256 pixel that vertices snap to.
+  // Only rounding: far below the 1/256 pixel that vertices snap to.
   for (int column = 0; column < 4; ++column)
     for (int row = 0; row < 4; ++row)
       EXPECT_NEAR(read.view_from_world[column][row], camera.view_from_world[column][row], 1e-11);
@@ -78,7 +78,7 @@ TEST(RenderCommand, WhatOptionsCannotSayComesFromAFile) {
   EXPECT_THAT(command, Not(HasSubstr("--eye")));
 }
 
-TEST(RenderCommand, SaysWhatIsLookedAt) {
+TEST(RenderCommand, NamesTheDebugView) {
   const Camera camera = look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.8, 400, 300);
   const auto command = [&](const DebugViewChoice& debug_view) {
     return render_command(source("a.glb"), {}, debug_view, camera, "");

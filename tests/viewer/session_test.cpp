@@ -1,4 +1,4 @@
-// Session files: what is recorded comes back, and what people write wrong is told by its place.
+// Session files: a recording can be read back; errors in a file are reported with their position.
 #include "viewer/files/session.hpp"
 
 #include <gmock/gmock.h>
@@ -50,7 +50,7 @@ TEST(Session, ComesBackAsItWasRecorded) {
   const Session session = read(text);
   EXPECT_EQ(session.window, glm::ivec2(800, 600));
   ASSERT_EQ(session.events.size(), first.size() + second.size());
-  EXPECT_EQ(session.events.back().seconds, 1.0 / 3) << "bit by bit";
+  EXPECT_EQ(session.events.back().seconds, 1.0 / 3) << "exactly equal";
   EXPECT_EQ(session_to_json(session), text);
   EXPECT_EQ(std::get<FilesDropped>(session.events[5].event).paths.at(1), "\"quoted\".off");
 }
@@ -87,14 +87,14 @@ TEST(Replay, DealsByItsOwnClock) {
     replay.next(true);
     ++frames;
   }
-  EXPECT_EQ(frames, 3) << "0.05 s are three frames of a sixtieth";
+  EXPECT_EQ(frames, 3) << "0.05 s are three frames of 1/60 s";
 }
 
-TEST(Replay, WaitsForRestAndEndsAFrameWithAImage) {
+TEST(Replay, WaitsForRestAndEndsAFrameWithAnImage) {
   Replay replay(read(with_event(
       R"({"at": 0, "await": true}, {"at": 0, "image": "a.png"}, {"at": 0, "wheel": [0, 1]})")));
   for (int i = 0; i < 10; ++i) EXPECT_TRUE(replay.next(false).events.empty());
-  EXPECT_EQ(replay.now(), 0) << "the clock stands while it waits";
+  EXPECT_EQ(replay.now(), 0) << "the clock stops while it waits";
   const Replay::Step image = replay.next(true);
   ASSERT_EQ(image.events.size(), 2u);
   EXPECT_TRUE(std::holds_alternative<AwaitRest>(image.events[0]));

@@ -1,4 +1,4 @@
-// Settings between runs.
+// Settings stored between runs.
 #include "viewer/files/settings.hpp"
 
 #include <gmock/gmock.h>
@@ -39,7 +39,8 @@ TEST(Settings, ComeBackAsTheyWereLeft) {
   EXPECT_EQ(read.vsync, false);
   EXPECT_EQ(read.smooth_motion, false);
   EXPECT_EQ(read.images, "/some where");
-  EXPECT_THAT(read.recent, testing::ElementsAre("/b.glb", "/a folder")) << "newest first, once";
+  EXPECT_THAT(read.recent, testing::ElementsAre("/b.glb", "/a folder"))
+      << "newest first, no duplicates";
 }
 
 TEST(Settings, OnlyTheNewestScenesAreRemembered) {
@@ -61,7 +62,7 @@ TEST(Settings, AWindowIsOneThatCanBeSeenAndThatScreensHold) {
   };
   EXPECT_EQ(window("[640.5, 480]"), glm::ivec2(640, 480));
   EXPECT_EQ(window("[-1, 0]"), glm::ivec2(320, 240));
-  // Of 64 bits the lower 32 would be 640.
+  // The lower 32 of its 64 bits are 640.
   EXPECT_EQ(window("[4294967936, 1e30]"), glm::ivec2(16384, 16384));
 }
 

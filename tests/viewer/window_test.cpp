@@ -1,5 +1,5 @@
-// The window itself, as a person uses it: sessions replayed under an X server that draws into
-// memory, what the window shows held against goldens, and its images against `tureen render`.
+// The window, as a person uses it: sessions replayed under an X server that draws into memory. The
+// window is compared with goldens, and its images with `tureen render`.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ namespace window_test {
 namespace fs = std::filesystem;
 using namespace tureen::viewer;
 
-/// One server for all tests of this process.
+/// One server for all tests in this process.
 class DisplayEnvironment : public testing::Environment {
  public:
   void SetUp() override { display_ = std::make_unique<Display>(); }
@@ -39,7 +39,7 @@ class DisplayEnvironment : public testing::Environment {
 [[maybe_unused]] const auto* const environment =
     testing::AddGlobalTestEnvironment(new DisplayEnvironment);  // GoogleTest owns it
 
-/// What a person does, a step after the other. Times are of the session's own clock.
+/// A sequence of user actions. Times are on the session's clock.
 class Person {
  public:
   explicit Person(glm::ivec2 window = {720, 450}) { session_.window = window; }
@@ -69,9 +69,9 @@ class Person {
   Person& replace(const std::string& file, const std::string& with) {
     return add(FileReplaced{.from = with, .to = file});
   }
-  /// An image of the window as it is.
+  /// Adds a screenshot of the current window.
   Person& take(const std::string& name) { return add(WindowScreenshot{name + ".png"}); }
-  /// Waits until all is at rest, then an image of the window.
+  /// Waits until loading and motion are finished, then adds a screenshot.
   Person& look(const std::string& name) { return wait().add(WindowScreenshot{name + ".png"}); }
 
   const Session& session() const { return session_; }
@@ -165,7 +165,7 @@ TEST_F(Window, WithoutASceneAsksForOne) {
   expect_golden(image("keys"), "window_keys");
 }
 
-// Without panels the window is the image: the very pixels of the program without a window.
+// Without panels, the window shows exactly the pixels of `tureen render`.
 TEST_F(Window, ShowsTheImageOfTureenRender) {
   const ChildResult result = replay(Person({640, 400})
                                         .wait()
@@ -192,7 +192,7 @@ TEST_F(Window, SavesImagesUnderNewNames) {
   expect_equal(image("soup-2"), expected);
 }
 
-/// Rows of the column of panels in a window 720 points wide, as the goldens show them.
+/// Positions in the column of panels in a window 720 points wide, from the goldens.
 constexpr glm::dvec2 images_header{560, 443}, as_large_as_the_window{419, 467};
 
 TEST_F(Window, SavesImagesLargerThanItself) {
@@ -220,7 +220,7 @@ TEST_F(Window, PlaysACameraPath) {
   expect_golden(image("end"), "window_path_end");
 }
 
-TEST_F(Window, LooksBehindTheColours) {
+TEST_F(Window, ShowsDebugViews) {
   Person person;
   person.wait().press(Key::digit_7);
   const std::vector<std::string> looks = {"depth",  "normals",  "triangle_id", "texels",   "alpha",
@@ -228,13 +228,13 @@ TEST_F(Window, LooksBehindTheColours) {
   for (const std::string& look : looks) person.press(Key::v).look(look);
   const ChildResult result = replay(person);
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  // What each shows is held elsewhere (tests/runtime): here, that the window shows it.
+  // tests/runtime tests the debug views; this tests that the window displays them.
   for (std::size_t i = 1; i < looks.size(); ++i)
     EXPECT_NE(image(looks[i]).pixels, image(looks[i - 1]).pixels) << looks[i];
   expect_golden(image("depth"), "window_depth");
 }
 
-TEST_F(Window, BackFromALookTheColoursAreOfNow) {
+TEST_F(Window, BackFromADebugViewTheColoursAreCurrent) {
   const auto drag = [](Person& person) -> Person& {
     return person.drag(Button::left, {150, 200}, {230, 180}).wait();
   };
@@ -242,7 +242,7 @@ TEST_F(Window, BackFromALookTheColoursAreOfNow) {
   drag(plain.wait().press(Key::digit_7).wait()).look("plain");
   looked.wait().press(Key::digit_7).wait().press(Key::v).wait();
   drag(looked);
-  for (int i = 0; i < 9; ++i) looked.press(Key::v);  // round to the colours
+  for (int i = 0; i < 9; ++i) looked.press(Key::v);  // once around, back to the colours
   looked.look("back");
   EXPECT_EQ(replay(plain).exit_code, 0);
   const ChildResult result = replay(looked);
@@ -254,13 +254,13 @@ TEST_F(Window, AnotherSceneIsShownAsFarAsItCanBe) {
   std::ofstream(folder_ / "plain.off") << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 9 9 9\n";
   Person person;
   person.wait();
-  for (int i = 0; i < 4; ++i) person.press(Key::v).wait();  // texels, which that one has not
+  for (int i = 0; i < 4; ++i) person.press(Key::v).wait();  // texels, which plain.off does not have
   const ChildResult result = replay(person.drop("plain.off").wait().press(Key::v).look("other"));
   EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 
-// What is saved is what is looked at, by another drawer than the window's own.
-TEST_F(Window, SavesWhatIsLookedAt) {
+// The saved image is the displayed one, although another renderer than the window's draws it.
+TEST_F(Window, SavesTheDebugView) {
   const ChildResult result = replay(Person({320, 240})
                                         .wait()
                                         .press(Key::h)
@@ -289,8 +289,8 @@ TEST_F(Window, FilesCanBePickedBeforeThereIsAScene) {
   EXPECT_NE(image("empty").pixels, image("files").pixels);
 }
 
-// A dataset of one photograph to train on and one held out, both drawn from the scene itself: the
-// difference must be nothing.
+// A dataset with one training and one test photograph, both drawn from the scene itself: the
+// difference must be zero.
 TEST_F(Window, ComparesWithThePhotographs) {
   const Scene scene = read_scene(folder_ / "soup.glb");
   fs::create_directories(folder_ / "photographs");
@@ -354,7 +354,7 @@ TEST_F(Window, AFileThatChangesOnTheDiskIsReadAgain) {
                                         .press(Key::h)
                                         .look("before")
                                         .replace("scene.off", "next.off")
-                                        .hold(Key::super, 4)  // it is looked at once a second
+                                        .hold(Key::super, 4)  // the file is checked once a second
                                         .look("after"),
                                     {"scene.off"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -366,7 +366,7 @@ TEST_F(Window, AFileThatChangesOnTheDiskIsReadAgain) {
   EXPECT_GT(count(before, red), 1000);
   EXPECT_EQ(count(before, blue), 0);
   EXPECT_EQ(count(after, red), 0);
-  EXPECT_EQ(count(after, blue), count(before, red)) << "from the same view";
+  EXPECT_EQ(count(after, blue), count(before, red)) << "the view must not change";
 }
 
 TEST_F(Window, TheSameSessionShowsTheSame) {

@@ -1,5 +1,5 @@
-// The thread in the background: what is replaced, what waits, what becomes of failures, and an end
-// while it works. The display is that of window_test.cpp's environment.
+// The background thread: replaced jobs, queued jobs, failures, and an end during work. The display
+// is that of window_test.cpp's environment.
 #include "viewer/worker.hpp"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ using testing::HasSubstr;
 using testing::Ne;
 
 struct WorkerTest : testing::Test {
-  /// A job that notes its name when it is handed over.
+  /// A job that records its name on completion.
   Worker::Job job(JobKind kind, const std::string& name) {
     return {.kind = kind,
             .what = name,
@@ -27,7 +27,7 @@ struct WorkerTest : testing::Test {
                 },
             .failed = [this](const std::string& reason) { told.push_back("failed: " + reason); }};
   }
-  /// One that works until it is abandoned or let go.
+  /// A job that runs until it is abandoned or `let_go` is set.
   Worker::Job endless(JobKind kind, const std::string& name) {
     Worker::Job result = job(kind, name);
     result.work = [this, name](const Worker::Progress& progress) {
@@ -68,12 +68,12 @@ TEST_F(WorkerTest, TheNewestOfAKindCounts) {
 
 TEST_F(WorkerTest, WhatIsWrittenWaitsItsTurn) {
   Worker worker(window, 1);
-  worker.start(endless(JobKind::writing, "film"));
+  worker.start(endless(JobKind::writing, "animation"));
   wait_for_start();
-  worker.start(job(JobKind::writing, "picture"));
+  worker.start(job(JobKind::writing, "image"));
   let_go = true;
   finish(worker);
-  EXPECT_THAT(told, ElementsAre("film", "picture"));
+  EXPECT_THAT(told, ElementsAre("animation", "image"));
 }
 
 TEST_F(WorkerTest, AbandonedWorkIsNotHandedOver) {
@@ -96,7 +96,7 @@ TEST_F(WorkerTest, FailuresAreTold) {
   bad.work = [](const Worker::Progress&) -> Worker::Completion { throw std::bad_alloc(); };
   worker.start(bad);
   finish(worker);
-  // What is thrown for a lack of memory has no text of its own.
+  // An exception for a lack of memory must be reported with our own text.
   EXPECT_THAT(told, ElementsAre(HasSubstr("no such file"), Ne("failed: std::bad_alloc")));
 }
 

@@ -1,5 +1,5 @@
-// axe-core finds nothing to object to, wherever a person may get, in light and dark, wide and on a phone;
-// and what it cannot see: that everything is done with the keyboard alone.
+// axe-core finds no violations in any part of the page, in light and dark, on wide screens and phones. Also
+// tests what axe-core cannot: the keyboard alone is enough.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -11,13 +11,13 @@ const axe = readFileSync(join(source, 'web/node_modules/axe-core/axe.min.js'), '
 const { visit } = await stage();
 
 async function assertAccessible(page, where) {
-  await page.evaluate(`${axe}; 0`);  // not as a script of the page, which its policy forbids
+  await page.evaluate(`${axe}; 0`);  // the page's policy forbids an added script element
   const violations = await page.evaluate(async () => (await window.axe.run()).violations.map(({ id, help, nodes }) =>
     `${id}: ${help}: ${nodes.map(({ html, failureSummary }) => `${html} ${failureSummary}`).join('; ')}`));
   assert.deepEqual(violations, [], where);
 }
 
-/** The parts of the page that a person may get to, one after the other. */
+/** Visits each part of the page. */
 async function walk(page) {
   await page.locator('#gallery-list button').waitFor();
   await assertAccessible(page, 'the start');
@@ -72,7 +72,7 @@ test('a scene is opened, looked at and left with the keyboard alone', () => visi
   await page.keyboard.press('Shift+?');
   await page.locator('dialog[open]').waitFor();
   await page.keyboard.press('Escape');
-  assert.equal(await focused(), 'frame', 'the focus is back where it was');
+  assert.equal(await focused(), 'frame', 'the focus is restored');
   await page.keyboard.press('o');
   assert.equal(await focused(), 'start-title');
   await page.keyboard.press('Escape');
@@ -89,6 +89,6 @@ test('less motion, for who asks for it', () => visit('?scene=soup.glb', async (p
     document.querySelector('#named-views button').click();
     look();
   }));
-  assert.ok(frames <= 2, 'the view is there at once');
+  assert.ok(frames <= 2, 'the view changes at once');
   assert.notEqual((await view(page)).hash, before.hash);
 }, { reducedMotion: 'reduce' }));

@@ -1,4 +1,4 @@
-// How the page begins: without WebGL2, from the disk as one file, and how long its first image takes.
+// The start of the page: without WebGL2, as a single file from the disk, and the time of its first image.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -31,7 +31,7 @@ test('a page of one file, from the disk', () => {
     await page.mouse.move(x + 80, y, { steps: 4 });
     await page.mouse.up();
     await still(page);
-    assert.ok(!before.equals(await image(page)), 'it turns');
+    assert.ok(!before.equals(await image(page)), 'it rotates');
     await pick(page, join(source, 'examples/soup.glb'));
     await sceneShown(page, 'soup');
     await page.selectOption('#look', 'depth', { force: true });
@@ -52,11 +52,11 @@ test('what a browser fetches before the first scene is below 400 KB', () => {
   assert.ok(size < 400_000, `${size} bytes`);
 });
 
-// No time is asserted: other tests and builds share the processor. docs/benchmarks.md has what an idle one shows.
+// No time is asserted: other tests and builds share the processor. docs/benchmarks.md has times on an idle one.
 test('the first image of the example', () => visit('?scene=soup.glb', async (page) => {
   await sceneShown(page, 'soup');
   const before = await view(page);
   assert.ok(before.eye);
   const ms = await page.evaluate(() => Math.round(performance.now()));
-  console.log(`shown at most ${ms} ms after the page was asked for`);
+  console.log(`shown at most ${ms} ms after the page was requested`);
 }));

@@ -1,23 +1,23 @@
-// Chromium without a GPU, and where things lie, for whoever drives the page: tests and benchmarks.
+// Chromium without a GPU, and the paths of the build, for tests and benchmarks of the page.
 
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { chromium } from '../../web/node_modules/playwright-core/index.mjs';
 
 export const source = dirname(dirname(dirname(fileURLToPath(import.meta.url))));
-/** What `./dev web` has made. */
+/** The output of `./dev web`. */
 export const built = process.env.TUREEN_WEB ?? join(source, 'build/web/out');
 
 const quiet = ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking',
                '--disable-component-update', '--disable-sync'];
-/** What draws in place of a GPU. llvmpipe is what the native goldens are drawn with. */
+/** Replacements for a GPU. The native goldens are drawn with llvmpipe. */
 const backends = {
   llvmpipe: ['--use-gl=angle', '--use-angle=gl-egl', '--ignore-gpu-blocklist'],
   swiftshader: ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
   none: ['--disable-gpu', '--disable-software-rasterizer', '--disable-3d-apis'],
 };
 
-/** CHROMIUM names another than Debian's. */
+/** CHROMIUM names another browser than Debian's. */
 export const launch = (backend, flags = []) => chromium.launch({
   executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: [...quiet, ...backends[backend], ...flags],
 });

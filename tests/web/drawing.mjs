@@ -1,4 +1,4 @@
-// A viewer of the package's API on an empty page, for tests of what it draws.
+// A viewer of the package's API on an empty page, for tests of its images.
 
 import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
@@ -9,20 +9,20 @@ const emptyPage = `<!doctype html><html lang="en"><title>Drawing</title><link re
 <script type="module">
   import { createViewer } from '/viewer.js';
   const viewer = await createViewer(document.getElementById('canvas'));
-  viewer.gliding = false;  // cameras are there at once
+  viewer.gliding = false;  // cameras move at once
   window.viewer = viewer;
 </script>`;
 
-/** What stage() is to be given so that `drawingPage` works. */
+/** Routes that stage() needs for `drawingPage`. */
 export const drawingRoutes = {
   '/drawing.html': (request, response) => response.writeHead(200, { 'content-type': 'text/html' }).end(emptyPage),
 };
 
-/** Once the page that was visited at drawing.html is ready. */
+/** Helpers for a page at drawing.html, once it is ready. */
 export async function drawingPage(page) {
   await page.waitForFunction(() => window.viewer);
   return {
-    /** A file, or a folder with all that is in it. */
+    /** Loads a file, or a folder with all its files. */
     async load(folder, names = readdirSync(folder)) {
       const files = names.map((path) => ({ path, base64: readFileSync(join(folder, path)).toString('base64') }));
       await page.evaluate(async (given) => {

@@ -1,4 +1,4 @@
-// The page in the frame of somebody else's page, which speaks to it by messages; and the examples.
+// The page in a frame, controlled by messages from the embedding page; and the examples.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
@@ -9,7 +9,7 @@ const embedder = `<!doctype html><html lang="en"><title>Embedder</title><link re
 <script>
   const frame = document.getElementById('frame'), waiting = new Map(), heard = [];
   let last = 0;
-  /** The answer, or the error as it came. */
+  /** The result, or the error as it was sent. */
   function call(name, ...given) {
     return new Promise((resolve) => {
       waiting.set(++last, resolve);
@@ -29,7 +29,7 @@ const { visit, server } = await stage({
   routes: { '/embedder.html': (request, response) => response.writeHead(200, { 'content-type': 'text/html' }).end(embedder) },
 });
 
-/** Another origin of the same server: localhost by its number. */
+/** Another origin of the same server: localhost by its IP address. */
 const elsewhere = server.address.replace('localhost', '127.0.0.1');
 const framed = (query, body, address = '/embedder.html') => () => visit(address, async (page) => {
   await page.evaluate((source) => { frame.src = source; }, `${server.address}index.html?embed${query}`);
@@ -39,7 +39,7 @@ const framed = (query, body, address = '/embedder.html') => () => visit(address,
 
 /** Calls the framed page. */
 const call = (page, ...given) => page.evaluate((what) => window.call(...what), given);
-/** Until the framed page shows a scene, whole. */
+/** Waits until the framed page shows a complete scene. */
 const framedScene = (page) => page.waitForFunction(async () => await window.call('scene') !== null);
 
 test('a scene, views and an image, by calls', framed('', async (page) => {
@@ -73,7 +73,7 @@ test('events that are subscribed to, until they are not', framed('&scene=soup.gl
   const before = await count();
   await call(page, 'orbit', 40, 0);
   await still(page.frames()[1]);
-  await call(page, 'stats');  // an answer comes after the events before it
+  await call(page, 'stats');  // an answer arrives after earlier events
   assert.equal(await count(), before);
 }));
 
@@ -81,7 +81,7 @@ test('only the image is there', framed('&scene=soup.glb', async (page) => {
   const inside = page.frameLocator('#frame');
   await framedScene(page);
   for (const part of ['.actions', '#panel', '#start']) assert.ok(await inside.locator(part).isHidden(), part);
-  // The heading is heard, and takes no more than a pixel.
+  // The heading is for screen readers only, so it takes at most a pixel.
   assert.deepEqual(await inside.locator('header').evaluate(({ offsetWidth, offsetHeight }) => [offsetWidth, offsetHeight]), [1, 1]);
   assert.deepEqual(await inside.locator('#canvas').evaluate(({ clientWidth, clientHeight }) => [clientWidth, clientHeight]), [480, 320]);
 }));
@@ -102,7 +102,7 @@ test('what is wrong is answered by a sentence and its kind', framed('', async (p
     for (const value of values) assert.ok(error.message.includes(value), error.message);
     assert.equal(error.kind, kind, error.message);
   }
-  // What is no call at all is not answered, and harms nothing.
+  // Messages that are not calls are ignored.
   await page.evaluate(() => {
     for (const message of [null, 7, 'call', { tureen: 2, id: 1, call: 'clear' }, { tureen: 1, call: 'clear' }, { tureen: 1, id: {}, call: 'clear' }])
       frame.contentWindow.postMessage(message, '*');

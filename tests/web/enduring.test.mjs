@@ -1,5 +1,5 @@
-// What happens to a page that stays open: scenes come and go, the device is lost, the network ends, the
-// tab is hidden, windows change their size.
+// Events in the life of an open page: scenes come and go, the device is lost, the network fails, the tab is
+// hidden, windows change their size.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -15,7 +15,7 @@ const { visit, server } = await stage({
   routes: { '/UvTexturesMlp.glb': (request, response) => response.writeHead(200).end(readFileSync(other)) },
 });
 
-/** Counts what is there of WebGL and WebAssembly: runs in the page before its scripts. */
+/** Counts living objects of WebGL and WebAssembly: runs in the page before its scripts. */
 function keepCount() {
   window.counted = { objects: 0, memories: new Set() };
   const gl = WebGL2RenderingContext.prototype;
@@ -42,7 +42,7 @@ function keepCount() {
   };
 }
 
-/** After a collection of garbage. */
+/** Measures after a garbage collection. */
 async function measure(page, client) {
   await client.send('HeapProfiler.collectGarbage');
   const { usedSize } = await client.send('Runtime.getHeapUsage');
@@ -77,14 +77,14 @@ test('fifty scenes one after the other leave nothing behind', () => visit('', as
   assert.equal(after.wasm, before.wasm, 'bytes of WebAssembly');
   assert.equal(after.objects, before.objects, 'objects of WebGL');
   assert.equal(after.workers, 0, 'workers');
-  // The history of the tab has an entry a scene, and V8 keeps some profiles: tens of kilobytes. One of
-  // these scenes is two megabytes.
+  // The history of the tab has an entry per scene, and V8 keeps some profiles: tens of kilobytes. One of these
+  // scenes is two megabytes.
   assert.ok(after.heap - before.heap < 1_000_000, `JavaScript's heap: ${before.heap} and ${after.heap} bytes`);
   assert.ok(after.nodes - before.nodes < 100, `elements: ${before.nodes} and ${after.nodes}`);
   assert.equal(after.listeners, before.listeners, 'listeners');
 }));
 
-/** Makes a device that has no memory for larger texel stores than this: runs in the page before its scripts. */
+/** Simulates a device without memory for larger texel stores: runs in the page before its scripts. */
 function shortOfMemory(maxBytes) {
   const gl = WebGL2RenderingContext.prototype, { texImage3D, getError } = gl;
   let missing = false;
@@ -100,9 +100,9 @@ function shortOfMemory(maxBytes) {
   };
 }
 
-// Of the example's 7000 faces, a store of 8-bit texels takes 1.26 MB at level 3, 0.43 MB at level 2 and
-// 0.1 MB at level 0.
-test('without memory for all of a scene a lower lattice level is drawn, and said', () => visit('', async (page, profile) => {
+// With the example's 7000 faces, a store of 8-bit texels takes 1.26 MB at level 3, 0.43 MB at level 2 and 0.1
+// MB at level 0.
+test('without memory for all of a scene a lower lattice level is drawn and reported', () => visit('', async (page, profile) => {
   await profile.addInitScript(shortOfMemory, 500_000);
   await page.goto(new URL('?scene=soup.glb', server.address).href);
   await sceneShown(page, 'soup');
@@ -111,14 +111,14 @@ test('without memory for all of a scene a lower lattice level is drawn, and said
   assert.ok(new Set(pixels).size > 100, 'there is an image');
 }));
 
-test('without memory for any level of it the page says so, and goes on', () => visit('', async (page, profile) => {
+test('without memory for any level the page reports it and continues', () => visit('', async (page, profile) => {
   await profile.addInitScript(shortOfMemory, 50_000);
   await page.goto(new URL('?scene=soup.glb', server.address).href);
   assert.equal(await errorKind(page), 'memory');
   await page.locator('#start').waitFor();
 }));
 
-test('the device is lost and comes back, with scene, view and look', () => visit('?scene=soup.glb', async (page) => {
+test('the device is lost and comes back, with scene, view and debug view', () => visit('?scene=soup.glb', async (page) => {
   await sceneShown(page, 'soup');
   const first = await view(page);
   await page.keyboard.press('2');
@@ -128,7 +128,7 @@ test('the device is lost and comes back, with scene, view and look', () => visit
     loss.loseContext();
   });
   assert.equal(await errorKind(page), 'device');
-  await page.mouse.wheel(0, 100);  // what cannot be drawn is no error
+  await page.mouse.wheel(0, 100);  // a frame that cannot be drawn is not an error
   await page.keyboard.press('ArrowLeft');
   await page.evaluate(() => loss.restoreContext());
   await noticeShown(page);
@@ -138,7 +138,7 @@ test('the device is lost and comes back, with scene, view and look', () => visit
   assert.ok(shown.equals(await image(page)), 'the same image');
 }));
 
-test('the device is lost while a scene is on its way', () => visit('', async (page) => {
+test('the device is lost while a scene loads', () => visit('', async (page) => {
   await page.evaluate(() => {
     window.loss = document.getElementById('canvas').getContext('webgl2').getExtension('WEBGL_lose_context');
   });
@@ -153,7 +153,7 @@ test('the device is lost while a scene is on its way', () => visit('', async (pa
   await sceneShown(page, 'soup');
 }));
 
-test('without a network the page goes on', () => visit('?scene=soup.glb', async (page, profile) => {
+test('without a network the page continues', () => visit('?scene=soup.glb', async (page, profile) => {
   await sceneShown(page, 'soup');
   const before = await view(page);
   await profile.setOffline(true);
@@ -163,7 +163,7 @@ test('without a network the page goes on', () => visit('?scene=soup.glb', async 
   await page.fill('#address', 'other.glb');
   await page.press('#address', 'Enter');
   await errorShown(page);
-  assert.equal(await page.textContent('#scene-title'), 'soup', 'what was there stays');
+  assert.equal(await page.textContent('#scene-title'), 'soup', 'the old scene stays');
   await profile.setOffline(false);
   await page.click('#open-start');
   await page.fill('#address', 'soup.glb');
@@ -181,8 +181,8 @@ test('without a network files are opened', () => visit('?scene=soup.glb', async 
   await profile.setOffline(false);
 }, { expected: [/ERR_INTERNET_DISCONNECTED/] }));
 
-/** Hides and shows the page as a browser does, which a browser under test never does: no animation
- *  frames while it is hidden, and an event each time. Runs in the page before its scripts. */
+/** Simulates hiding and showing the page, which a browser under test does not support: no animation
+ *  frames while it is hidden, and an event for each change. Runs in the page before its scripts. */
 function mayBeHidden() {
   let hidden = false, waiting = [];
   const frame = window.requestAnimationFrame.bind(window);
@@ -196,7 +196,7 @@ function mayBeHidden() {
   };
 }
 
-test('a hidden tab moves nothing, opens scenes, and shows them when it is seen', () => visit('', async (page, profile) => {
+test('a hidden tab moves nothing, opens scenes, and shows them when it is visible', () => visit('', async (page, profile) => {
   await profile.addInitScript(mayBeHidden);
   await page.goto(new URL('?scene=soup.glb', page.url()).href);
   await sceneShown(page, 'soup');
@@ -206,7 +206,7 @@ test('a hidden tab moves nothing, opens scenes, and shows them when it is seen',
   await still(page);
   assert.equal(await page.evaluate(() => location.hash), before.hash, 'nothing moves');
   await page.evaluate(() => hide(false));
-  assert.ok(distance((await viewChanged(page, before)).eye, before.eye) > 0.1, 'it moves when it is seen');
+  assert.ok(distance((await viewChanged(page, before)).eye, before.eye) > 0.1, 'it moves when it is visible');
 
   const shown = await image(page);
   await page.evaluate(() => hide(true));
@@ -217,7 +217,7 @@ test('a hidden tab moves nothing, opens scenes, and shows them when it is seen',
   assert.ok(!shown.equals(await image(page)), 'the other scene is drawn');
 }));
 
-/** The canvas has as many pixels as the screen has under it. */
+/** Waits until the canvas has as many pixels as the screen area that it covers. */
 async function assertSharp(page, ratio) {
   await page.waitForFunction((dots) => {
     const canvas = document.getElementById('canvas');
@@ -227,18 +227,18 @@ async function assertSharp(page, ratio) {
 }
 
 for (const ratio of [1, 1.5, 2]) {
-  test(`${ratio} device pixels a CSS pixel, in windows of any size`, () => visit('?scene=soup.glb', async (page) => {
+  test(`${ratio} device pixels per CSS pixel, in windows of any size`, () => visit('?scene=soup.glb', async (page) => {
     await sceneShown(page, 'soup');
     await assertSharp(page, ratio);
     for (const [width, height] of [[500, 700], [333, 251], [900, 420]]) {
       await page.setViewportSize({ width, height });
       await assertSharp(page, ratio);
     }
-    await page.keyboard.press('h');  // the panel makes room
+    await page.keyboard.press('h');  // hides the panel
     await assertSharp(page, ratio);
     const { x, y } = await middle(page);
     const before = await view(page);
-    await page.mouse.dblclick(x, y);  // what is in the middle stays there, whatever a pixel is
+    await page.mouse.dblclick(x, y);  // the middle stays the middle for any pixel ratio
     const after = await view(page);
     const way = after.target.map((value, axis) => value - before.eye[axis]);
     const ahead = before.target.map((value, axis) => value - before.eye[axis]);
@@ -251,5 +251,5 @@ test('a phone that is turned', () => visit('?scene=soup.glb', async (page) => {
   await sceneShown(page, 'soup');
   await page.setViewportSize({ width: 844, height: 390 });
   await assertSharp(page, 3);
-  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), true, 'nothing sticks out');
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), true, 'the page fits the screen');
 }, { viewport: { width: 390, height: 844 }, deviceScaleFactor: 3, hasTouch: true, isMobile: true }));

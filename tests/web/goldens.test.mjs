@@ -1,6 +1,5 @@
-// The page draws what the program draws. On llvmpipe its images are held against the approved ones,
-// in which ./dev golden says how they come about, with the same budget; on SwiftShader they have to be
-// like them.
+// The page draws the same images as the program. On llvmpipe they are compared with the goldens that `./dev
+// golden` approves, with the same bounds; on SwiftShader they must be similar.
 
 import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
@@ -37,14 +36,14 @@ test('the example on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {
   assertSame('example', golden('example'), await image({ from: 40, width: 320, height: 240 }));
 }));
 
-test('every look on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {
+test('every debug view on llvmpipe', drawing(llvmpipe, async ({ load, image }) => {
   await load(scenes, ['debug_views.glb']);
   for (const look of ['alpha', 'depth', 'features', 'mlp-weight', 'normals', 'overdraw', 'texels', 'triangle-id', 'wireframe'])
     assertSame(`debug_view_${look}`, golden(`debug_view_${look}`),
                await image({ from: 0, width: 160, height: 120, look, features: { first: 4, count: 3 } }));
 }));
 
-// Folders bring no cameras; the program draws from the same place.
+// Exported folders contain no cameras; the program uses the same view.
 const radians = Math.PI / 180;
 const from = { eye: [1.6, -2.1, 1.2], target: [0.1, 0, 0.05], up: [0, 0, 1], fov: 50 * radians, roll: 0 };
 function drawnByProgram(scene) {
@@ -71,9 +70,9 @@ test('a compressed file on llvmpipe', drawing(llvmpipe, async ({ load, image }) 
   assertSame('compressed', drawnByProgram(compressed), await image({ from, width: 320, height: 240 }));
 }));
 
-// SwiftShader rounds the places of vertices and the weights of corners otherwise: pixels at edges show
-// the other side of the edge. On triangles of a few pixels that is 32 to 42 dB; a wrong appearance, a
-// mirrored axis or a shifted lattice is below 25.
+// SwiftShader rounds vertex positions and barycentrics differently, so pixels at edges may show the other side.
+// With triangles of a few pixels that is 32 to 42 dB. A wrong appearance, a mirrored axis or a shifted lattice
+// is below 25.
 for (const name of appearances) {
   test(`${name} on SwiftShader`, drawing(swiftshader, async ({ load, image }) => {
     await load(scenes, [`${name}.glb`]);

@@ -1,4 +1,4 @@
-// Bad files and bad servers: a sentence in the page, and the page goes on.
+// Bad files and bad servers: the page shows an error and continues.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -15,7 +15,7 @@ const damaged = (at, value) => {
   copy.writeUInt32LE(value, at);
   return copy;
 };
-/** Noise of a fixed seed. */
+/** Noise from a fixed seed. */
 const garbage = Buffer.from(Uint32Array.from({ length: 5000 }, (_, i) => Math.imul(i + 1, 2654435761) ^ (i << 7)).buffer);
 
 const { visit, server } = await stage({ routes: {
@@ -33,8 +33,8 @@ const { visit, server } = await stage({ routes: {
   '/refused.glb': (request, response) => response.writeHead(403).end(),
 } });
 
-/** Of each: the kind of its error, and the values that it names: the file, the place and what is
- *  wrong there. Servers' refusals are in the console, too. */
+/** For each: the kind of its error, and values in its text: the file, the position and the fault. A
+ *  server's rejection is also in the console. */
 const cases = [
   ['cut-off.glb', 'input', ['cut-off.glb: byte 8: ', 2227760, 2226760]],
   ['beginning.glb', 'input', ['beginning.glb: byte 8: ', 4, 2]],
@@ -57,7 +57,7 @@ for (const [address, kind, values, complaint] of cases) {
     assert.ok(await page.isVisible('#start'), 'another can be opened');
     await page.click('#gallery-list button');
     await sceneShown(page, 'soup');
-    assert.deepEqual(await errors(page), [], 'the sentence is gone');
+    assert.deepEqual(await errors(page), [], 'the error is removed');
   }, { expected: complaint ? [complaint] : [] }));
 }
 
@@ -69,7 +69,7 @@ test('a bad one leaves the scene that is shown', () => visit('?scene=soup.glb', 
   assert.equal(await page.textContent('#scene-title'), 'soup');
   await page.click('#errors button');
   assert.deepEqual(await errors(page), []);
-  assert.ok(before.equals(await image(page)), 'the image is what it was');
+  assert.ok(before.equals(await image(page)), 'the image is unchanged');
 }));
 
 test('files that are no scene', () => visit('', async (page) => {
@@ -82,14 +82,14 @@ test('files that are no scene', () => visit('', async (page) => {
   for (const [name, buffer] of Object.entries(files)) {
     await pick(page, { name, mimeType: 'application/octet-stream', buffer });
     await page.locator('#errors .message p', { hasText: name }).waitFor();
-    assert.equal((await errors(page)).length, 1, 'one sentence for each');
+    assert.equal((await errors(page)).length, 1, 'one error for each');
   }
   assert.equal(await page.locator('#errors img').count(), 0, 'names are text');
   await pick(page, join(source, 'examples/soup.glb'));
   await sceneShown(page, 'soup');
 }));
 
-test('a scene of which nothing can be drawn is background', () => visit('', async (page) => {
+test('a scene with nothing to draw is background', () => visit('', async (page) => {
   const off = Buffer.from('OFF\n3 1 0\nnan nan nan\n0 1 0\n1 0 0\n3 0 1 2\n');
   await pick(page, { name: 'nan.off', mimeType: 'text/plain', buffer: off });
   await sceneShown(page, 'nan');

@@ -1,11 +1,11 @@
-// How two images are held against each other, and what is left for eyes when they differ.
+// Comparison of two images, and the images that a failure leaves behind.
 
 import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
 import { writePng } from './png.mjs';
 import { evidence, evidenceOf } from './support.mjs';
 
-/** By how much pixels differ: how many at all, how many by more than a step, and the mean square. */
+/** The number of pixels that differ at all, and by more than a step; and the PSNR. */
 function differences(expected, actual) {
   let off = 0, offByMore = 0, squares = 0;
   for (let i = 0; i < actual.pixels.length; i += 4) {
@@ -38,8 +38,8 @@ function compare(name, expected, actual, isGood) {
               `${psnr.toFixed(1)} dB; the images are in ${evidence}/${name}-browser`);
 }
 
-/** The budget of native goldens (tests/support/golden.hpp): 1 pixel in 300 off at all, 1 in 3,000 by
- *  more than a step, which is what llvmpipe shows between models of processors, with room. */
+/** The bounds of the native goldens (tests/support/golden.hpp): 1 pixel in 300 off at all, 1 in 3,000 by
+ *  more than a step. llvmpipe differs by less between models of processors. */
 export function assertSame(name, expected, actual) {
   compare(name, expected, actual, ({ off, offByMore, pixels }) => off * 300 <= pixels && offByMore * 3000 <= pixels);
 }

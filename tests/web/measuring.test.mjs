@@ -1,4 +1,4 @@
-// bench.html, driven by its link; and what it gives away, read by `tureen report`.
+// bench.html, started by a link; and `tureen report` with its result.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -10,8 +10,8 @@ import { often, programs, scratch, stage } from './support.mjs';
 const { visit, server } = await stage();
 const folder = scratch();
 
-/** What the page has measured, once it has. It is asked again and again, because a question that a page
- *  never answers has no end. */
+/** The result of the page. Polled, because a pending question to a page that never answers has no
+ *  timeout. */
 async function measured(page) {
   await page.waitForFunction(() => {
     void window.tureenBench.then((file) => { window.benchFile = file; }, (error) => { window.benchFile = { error: String(error) }; });
@@ -25,7 +25,7 @@ async function measured(page) {
 const small = 'set=hemisphere:2&size=160x90&rounds=2&run=1';
 const both = `bench.html?scenes=soup.glb&published=1&${small}`;
 
-test('a link measures, and the program reads what came of it',
+test('a link measures, and the program reads the result',
      () => visit(both, async (page) => {
   const result = await measured(page);
   const [scene] = result.scenes, [measurement] = scene.measurements;
@@ -44,7 +44,7 @@ test('a link measures, and the program reads what came of it',
   assert.ok(readFileSync(shown, 'utf8').includes(measurement.entrants[0].pixels_hash), 'the same pixels');
 }));
 
-test('of two rounds of two views neither a ratio nor a 99th percentile is told',
+test('two rounds of two views have neither a ratio nor a 99th percentile',
      () => visit(both, async (page) => {
   await measured(page);
   const cells = await page.locator('#times tbody tr').last().locator('td').allInnerTexts();
@@ -62,10 +62,10 @@ test('both pipelines draw the same scene, each time the same pixels',
 test('fourteen models fit on a grid', () => visit(`bench.html?scenes=soup.glb&grid=1&copies=14&${small}`, async (page) => {
   const { scenes } = await measured(page);
   const grid = scenes.find(({ configurations }) => configurations.some(({ name }) => name === 'grid'));
-  assert.ok(grid, 'the grid is among what was measured');
-  assert.ok(grid.wasm_bytes < 64e6, `of WebAssembly: ${grid.wasm_bytes}`);
+  assert.ok(grid, 'the grid is measured');
+  assert.ok(grid.wasm_bytes < 64e6, `bytes of WebAssembly: ${grid.wasm_bytes}`);
 }));
 
-test('a scene that is not there is told of', () => visit(`bench.html?scenes=nowhere.glb&${small}`, async (page) => {
+test('a missing scene is reported', () => visit(`bench.html?scenes=nowhere.glb&${small}`, async (page) => {
   await page.locator('[role=alert]', { hasText: 'nowhere.glb' }).waitFor();
 }, { expected: [/404/] }));

@@ -1,5 +1,5 @@
-// A small scene as MobileNeRF writes it: two shapes of a few quads with two feature images each, and the
-// network that makes colours of them. Made of a fixed seed.
+// A small scene in MobileNeRF's format: two shapes with a few quads and two feature images each, and the
+// network that computes colours from them. Generated from a fixed seed.
 
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -26,7 +26,7 @@ function network(random, shapes) {
   return json;
 }
 
-/** Quads of the whole image in the unit ball. */
+/** Quads in the unit ball, each with the whole image. */
 function shape(random, quads) {
   const lines = [];
   const place = () => Array.from({ length: 3 }, () => 1.2 * random() - 0.6);
@@ -40,7 +40,7 @@ function shape(random, quads) {
   return lines.join('\n') + '\n';
 }
 
-/** Noise; the first channel of the first image says where there is something. */
+/** Noise; the first channel of the first image is the mask. */
 function features(random, side, first) {
   const pixels = Uint8Array.from({ length: 4 * side * side }, (_, i) =>
     first && i % 4 === 0 && random() < 0.4 ? 0 : 1 + Math.floor(255 * random()));

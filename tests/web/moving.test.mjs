@@ -1,4 +1,4 @@
-// Looking around with a mouse, keys and fingers, as far as the camera in the page's address tells.
+// Navigation with a mouse, keys and fingers, checked by the camera in the page's address.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
@@ -6,7 +6,7 @@ import { distance, length, middle, minus, often, image, sceneShown, stage, view,
 
 const { visit } = await stage();
 
-/** A visit to the example at rest; `act` gets the page, the view and the canvas's middle. */
+/** Visits the example at rest; `act` gets the page, the view and the canvas's middle. */
 const looking = (act, context) => () => visit('?scene=soup.glb', async (page) => {
   await sceneShown(page, 'soup');
   await act(page, await view(page), await middle(page));
@@ -57,11 +57,11 @@ test('the wheel goes nearer and farther, towards the pointer', looking(async (pa
   near(nearer.target, before.target, 'from the middle the target stays');
   await page.mouse.wheel(0, 300);
   const back = await viewChanged(page, nearer);
-  near(back.eye, before.eye, 'back where it was');
+  near(back.eye, before.eye, 'the eye returns');
   await page.mouse.move(box.x + 10, y);
   await page.mouse.wheel(0, -300);
   const aside = await viewChanged(page, back);
-  assert.ok(distance(aside.target, before.target) > 0.1, 'beside the middle the target moves');
+  assert.ok(distance(aside.target, before.target) > 0.1, 'away from the middle the target moves');
 }));
 
 test('a double click brings a point to the centre', looking(async (page, before, { x, y }) => {
@@ -95,8 +95,8 @@ test('keys that fly, for as long as they are held', looking(async (page, before)
   const ahead = minus(before.target, before.eye), way = minus(after.eye, before.eye);
   const along = way.reduce((sum, value, axis) => sum + value * ahead[axis], 0) / (length(way) * length(ahead));
   assert.ok(along > 0.999, `straight ahead: ${along}`);
-  assert.ok(await page.isChecked('input[name=mode][value=fly]'), 'the panel says that it flies');
-  near((await view(page)).eye, after.eye, 'and stands still after');
+  assert.ok(await page.isChecked('input[name=mode][value=fly]'), 'the panel shows the mode');
+  near((await view(page)).eye, after.eye, 'it stops afterwards');
 }));
 
 test('digits, F, R and M', looking(async (page, before) => {
@@ -111,11 +111,11 @@ test('digits, F, R and M', looking(async (page, before) => {
   await page.keyboard.press('m');
   assert.ok(await page.isChecked('input[name=mode][value=fly]'));
   await page.keyboard.press('f');
-  assert.ok(await page.isChecked('input[name=mode][value=orbit]'), 'F shows all, to be turned');
+  assert.ok(await page.isChecked('input[name=mode][value=orbit]'), 'F shows all, in orbit mode');
 }));
 
 test('views, cameras and saved views of the panel', looking(async (page, before) => {
-  await page.click('#camera-next');  // the first one, from which the scene is seen already
+  await page.click('#camera-next');  // the first camera is the current view
   await page.click('#camera-next');
   const camera = await viewChanged(page, before);
   await page.fill('#view-name', 'mine');
@@ -127,10 +127,10 @@ test('views, cameras and saved views of the panel', looking(async (page, before)
   await page.reload();
   await sceneShown(page, 'soup');
   near((await view(page)).eye, camera.eye, 'a reload keeps the view');
-  assert.deepEqual(await page.locator('#saved .go').allTextContents(), ['mine'], 'and what was saved');
+  assert.deepEqual(await page.locator('#saved .go').allTextContents(), ['mine'], 'saved views are kept');
 }));
 
-test('looks, with what their colours mean', looking(async (page) => {
+test('debug views, with legends', looking(async (page) => {
   const colors = await image(page);
   await page.keyboard.press('v');
   await page.waitForFunction(() => location.hash.includes('look='));
@@ -142,7 +142,7 @@ test('looks, with what their colours mean', looking(async (page) => {
   }
   await page.selectOption('#look', 'color');
   await page.waitForFunction(() => !location.hash.includes('look='));
-  assert.ok(colors.equals(await image(page)), 'and the colours again');
+  assert.ok(colors.equals(await image(page)), 'the colours return');
 }));
 
 // -- fingers ----------------------------------------------------------------------------------------
@@ -166,7 +166,7 @@ test('one finger turns', looking(async (page, before, { x, y }) => {
   assertTurned(before, await viewChanged(page, before));
 }, phone));
 
-test('two fingers pinch, which doubles the size of what is between them', looking(async (page, before, { x, y }) => {
+test('two fingers pinch, which doubles the scale', looking(async (page, before, { x, y }) => {
   await swipe(page, [[{ x: x - 40, y }, { x: x - 80, y }], [{ x: x + 40, y }, { x: x + 80, y }]]);
   const after = await viewChanged(page, before);
   assert.ok(Math.abs(reach(after) / reach(before) - 0.5) < 0.01, `half the distance: ${reach(after) / reach(before)}`);
@@ -176,7 +176,7 @@ test('two fingers pinch, which doubles the size of what is between them', lookin
 test('two fingers move the scene along', looking(async (page, before, { x, y }) => {
   await swipe(page, [[{ x: x - 40, y }, { x: x - 40, y: y + 60 }], [{ x: x + 40, y }, { x: x + 40, y: y + 60 }]]);
   const after = await viewChanged(page, before);
-  // Fingers are told of one after the other, so their distance trembles on the way.
+  // Touch events are sent for one finger after the other, so their distance varies on the way.
   assert.ok(Math.abs(reach(after) / reach(before) - 1) < 0.02, 'the distance stays');
   assert.ok(distance(before.target, after.target) > 0.1, 'the target moves');
 }, phone));

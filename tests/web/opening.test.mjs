@@ -1,5 +1,5 @@
-// Every way to a scene: links, files, folders, the gallery, addresses; what is seen on the way; and how
-// a person stops it.
+// All ways to open a scene: links, files, folders, the gallery, addresses; and what the page shows while
+// loading, and cancellation.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -14,9 +14,9 @@ const folder = scratch();
 const diffsoup = join(folder, 'bowl');
 execFileSync(join(programs, 'tureen'), ['convert', example, diffsoup], { stdio: 'ignore' });
 
-/** Connections that a test holds back, by path; `rest` lets the rest of the bytes go. */
+/** Connections that a test holds back, by path; `rest` sends the remaining bytes. */
 const held = new Map();
-/** Sends the beginning of the example and no more until it is told to. */
+/** Sends the beginning of the example, and the remainder only after rest(). */
 function stalling(part) {
   return (request, response) => {
     const at = Math.round(part * bytes.length);
@@ -28,7 +28,7 @@ function stalling(part) {
   };
 }
 
-/** A 256-ms drizzle without end, whose length nobody says. */
+/** An endless response without a length: 4096 bytes every 256 ms. */
 function drizzle(request, response) {
   response.writeHead(200, { 'content-type': 'model/gltf-binary' });
   let at = 0;
@@ -52,7 +52,7 @@ const waitFor = async (what, meaning) => {
   }
 };
 
-test('a link carries scene, camera and look',
+test('a link carries scene, camera and debug view',
      () => visit('?scene=soup.glb#eye=3,-4,2&target=0,0,0.5&up=0,0,1&fov=30&look=normals', async (page) => {
   await sceneShown(page, 'soup');
   const { eye, target, fov, hash } = await view(page);
@@ -60,7 +60,7 @@ test('a link carries scene, camera and look',
   assert.ok(hash.includes('look=normals'));
 }));
 
-test('a link\'s camera that cannot be read is told of, and the scene is shown',
+test('a link\'s invalid camera is reported, and the scene is shown',
      () => visit('?scene=soup.glb#eye=1,2&target=0,0,0', async (page) => {
   await sceneShown(page, 'soup');
   await page.locator('#notices', { hasText: /\beye\b.*\btarget\b/ }).waitFor();
@@ -97,24 +97,24 @@ test('a folder that is picked', () => visit('', async (page) => {
   assert.match(await page.textContent('#facts'), /7,000 triangles/);
 }));
 
-/** A drop as the system does it. */
+/** A drop with the system's events. */
 async function drop(page, path) {
-  await page.locator('#actions:not([inert])').waitFor();  // before that nothing is taken
+  await page.locator('#actions:not([inert])').waitFor();  // earlier drops are ignored
   const { x, y } = await middle(page);
   const client = await page.context().newCDPSession(page);
   const data = { items: [], files: [path], dragOperationsMask: 1 };
   for (const type of ['dragEnter', 'dragOver']) await client.send('Input.dispatchDragEvent', { type, x, y, data });
-  assert.ok(await page.isVisible('#drop-here'), 'the page says that it takes it');
+  assert.ok(await page.isVisible('#drop-here'), 'the page accepts the drop');
   await client.send('Input.dispatchDragEvent', { type: 'drop', x, y, data });
   assert.ok(await page.isHidden('#drop-here'));
 }
 
-test('a link without a direction that is up takes the scene\'s', () => visit('?scene=soup.glb#eye=4,-6,3&target=0,0,0', async (page) => {
+test('a link without an up direction takes the scene\'s', () => visit('?scene=soup.glb#eye=4,-6,3&target=0,0,0', async (page) => {
   await sceneShown(page, 'soup');
   assert.deepEqual((await view(page)).up, [0, 0, 1]);
 }));
 
-test('a link to a view of a file is for who opens that', () => visit('#eye=4,-6,3&target=0,0,0.5&up=0,0,1', async (page) => {
+test('a link to a view of a file applies to the opened file', () => visit('#eye=4,-6,3&target=0,0,0.5&up=0,0,1', async (page) => {
   await pick(page, example);
   await sceneShown(page, 'soup');
   assert.ok(distance((await view(page)).eye, [4, -6, 3]) < 0.01);
@@ -130,43 +130,43 @@ test('a folder that is dropped', () => visit('', async (page) => {
   await sceneShown(page, 'bowl');
 }));
 
-test('a download that is cancelled leaves what was there before', () => visit('?scene=soup.glb', async (page) => {
+test('a cancelled download leaves the old scene', () => visit('?scene=soup.glb', async (page) => {
   await sceneShown(page, 'soup');
   const before = await image(page);
   await page.keyboard.press('o');
   await page.fill('#address', 'drizzle.glb');
   await page.press('#address', 'Enter');
   await page.locator('#loading-what', { hasText: 'kB' }).waitFor();
-  assert.equal(await page.getAttribute('#progress', 'aria-valuenow'), null, 'how much is to come is not known');
+  assert.equal(await page.getAttribute('#progress', 'aria-valuenow'), null, 'the size is unknown');
   await page.click('#cancel');
   await page.locator('#loading').waitFor({ state: 'hidden' });
-  await waitFor(() => held.get('/drizzle.glb').closed, 'the server is told');
+  await waitFor(() => held.get('/drizzle.glb').closed, 'the connection is closed');
   await waitFor(() => page.workers().length === 0, 'the loader is gone');
   assert.equal(await page.textContent('#scene-title'), 'soup');
   await still(page);
-  assert.ok(before.equals(await image(page)), 'the image is what it was');
+  assert.ok(before.equals(await image(page)), 'the image is unchanged');
 }));
 
-test('the bar says how much has come', () => visit('?scene=slow.glb', async (page) => {
+test('the bar shows the progress', () => visit('?scene=slow.glb', async (page) => {
   await page.locator('#loading-what', { hasText: ' of ' }).waitFor();
   const now = Number(await page.getAttribute('#progress', 'aria-valuenow'));
   assert.ok(now > 0 && now < 60, `a part of it: ${now} %`);
   await page.click('#cancel');
   await page.locator('#start').waitFor();
-  await waitFor(() => held.get('/slow.glb').closed, 'the server is told');
+  await waitFor(() => held.get('/slow.glb').closed, 'the connection is closed');
 }));
 
-test('another scene takes the place of one that is on its way', () => visit('?scene=tenth.glb', async (page) => {
-  await waitFor(() => held.has('/tenth.glb'), 'it is asked for');
+test('another scene replaces one that is loading', () => visit('?scene=tenth.glb', async (page) => {
+  await waitFor(() => held.has('/tenth.glb'), 'it is requested');
   await pick(page, example);
   await sceneShown(page, 'soup');
-  await waitFor(() => held.get('/tenth.glb').closed, 'nobody waits for the first one');
+  await waitFor(() => held.get('/tenth.glb').closed, 'the first connection is closed');
   assert.equal(page.workers().length, 0);
 }));
 
-test('a first image before all has come, which can be turned', () => visit('?scene=half.glb', async (page) => {
+test('a first image before the end of the download, which can be rotated', () => visit('?scene=half.glb', async (page) => {
   await page.locator('body:not(.empty)').waitFor();
-  await page.locator('#loading').waitFor();  // the rest is on its way
+  await page.locator('#loading').waitFor();  // the rest is still loading
   await still(page);
   const first = await image(page);
   assert.ok(await page.isHidden('#start'));
@@ -181,8 +181,8 @@ test('a first image before all has come, which can be turned', () => visit('?sce
   held.get('/half.glb').rest();
   await sceneShown(page, 'soup');
   const after = await view(page);
-  assert.ok(!turned.equals(await image(page)), 'the texels have come');
+  assert.ok(!turned.equals(await image(page)), 'the texels have arrived');
   await page.keyboard.press('r');
   await page.waitForFunction((hash) => location.hash !== hash, after.hash);
-  assert.ok(distance((await view(page)).eye, after.eye) > 0.1, 'the view that was turned to had stayed');
+  assert.ok(distance((await view(page)).eye, after.eye) > 0.1, 'the rotated view had stayed');
 }));

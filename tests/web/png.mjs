@@ -1,10 +1,10 @@
-// PNG as the programs and browsers of these tests write it: 8 bits, grey, RGB or RGBA, not interlaced.
-// An image is {width, height, pixels}: RGBA bytes, rows from the top.
+// PNG as written by the programs and browsers of these tests: 8 bits, grey, RGB or RGBA, not interlaced. An
+// image is {width, height, pixels}: RGBA bytes, rows from the top.
 
 import { deflateSync, inflateSync } from 'node:zlib';
 
 const signature = Buffer.from('89504e470d0a1a0a', 'hex');
-/** Bytes a pixel by the format's colour type. */
+/** Bytes per pixel, by PNG colour type. */
 const channelsOf = { 0: 1, 2: 3, 4: 2, 6: 4 };
 
 function* chunks(bytes) {
@@ -15,7 +15,7 @@ function* chunks(bytes) {
   }
 }
 
-/** What PNG's filter 4 predicts of the neighbours to the left, above, and above to the left. */
+/** The prediction of PNG's filter 4 from the neighbours to the left, above, and above to the left. */
 function paeth(a, b, c) {
   const pa = Math.abs(b - c), pb = Math.abs(a - c), pc = Math.abs(a + b - 2 * c);
   return pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
@@ -37,14 +37,14 @@ function unfilter(data, stride, height, channels) {
 }
 
 export function readPng(bytes) {
-  if (!bytes.subarray(0, 8).equals(signature)) throw new Error('This is no PNG.');
+  if (!bytes.subarray(0, 8).equals(signature)) throw new Error('The file is not a PNG.');
   let width, height, channels;
   const packed = [];
   for (const { type, data } of chunks(bytes)) {
     if (type === 'IDAT') packed.push(data);
     if (type !== 'IHDR') continue;
     [width, height, channels] = [data.readUInt32BE(0), data.readUInt32BE(4), channelsOf[data[9]]];
-    if (data[8] !== 8 || !channels || data[12] !== 0) throw new Error('This kind of PNG is not read here.');
+    if (data[8] !== 8 || !channels || data[12] !== 0) throw new Error('This kind of PNG is not supported.');
   }
   const rows = unfilter(inflateSync(Buffer.concat(packed)), width * channels, height, channels);
   const pixels = new Uint8Array(4 * width * height);
@@ -56,7 +56,7 @@ export function readPng(bytes) {
   return { width, height, pixels };
 }
 
-/** Of a chunk's type and data. Node's own zlib has it, but not Debian 12's node. */
+/** The CRC of a chunk's type and data. Debian 12's node does not have zlib.crc32. */
 function crc32(bytes) {
   let crc = ~0;
   for (const byte of bytes) {

@@ -1,5 +1,5 @@
-// A soup that was packed where scenes are read and unpacked where they are drawn gives the very
-// same image and plan as one that never travelled, whatever its appearance.
+// A soup that is packed in the reading worker and unpacked for drawing has the same image and plan
+// as a soup that was never packed, for every appearance.
 #include "web/engine/prepared_archive.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace prepared_archive_test {
 
 using Blobs = std::vector<std::vector<std::byte>>;
 
-/// In blocks of a few grains, as a worker hands them over.
+/// Copied in blocks of a few grains, as by a worker.
 Blobs all_blobs(const PreparedSoup& prepared) {
   Blobs blobs(blob_count(prepared));
   for (std::size_t blob = 0; blob < blobs.size(); ++blob) {
@@ -44,7 +44,7 @@ class PreparedArchive : public testing::TestWithParam<test::Kind> {
     return one;
   }
 
-  /// Both ways; expects equal bytes.
+  /// Draws with and without packing; expects equal bytes.
   static void expect_same(const TriangleSoup& soup, const RenderOptions& options) {
     const Camera camera = camera_of(soup);
     Renderer here(context(), soup, glm::dvec3(0.0), options);
@@ -54,7 +54,7 @@ class PreparedArchive : public testing::TestWithParam<test::Kind> {
     std::vector<std::byte> head;
     Blobs blobs;
     {
-      // It goes, with all that was prepared of it.
+      // Destroyed before the drawing, with everything prepared from it.
       // NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
       const TriangleSoup gone = soup;
       const PreparedSoup prepared =
@@ -79,7 +79,7 @@ TEST_P(PreparedArchive, DrawsAsIfItHadNotTravelled) {
   expect_same(test::random_soup(81, {.kind = GetParam(), .faces = 300, .degree = 2}), {});
 }
 
-TEST_P(PreparedArchive, NorWithNothingLeftOut) {
+TEST_P(PreparedArchive, NorWithNothingOmitted) {
   RenderOptions options;
   options.plan.specialise = false;
   expect_same(test::random_soup(82, {.kind = GetParam(), .faces = 100, .degree = 2}), options);

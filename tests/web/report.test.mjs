@@ -1,5 +1,4 @@
-// The report page in a browser: a result of each kind shows its tables and plots, and none makes the
-// page complain, whatever it holds.
+// The report page in a browser: each kind of result shows its tables and plots, and no content causes an error.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -23,7 +22,7 @@ const measurements = {
   plots: [{ table: 'points', x: 'at', y: ['ours', 'naive'], each: 'case' }],
 };
 
-// Of each kind: the files, what the page shows, and how many tables and plots it has at least.
+// For each kind: the files, the words in the page, and the least number of tables and plots.
 const kinds = {
   bench: { files: { 'phone.json': fixture('web_bench.json') }, words: ['Adreno (TM) 740'], tables: 1, plots: 1 },
   'several benches': { files: { 'phone.json': fixture('web_bench.json'), 'laptop.json': fixture('web_bench.json').replace('Adreno (TM) 740', 'llvmpipe') }, words: ['phone (ms)', 'laptop (ms)', 'llvmpipe'], tables: 3, plots: 2 },
@@ -60,5 +59,5 @@ for (const [kind, { files, words, tables, plots, images = 0 }] of Object.entries
         if (library) assert.ok(await page.locator('canvas').count() >= plots);
         assert.equal(await page.locator('figure img').count(), images);
         assert.equal(await page.evaluate(() => document.documentElement.scrollWidth > innerWidth), false);
-      }, { viewport: { width: 390, height: 800 }, expected: [/Failed to load resource/] }); // images of files that are not there
+      }, { viewport: { width: 390, height: 800 }, expected: [/Failed to load resource/] }); // images of missing files
     });

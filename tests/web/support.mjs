@@ -1,7 +1,7 @@
-// What the browser tests share: the site on a server of its own, a browser, and visits that fail when
-// a page complains or reaches for anybody else.
+// Shared by the browser tests: the site on its own server, a browser, and visits that fail if a page logs an
+// error or contacts another server.
 //
-//   const { visit, server } = await stage();         one browser a file; both end with its tests
+//   const { visit, server } = await stage();         one browser per file; both end with its tests
 //   test('..', () => visit('?scene=soup.glb', async (page) => { .. }));
 
 import assert from 'node:assert/strict';
@@ -13,18 +13,18 @@ import { serve } from '../../web/serve.mjs';
 import { built, launch, source } from './browser.mjs';
 
 export { built, source };
-/** The programs that the same sources make for this machine. */
+/** The native programs from the same sources. */
 export const programs = process.env.TUREEN_PROGRAMS ?? join(source, 'build/release/bin');
-/** Where failing tests leave images. */
+/** The folder for images of failing tests. */
 export const evidence = process.env.TUREEN_EVIDENCE ?? join(source, 'build/release/golden-variants');
 
-/** A browser under test may be slow, on two cores that also draw; it is not to hang. */
+/** A slow browser, on two cores that also draw, needs time; a hanging test must end. */
 export const patience = 60_000;
 
-/** How pages are asked whether something has come: not once a frame, which hidden ones have not. */
+/** Polling of pages: not by frames, because hidden pages have none. */
 export const often = { polling: 100 };
 
-/** Counts the frames that a page asks for and gets: one that shows all it has asks for none. Runs in
+/** Counts the frames that a page requests and gets: a page that shows everything requests none. Runs in
  *  the page before its scripts. */
 function countFrames() {
   const ask = window.requestAnimationFrame.bind(window), cancel = window.cancelAnimationFrame.bind(window);
@@ -43,23 +43,23 @@ function countFrames() {
     asked.delete(id);
     cancel(id);
   };
-  // Two frames at least: a canvas hears of its new size after the first.
+  // At least two frames: a canvas gets its new size after the first.
   window.still = async () => {
     for (let frames = 0; frames < 2 || asked.size > 0; ++frames) await new Promise((resolve) => ask(resolve));
   };
 }
 
-/** Waits until the page, or one in a frame of it, shows all it has and asks for no frame. */
+/** Waits until the page, or a page in a frame of it, shows everything and requests no frame. */
 export const still = (page) => page.evaluate(() => window.still());
 
-/** A folder that is gone after the file's tests. */
+/** A folder that is removed after the file's tests. */
 export function scratch() {
   const folder = mkdtempSync(join(tmpdir(), 'tureen-web-'));
   after(() => rmSync(folder, { recursive: true, force: true }));
   return folder;
 }
 
-/** Where a failing test leaves what it saw. */
+/** A folder for the output of a failing test. */
 export function evidenceOf(name) {
   const folder = join(evidence, name.replace(/[^\w.-]+/g, '_'));
   rmSync(folder, { recursive: true, force: true });
@@ -90,9 +90,8 @@ export async function stage({ backend = 'llvmpipe', routes = {}, folder = join(b
   });
 
   /**
-   * Opens an address in a profile of its own and hands the page over. Fails when the page writes an
-   * error to the console that is none of `expected`, throws, or asks any other server for anything
-   * but `friends`.
+   * Opens an address in a new profile and passes the page to `body`. Fails if the page logs an error
+   * that matches none of `expected`, throws, or contacts a server that is not in `friends`.
    */
   async function visit(address, body, { expected = [], friends = [], ...context } = {}) {
     const profile = await browser.newContext({ viewport: { width: 800, height: 500 }, ...context });
@@ -111,8 +110,8 @@ export async function stage({ backend = 'llvmpipe', routes = {}, folder = join(b
       const page = await profile.newPage();
       await page.goto(new URL(address, server.address).href);
       await body(page, profile);
-      assert.deepEqual(complaints, [], 'the page complains');
-      assert.deepEqual(strangers, [], 'the page asks others');
+      assert.deepEqual(complaints, [], 'errors of the page');
+      assert.deepEqual(strangers, [], 'requests to other servers');
     } finally {
       await profile.close();
     }
@@ -120,9 +119,9 @@ export async function stage({ backend = 'llvmpipe', routes = {}, folder = join(b
   return { browser, server, visit };
 }
 
-// -- what a person sees of the page -----------------------------------------------------------------
+// -- the visible page -------------------------------------------------------------------------------
 
-/** A scene is shown, whole. Fails at once with the page's own sentence where it says that none comes. */
+/** Waits until a complete scene is shown. Fails at once if the page shows an error. */
 export async function sceneShown(page, name) {
   await page.waitForFunction((wanted) => {
     const title = document.getElementById('scene-title')?.textContent;
@@ -132,7 +131,7 @@ export async function sceneShown(page, name) {
   assert.deepEqual(await errors(page), []);
 }
 
-/** Picks files, or a folder, by the card's buttons, once the page has them. */
+/** Picks files, or a folder, with the card's buttons, once the page has them. */
 export async function pick(page, files, button = '#choose-files') {
   const card = page.locator('#start');
   if (await card.isHidden()) await page.click('#open-start');
@@ -142,14 +141,14 @@ export async function pick(page, files, button = '#choose-files') {
   await (await chooser).setFiles(files);
 }
 
-/** The sentences that the page shows as errors. */
+/** The texts of the page's errors. */
 export const errors = (page) => page.locator('#errors .message p').allTextContents();
-/** Waits for one and returns it. */
+/** Waits for an error and returns its text. */
 export async function errorShown(page) {
   await page.locator('#errors .message p').first().waitFor();
   return (await errors(page))[0];
 }
-/** Waits for one and returns its kind, a ViewerError's. */
+/** Waits for an error and returns its kind, a ViewerError's. */
 export async function errorKind(page) {
   const message = page.locator('#errors .message').first();
   await message.waitFor();
@@ -157,7 +156,7 @@ export async function errorKind(page) {
 }
 export const noticeShown = (page, part = '') => page.locator('#notices .message', { hasText: part }).first().waitFor();
 
-/** The camera as the page's address has it, once it has come to rest there. */
+/** The camera in the page's address, once it is at rest. */
 export async function view(page) {
   const readOut = () => {
     const parts = new URLSearchParams(location.hash.slice(1));
@@ -169,13 +168,13 @@ export async function view(page) {
   return page.evaluate(readOut);
 }
 
-/** Waits until the address says another view than `before`, and returns that. */
+/** Waits until the address has another view than `before`, and returns that. */
 export async function viewChanged(page, before) {
   await page.waitForFunction((hash) => location.hash !== hash, before.hash, often);
   return view(page);
 }
 
-/** The image alone, as the screen has it: without what lies over it. A PNG. */
+/** The canvas as shown on the screen, without the elements over it. A PNG. */
 export async function image(page) {
   const show = (visibility) => page.evaluate((how) => {
     for (const over of document.querySelectorAll('.corner, .loading, .messages')) over.style.visibility = how;

@@ -1,4 +1,4 @@
-// esbuild drops types without a look at them, so they are checked here.
+// esbuild removes types without a check, so this checks them.
 
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { source } from './browser.mjs';
 
-test('all TypeScript of the page is of the types that it says', () => {
+test('the page\'s TypeScript has no type errors', () => {
   const web = join(source, 'web');
   const { status, stdout, stderr } = spawnSync(join(web, 'node_modules/.bin/tsc'), ['--noEmit', '-p', web], { encoding: 'utf8' });
   assert.equal(status, 0, stdout + stderr);

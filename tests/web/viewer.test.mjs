@@ -1,4 +1,4 @@
-// The module's promises to a program that uses it: createViewer on a page of its own.
+// The module's guarantees to a program: createViewer on an empty page.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -11,7 +11,7 @@ import { source, stage } from './support.mjs';
 const example = readFileSync(join(source, 'examples/soup.glb'));
 const answer = (bytes) => (request, response) => response.writeHead(200, { 'content-length': bytes.length }).end(bytes);
 
-/** The example with its cameras so often. */
+/** The example with its cameras repeated. */
 function withCameras(times) {
   const size = example.readUInt32LE(12), json = JSON.parse(example.toString('utf8', 20, 20 + size));
   const [extension] = Object.values(json.extensions);
@@ -24,7 +24,7 @@ function withCameras(times) {
   return Buffer.concat([head, padded, rest]);
 }
 
-/** Half of the example, and then nothing. */
+/** Half of the example, without an end. */
 const stalled = (request, response) => {
   response.writeHead(200, { 'content-length': example.length });
   response.write(example.subarray(0, example.length / 2));
@@ -50,7 +50,7 @@ const { visit, server } = await stage({ routes: {
   }).end(guarded),
 } });
 
-/** What a call comes to: its result, or the kind and sentence of its error. */
+/** The outcome of a call: its result, or the kind and text of its error. */
 const tried = (page, body, given) => page.evaluate(async ([text, what]) => {
   try {
     return { result: await new Function('given', `return (async () => { ${text} })()`)(what) };
@@ -81,19 +81,19 @@ test('a first image goes with its load', onViewer(async (page) => {
     window.half = viewer.load({ url: 'half.glb' }).catch((error) => error.kind);
     await first;`;
   await tried(page, begun);
-  assert.ok(colours(await image(page)) > 50, 'it is seen');
+  assert.ok(colours(await image(page)) > 50, 'it is visible');
   assert.equal((await tried(page, `return viewer.load({ url: 'nowhere.glb' });`)).kind, 'network');
   assert.equal((await tried(page, 'return half;')).result, 'cancelled');
   assert.equal((await tried(page, 'return viewer.scene;')).result, null);
-  assert.equal((await tried(page, 'await viewer.screenshot();')).kind, 'usage', 'it is gone');
+  assert.equal((await tried(page, 'await viewer.screenshot();')).kind, 'usage', 'it is removed');
 
-  // Another scene is looked at from where that is seen.
+  // The next scene gets its own view.
   await tried(page, begun);
   const { result } = await tried(page, `await viewer.load({ url: 'far.off' }); return viewer.getView();`);
   assert.ok(result.target.every((value) => Math.abs(value - 100) < 2), `target: ${result.target}`);
 }, { expected: [/404/] }));
 
-test('the background before a first image is back where nothing came of it', onViewer(async (page) => {
+test('the background before a first image returns if loading fails', onViewer(async (page) => {
   const { result } = await tried(page, `
     viewer.background = [1, 0, 0];
     const first = new Promise((resolve) => viewer.on('preview', resolve));
@@ -102,7 +102,7 @@ test('the background before a first image is back where nothing came of it', onV
     const during = viewer.background;
     await viewer.load({ url: 'nowhere.glb' }).catch(() => half);
     return [during, viewer.background];`);
-  assert.notDeepEqual(result[0], [1, 0, 0], 'a scene brings its own');
+  assert.notDeepEqual(result[0], [1, 0, 0], 'a scene has a background');
   assert.deepEqual(result[1], [1, 0, 0]);
 }, { expected: [/404/] }));
 
@@ -118,19 +118,19 @@ test('the first view of a scene without cameras has all of it in a canvas of any
   for (const axis of [0, 1, 2]) assert.ok(Math.abs(first.eye[axis] - framed.eye[axis]) < 1e-6, `${first.eye} and ${framed.eye}`);
 }));
 
-test('what is cancelled before it begins leaves no worker', onViewer(async (page) => {
+test('a load cancelled before it begins leaves no worker', onViewer(async (page) => {
   const { kind } = await tried(page, `return viewer.load({ url: 'soup.glb' }, { signal: AbortSignal.abort() });`);
   assert.equal(kind, 'cancelled');
   for (let tries = 0; page.workers().length > 0 && tries < 50; ++tries) await page.waitForTimeout(100);
   assert.equal(page.workers().length, 0);
 }));
 
-test('an address that cannot be decoded names its file as it is', onViewer(async (page) => {
+test('an address that cannot be decoded is used unchanged', onViewer(async (page) => {
   assert.equal((await tried(page, `return (await viewer.load({ url: '50%.glb' })).triangles;`)).result, 7000);
   assert.equal((await tried(page, `return viewer.load({ url: 'http://[' });`)).kind, 'usage');
 }));
 
-test('what makes no sense is refused, and changes nothing', onViewer(async (page) => {
+test('invalid values are rejected, and change nothing', onViewer(async (page) => {
   await tried(page, `await viewer.load({ url: 'soup.glb' });`);
   for (const nonsense of ['viewer.resolution = { targetFps: -1 };', 'viewer.resolution = NaN;',
                           'await viewer.screenshot({ width: 0, height: 10 });', 'await viewer.screenshot({ width: 1e9, height: 1 });',
@@ -140,13 +140,13 @@ test('what makes no sense is refused, and changes nothing', onViewer(async (page
   assert.equal((await tried(page, 'viewer.draw(); return viewer.stats.scale;')).result, 1);
 }));
 
-test('of two looks the later one is shown', onViewer(async (page) => {
+test('of two debug views the later one is shown', onViewer(async (page) => {
   await tried(page, `await viewer.load({ url: 'soup.glb' });`);
   const { result } = await tried(page, `await Promise.all([viewer.show('depth'), viewer.show('normals'), viewer.show('color')]); return viewer.shownLook;`);
   assert.equal(result, 'color');
 }));
 
-test('setting what is no view is no movement', onViewer(async (page) => {
+test('setting other properties does not move the view', onViewer(async (page) => {
   const { result } = await tried(page, `
     await viewer.load({ url: 'soup.glb' });
     let views = 0;
@@ -161,12 +161,12 @@ test('setting what is no view is no movement', onViewer(async (page) => {
   assert.deepEqual(result, [0, 1]);
 }));
 
-test('an instance that does not start is told of', () => visit('models.json', async (page) => {
+test('an instance that does not start is reported', () => visit('models.json', async (page) => {
   await page.addInitScript(() => { WebAssembly.instantiate = () => Promise.reject(new RangeError('out of memory')); });
   await page.goto(server.address);
   await page.locator('[role=alert]', { hasText: 'RangeError: out of memory' }).waitFor();
 }, { expected: [/favicon/] }));
 
-test('a page with the policy that the package asks for', () => visit('guarded.html', async (page) => {
+test('a page with the policy that the package needs', () => visit('guarded.html', async (page) => {
   await page.waitForFunction(() => document.title === '7000', null, { polling: 100 });
 }));

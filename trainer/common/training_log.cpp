@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "base/existing_path.hpp"
 #include "base/input.hpp"
-#include "base/json_view.hpp"
+#include "base/json/json_view.hpp"
 
 namespace tureen::trainer {
 

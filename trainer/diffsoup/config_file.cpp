@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/existing_path.hpp"
-#include "base/json_file.hpp"
-#include "base/json_view.hpp"
+#include "base/json/json_file.hpp"
+#include "base/json/json_view.hpp"
 #include "base/suggestion.hpp"
 #include "trainer/diffsoup/config_fields.hpp"
 

@@ -80,7 +80,7 @@ void TrainingSession::keep_if_it_fails(const std::function<void()>& work) {
 
 void TrainingSession::keep() {
   save_checkpoint();
-  if (options_.interrupted) options_.interrupted();
+  if (options_.interrupted) options_.interrupted(trainer_.steps_done());
 }
 
 void TrainingSession::train_to_the_end() {

@@ -25,17 +25,17 @@ struct SessionStatus {
 };
 
 struct SessionOptions {
-  std::filesystem::path checkpoint;        // replaced at each
-  std::filesystem::path log;               // JSON lines
-  std::filesystem::path previews;          // a folder that exists, where preview_every > 0
-  std::optional<int> checkpoint_every;     // steps; by default every two minutes
-  int preview_every = 0;                   // steps; 0 draws none
-  std::span<const Photograph> test_views;  // one at least
-  double seconds_before = 0;               // of training, in sessions that this one goes on from
+  std::filesystem::path checkpoint;             // replaced at each
+  std::filesystem::path log;                    // JSON lines
+  std::filesystem::path previews;               // a folder that exists, where preview_every > 0
+  std::optional<int> checkpoint_every;          // steps; by default every two minutes
+  int preview_every = 0;                        // steps; 0 draws none
+  std::span<const Photograph> test_views = {};  // at least one
+  double seconds_before = 0;  // of training, in sessions that this one goes on from
   /// Called before each step; what it throws ends the run.
   std::function<void(const SessionStatus&)> progress = {};
   /// Called after the checkpoint of a run that ends early.
-  std::function<void()> interrupted = {};
+  std::function<void(int step)> interrupted = {};
 };
 
 class TrainingSession {

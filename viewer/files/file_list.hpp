@@ -1,4 +1,4 @@
-// What a folder holds that can be opened: the list behind the window that files are picked in.
+// The scenes, datasets and folders in a folder, for the window that opens files.
 #pragma once
 
 #include <filesystem>
@@ -14,16 +14,16 @@ struct FileEntry {
 
 struct FileList {
   std::filesystem::path folder;    // empty: none yet
-  std::vector<FileEntry> entries;  // folders first, by name; nothing hidden
-  bool cut = false;                // there are more
-  std::string trouble;             // why it could not be listed; empty where it could
-  std::string typed;               // into the field for paths
+  std::vector<FileEntry> entries;  // folders first, by name; without hidden ones
+  bool cut = false;                // the folder has more
+  std::string trouble;             // error of listing it; empty if none
+  std::string typed;               // text in the field for paths
 };
 
-/// A folder with more is cut off.
+/// Largest number of listed entries.
 inline constexpr std::size_t max_entries = 2000;
 
-/// Folders, and files that have a scene's or a dataset's name. What cannot be listed says so.
+/// Folders, and files with the name of a scene or a dataset. Errors are in FileList::trouble.
 FileList list_files(const std::filesystem::path& folder);
 
 }  // namespace tureen::viewer

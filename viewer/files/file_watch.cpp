@@ -8,10 +8,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of more files is watched by the first so many of them: looking must stay cheap.
+/// Largest number of watched files in a folder, so that a check stays cheap.
 constexpr int max_files = 256;
 
-/// The mixing step of splitmix64: every bit of the sum moves every bit of the print.
+/// The mixing step of splitmix64: every bit of the input affects every bit of the result.
 std::uint64_t mixed(std::uint64_t x) {
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;

@@ -1,5 +1,5 @@
-// Whether a file, or what lies in a folder, has changed since it was read. Asked now and then: no
-// notifications of the system's, which network folders do not send.
+// Detects changes of a file, or of the files in a folder, by polling. Network folders do not send
+// the system's notifications.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@ class FileWatch {
   FileWatch() = default;
   explicit FileWatch(std::filesystem::path path);
 
-  /// Whether it changed and has been at rest since the last question, so that a file that is being
-  /// written is not read too early. Once for each change. False while it is missing.
+  /// True once for each change, as soon as two successive calls find the same state. A file that is
+  /// being written is thus not read too early. False while it is missing.
   bool changed();
 
  private:
-  /// Of all files together; 0 where there are none.
+  /// Hash of names, times and sizes of all files; 0 without files.
   std::uint64_t fingerprint() const;
 
   std::filesystem::path path_;

@@ -6,8 +6,8 @@
 
 #include "base/error.hpp"
 #include "base/input.hpp"
-#include "base/json_file.hpp"
-#include "base/json_view.hpp"
+#include "base/json/json_file.hpp"
+#include "base/json/json_view.hpp"
 
 namespace tureen::viewer {
 
@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 
 constexpr std::array button_names = {"left", "right", "middle"};
 
-/// Windows of up to this many points a side; events are of it.
+/// Largest side of a window in points.
 constexpr int max_points = 16384;
 
 std::array<double, 2> pair_of(const JsonView& view) {
@@ -28,7 +28,7 @@ std::array<double, 2> pair_of(const JsonView& view) {
 glm::ivec2 size_of(const JsonView& view) {
   if (view.size() != 2) view.fail("expected a width and a height");
   const glm::ivec2 size(view.at(0).natural(max_points), view.at(1).natural(max_points));
-  if (size.x < 1 || size.y < 1) view.fail("a window has at least a point a side");
+  if (size.x < 1 || size.y < 1) view.fail("a window needs at least one point a side");
   return size;
 }
 
@@ -37,7 +37,7 @@ bool truth_of(const JsonView& view) {
   return view.value().get<bool>();
 }
 
-/// What has no value but that it happened.
+/// An event without a value; its JSON value is true.
 template <class T>
 Event happened(const JsonView& view) {
   if (!truth_of(view)) view.fail("expected true");
@@ -81,13 +81,13 @@ Event event_of(const JsonView& view) {
   if (const auto close = view.find("close")) return happened<CloseAsked>(*close);
   if (const auto await = view.find("await")) return happened<AwaitRest>(*await);
   if (const auto files = view.find("replace")) {
-    if (files->size() != 2) files->fail("expected a file and what replaces it");
+    if (files->size() != 2) files->fail("expected a file and its replacement");
     return FileReplaced{.from = files->at(1).text(), .to = files->at(0).text()};
   }
   if (const auto name = view.find("picture")) return WindowScreenshot{name->text()};
   view.fail(
       "an event is one of pointer, button, wheel, key, text, code_point, drop, resize, focus, "
-      "close, await, replace and image");
+      "close, await, replace and picture");
 }
 
 struct ToJson {
@@ -116,7 +116,8 @@ Session read_session(const std::filesystem::path& file) {
   const Json json = read_json(input, RepeatedKeys::refused);
   const std::string name = file.string();
   const JsonView root(json, name);
-  if (root["tureen_session"].natural() != 1) root["tureen_session"].fail("only version 1 is known");
+  if (root["tureen_session"].natural() != 1)
+    root["tureen_session"].fail("only version 1 is supported");
   Session session;
   session.window = size_of(root["window"]);
   const JsonView events = root["events"];
@@ -124,7 +125,7 @@ Session read_session(const std::filesystem::path& file) {
   for (std::size_t i = 0; i < events.size(); ++i) {
     const JsonView event = events.at(i);
     const double at = event["at"].number();
-    if (!(at >= last)) event["at"].fail("time falls");
+    if (!(at >= last)) event["at"].fail("the time is earlier than that of the previous event");
     last = at;
     session.events.push_back({at, event_of(event)});
   }
@@ -132,7 +133,7 @@ Session read_session(const std::filesystem::path& file) {
 }
 
 std::string session_to_json(const Session& session) {
-  // An event a line: people look into these files.
+  // One event a line, for people who read these files.
   std::string text =
       "{ \"tureen_session\": 1, \"window\": " + Json{session.window.x, session.window.y}.dump() +
       ",\n  \"events\": [";
@@ -156,7 +157,7 @@ Replay::Step Replay::next(bool at_rest) {
   };
   if (awaits()) {
     if (!at_rest) return step;
-    step.events.push_back(session_.events[position_++].event);  // for who records
+    step.events.push_back(session_.events[position_++].event);  // for a recorder
   }
   clock_ += frame_seconds;
   while (!finished() && session_.events[position_].seconds <= clock_ && !awaits()) {

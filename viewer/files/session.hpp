@@ -1,5 +1,5 @@
-// A session: what a person did at the window, written down so that it can be done again. A JSON
-// file that people can read and edit:
+// A session: the recorded events of a window, for replay. It is a JSON file that people can read
+// and edit:
 //
 //   { "tureen_session": 1, "window": [960, 600],
 //     "events": [ {"at": 0.0,  "await": true},
@@ -14,13 +14,13 @@
 //                 {"at": 1.4,  "drop": ["other.glb"]},
 //                 {"at": 1.5,  "resize": [800, 600]},
 //                 {"at": 1.6,  "replace": ["other.glb", "with.glb"]},
-//                 {"at": 2.0,  "image": "after.png"},
+//                 {"at": 2.0,  "picture": "after.png"},
 //                 {"at": 2.1,  "close": true} ] }
 //
-// "at" is in seconds since the session began, never falling. "await" lets the clock stand until
-// nothing is being loaded and nothing moves; "image" saves what the window shows; "replace"
-// copies the second file over the first, as a trainer that is still at work would. Paths are as the
-// program finds them: relative ones from the folder it was started in.
+// "at" is in seconds since the start of the session and never decreases. "await" stops the clock
+// until nothing is being loaded and nothing moves. "picture" saves the content of the window.
+// "replace" copies the second file over the first, as a running trainer does. Relative paths start
+// at the program's working folder.
 #pragma once
 
 #include <filesystem>
@@ -43,7 +43,7 @@ Session read_session(const std::filesystem::path& file);
 
 std::string session_to_json(const Session& session);
 
-/// What happened so far, with this clock.
+/// Collects events with their times.
 class Recorder {
  public:
   explicit Recorder(glm::ivec2 window) : session_{window, {}} {}
@@ -54,8 +54,8 @@ class Recorder {
   Session session_;
 };
 
-/// Deals a session out by a clock of its own: a frame is a sixtieth of a second, however long it
-/// takes, so that the same session shows the same images on every machine.
+/// Replays a session by its own clock: a frame advances it by 1/60 s, independent of its real
+/// duration. A session thus shows the same images on every machine.
 class Replay {
  public:
   explicit Replay(Session session) : session_(std::move(session)) {}
@@ -65,8 +65,8 @@ class Replay {
   struct Step {
     std::vector<Event> events;
   };
-  /// Of the next frame. `at_rest`: nothing is being loaded and nothing moves. An image ends the
-  /// frame's events, so that it shows all of those before it.
+  /// The events of the next frame. `at_rest`: nothing is being loaded and nothing moves. A
+  /// screenshot ends the frame's events, so that it shows all events before it.
   Step next(bool at_rest);
   bool finished() const { return position_ == session_.events.size(); }
   double now() const { return clock_; }

@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/input.hpp"
-#include "base/json_file.hpp"
+#include "base/json/json_file.hpp"
 #include "base/output.hpp"
 
 namespace tureen::viewer {
@@ -17,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// A folder that the environment names; the specification has relative ones ignored.
+/// A folder from an environment variable. The XDG specification requires that relative paths are
+/// ignored.
 std::optional<fs::path> folder_of(const char* variable) {
   const char* value = std::getenv(variable);
   if (!value || !fs::path(value).is_absolute()) return std::nullopt;
@@ -31,11 +32,11 @@ void take(const Json& object, const char* key, T& value, const std::string& file
   try {
     found->get_to(value);
   } catch (const Json::exception&) {
-    throw InputError({file, {}, {}}, std::string(key) + " is not what it should be");
+    throw InputError({file, {}, {}}, std::string(key) + " has the wrong type");
   }
 }
 
-/// A window that can be seen and that every screen can hold.
+/// Smallest and largest window, in points.
 constexpr glm::vec2 min_window{320, 240}, max_window{16384, 16384};
 
 }  // namespace
@@ -64,9 +65,9 @@ Settings read_settings(const fs::path& file) {
   Input input = Input::open(file);
   const Json json = read_json(input);
   const std::string name = file.string();
-  if (!json.is_object()) throw InputError({name, {}, {}}, "not an object of settings");
+  if (!json.is_object()) throw InputError({name, {}, {}}, "the file is not a JSON object");
   if (const auto window = json.find("window"); window != json.end()) {
-    // Clamped as they are: no int holds every number.
+    // Clamped as floats, because an int cannot hold every number.
     const std::vector<float> sides = json_floats(*window, 2, name, "window");
     settings.window = glm::clamp(glm::vec2(sides[0], sides[1]), min_window, max_window);
   }
@@ -85,14 +86,14 @@ void write_settings(const Settings& settings, const fs::path& file) {
                      {"recent", settings.recent},
                      {"pictures", settings.images}};
   make_folder(file.parent_path());
-  // Names of files may hold any bytes.
+  // File names may contain any bytes.
   write_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 void remember(Settings& settings, const fs::path& scene) {
   std::error_code ignored;
   fs::path path = fs::absolute(scene, ignored).lexically_normal();
-  if (!path.has_filename()) path = path.parent_path();  // a folder with a slash behind it
+  if (!path.has_filename()) path = path.parent_path();  // a folder with a trailing slash
   std::erase(settings.recent, path.string());
   settings.recent.insert(settings.recent.begin(), path.string());
   settings.recent.resize(std::min(settings.recent.size(), most_recent));

@@ -1,5 +1,5 @@
-// What the window remembers between runs, under the folders that desktops have for that (XDG base
-// directories): a JSON file that a person may edit.
+// The window's settings, stored between runs in a JSON file that people can edit. Its folder
+// follows the XDG base directories.
 #pragma once
 
 #include <filesystem>
@@ -14,26 +14,27 @@ struct Settings {
   glm::ivec2 window{1280, 800};  // in points
   bool vsync = true;
   bool smooth_motion = true;
-  std::vector<std::string> recent;  // scenes, the newest first; at most most_recent
-  std::string images;               // the folder of screenshots; empty: images_folder()
+  std::vector<std::string> recent;  // scenes, latest first; at most most_recent
+  std::string images;               // folder for images; empty: images_folder()
 };
 
 inline constexpr std::size_t most_recent = 12;
 
-/// $XDG_CONFIG_HOME/tureen/viewer.json, or that under ~/.config; nothing without a home.
+/// $XDG_CONFIG_HOME/tureen/viewer.json, otherwise ~/.config/tureen/viewer.json, or nullopt without
+/// HOME.
 std::optional<std::filesystem::path> settings_file();
 
-/// $XDG_PICTURES_DIR or ~/Images where they are there, or else the current folder.
+/// $XDG_PICTURES_DIR or ~/Pictures if it exists, otherwise the current folder.
 std::filesystem::path images_folder();
 
-/// Defaults where there is no file. What the file lacks is at its default. Throws InputError for
-/// one that is not ours.
+/// Settings that the file lacks have their defaults; so have all without a file. Throws InputError
+/// for an invalid file.
 Settings read_settings(const std::filesystem::path& file);
 
-/// Whole or not at all, with its folder. Throws OutputError.
+/// Writes the complete file or nothing, and creates its folder. Throws OutputError.
 void write_settings(const Settings& settings, const std::filesystem::path& file);
 
-/// Puts a scene at the head of those that were opened lately.
+/// Moves a scene to the front of the recent ones.
 void remember(Settings& settings, const std::filesystem::path& scene);
 
 }  // namespace tureen::viewer

@@ -18,13 +18,13 @@ namespace tureen::viewer {
 
 namespace {
 
-/// Preparing shows as the first twentieth of the work.
+/// Fraction of the progress bar for preparation.
 constexpr double preparing_share = 0.05;
 
-/// An hour at 240 frames a second is less: more is a slip in a number.
+/// An hour at 240 frames a second has 864,000. More is probably a typing error.
 constexpr int max_frames = 1000000;
 
-/// Writes what `draw` hands to its sink.
+/// Writes the rows that `draw` passes to its sink.
 void write_rows(const ImageJob& job, const std::function<void(const BandSink&)>& draw) {
   Output output(job.path);
   PngRows rows(output, job.camera.width, job.camera.height);
@@ -33,12 +33,11 @@ void write_rows(const ImageJob& job, const std::function<void(const BandSink&)>&
   output.commit();
 }
 
-/// Draws every frame in turn and hands it on.
+/// Draws the frames in order and passes each to `take`.
 void draw_frames(const AnimationJob& job, const StageRequest& request,
                  const std::function<void(const Image8&, std::size_t)>& take) {
   if (frame_count(job.path, job.rate.frames_per_second) > max_frames)
-    throw UsageError("the animation would have more than " + std::to_string(max_frames) +
-                     " frames");
+    throw UsageError("the animation has more than " + std::to_string(max_frames) + " frames");
   Renderer renderer = prepare_renderer(job.scene, request);
   const std::vector<Camera> cameras = frames(job.path, job.rate);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -68,7 +67,7 @@ void write_image(const ImageJob& job, const StageRequest& request) {
   Renderer renderer = prepare_renderer(job.scene, request);
   renderer.set_background(background);
   if (renderer.plan().quality.resolution_scale < 1) {
-    // Tiles that are drawn coarser would not meet; what the device draws at once is enough there.
+    // Tiles of a lower resolution would not match at their borders, so the image is drawn whole.
     renderer.draw(job.camera);
     write_rows(job, [&](const BandSink& sink) { sink(renderer.read_color()); });
     return;

@@ -1,5 +1,5 @@
-// Images and animations for keeps, drawn by a renderer of their own in the background: the window
-// goes on, whatever their size.
+// Writes images and animations of any size, with their own renderer in the background. The window
+// stays usable.
 #pragma once
 
 #include <filesystem>
@@ -12,26 +12,26 @@ namespace tureen::viewer {
 
 struct ImageJob {
   StageSource scene;
-  Camera camera;  // with the image's size, which may be beyond the device's
+  Camera camera;  // with the image's size, which may exceed the device's limit
   DebugViewChoice debug_view = {};
   bool transparent = false;
   std::filesystem::path path;
 };
 
-/// A PNG, drawn in tiles and written row by row. What is made for it on the device is gone at
-/// the end. Throws OutputError, DeviceLimitError and what
-/// StageRequest::progress throws; then nothing is written.
+/// Writes a PNG, drawn in tiles and written row by row. Releases its device memory at the end.
+/// Throws OutputError, DeviceLimitError and the exceptions of StageRequest::progress; then nothing
+/// is written.
 void write_image(const ImageJob& job, const StageRequest& request);
 
 struct AnimationJob {
   StageSource scene;
   CameraPath path;
   FrameRate rate;
-  /// A video where its name is one's (image/video_file.hpp), otherwise a folder for frames.
+  /// A video file if its name is one (image/video_file.hpp), otherwise a folder for frames.
   std::filesystem::path output;
 };
 
-/// Likewise; frames that were written before an end by force stay, of a video nothing.
+/// Throws as write_image(). Frames written before an exception remain; of a video nothing remains.
 void write_animation(const AnimationJob& job, const StageRequest& request);
 
 }  // namespace tureen::viewer

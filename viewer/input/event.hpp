@@ -1,5 +1,5 @@
-// What happens to the window, as plain values: so that a session can be recorded, edited by hand
-// and replayed (viewer/files/session.hpp), and tests can play a person.
+// Events of the window as plain values. Sessions can be recorded, edited by hand and replayed
+// (viewer/files/session.hpp), and tests can simulate a user.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace tureen::viewer {
 
-/// Keys that the window or its text fields know; letters and digits stand where they stand on an
-/// American keyboard, whatever is printed on them.
+/// Keys that the window or its text fields use. Letters and digits are positions on an American
+/// keyboard, whatever their labels.
 enum class Key {
   // clang-format off
   a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z,
@@ -25,13 +25,14 @@ enum class Key {
 };
 inline constexpr int key_count = static_cast<int>(Key::super) + 1;
 
-/// "W", "F1", "[", "Home": as the list of keys and a session's file call it.
+/// The name in the list of keys and in session files: "W", "F1", "[", "Home".
 std::string_view name_of(Key key);
 std::optional<Key> key_named(std::string_view name);
 
 enum class Button { left, right, middle };
 
-/// In points of the window from its upper left corner, which are pixels but on high-DPI screens.
+/// In points of the window from its upper left corner. A point is a pixel, except on high-DPI
+/// screens.
 struct PointerMoved {
   double x = 0, y = 0;
 };
@@ -39,7 +40,7 @@ struct ButtonChanged {
   Button button = Button::left;
   bool down = false;
 };
-/// Steps of the wheel: to the right, and away from the person.
+/// Steps of the wheel: to the right, and away from the user.
 struct Scrolled {
   double right = 0, away = 0;
 };
@@ -64,13 +65,13 @@ struct CloseAsked {};
 
 /// Only in sessions: later events wait until nothing is being loaded and nothing moves.
 struct AwaitRest {};
-/// Only in sessions: what the window shows, with its interface, goes to a PNG of this name in the
-/// session's folder of images.
+/// Only in sessions: saves the window with its interface as a PNG of this name in the session's
+/// folder for images.
 struct WindowScreenshot {
   std::string name;
 };
 
-/// Only in sessions: somebody else writes one file over another.
+/// Only in sessions: copies one file over another, as another program does.
 struct FileReplaced {
   std::string from, to;
 };

@@ -33,7 +33,7 @@ void NavigationInput::handle(const Event& event, Taken taken, CameraControls& co
   if (const auto* wheel = std::get_if<Scrolled>(&event); wheel && !taken.pointer)
     controls.wheel(wheel->away, pointer_);
   if (const auto* focus = std::get_if<FocusChanged>(&event); focus && !focus->focused) {
-    held_.fill(false);  // keys let go of elsewhere are never reported
+    held_.fill(false);  // keys released in another window are never reported
     drag_ = Drag::none;
   }
 }
@@ -56,7 +56,7 @@ void NavigationInput::move(const PointerMoved& event, CameraControls& controls) 
 }
 
 void NavigationInput::change(const KeyChanged& event, bool taken, CameraControls& controls) {
-  const bool modified = held(Key::control) || held(Key::super);  // Ctrl+S is no step back
+  const bool modified = held(Key::control) || held(Key::super);  // Ctrl+S does not fly back
   held_[static_cast<std::size_t>(event.key)] = event.down && !taken;
   if (event.down && !taken && !modified && pushes_anywhere(event.key))
     controls.set_mode(NavigationMode::fly);

@@ -1,5 +1,4 @@
-// From events to the camera: which drag, wheel and key means what. The maths is the runtime's
-// (camera/camera_controls.hpp).
+// Converts drags, wheel and keys to camera motion. camera/camera_controls.hpp computes the motion.
 #pragma once
 
 #include <array>
@@ -12,16 +11,16 @@ namespace tureen::viewer {
 
 class NavigationInput {
  public:
-  /// Which events are the interface's: a drag belongs to who had its beginning.
+  /// Whether the interface uses the events. A drag belongs to the part in which it began.
   struct Taken {
     bool pointer = false;
     bool keys = false;
   };
 
-  /// Of all events, in order.
+  /// Must be called for all events, in order.
   void handle(const Event& event, Taken taken, CameraControls& controls);
 
-  /// By the keys that are held.
+  /// The flight by the held keys.
   Flight flight() const;
   bool flying() const;
   bool dragging() const { return drag_ != Drag::none; }

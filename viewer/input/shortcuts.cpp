@@ -8,11 +8,12 @@ namespace tureen::viewer {
 
 namespace {
 
-/// Forwards or backwards through the recorded cameras, round and round.
+/// Selects the next or previous recorded camera, cyclically.
 void step_recorded(State& state, int step) {
   const int count = static_cast<int>(state.recorded_cameras().size());
   if (count == 0) {
-    state.messages.note("Neither a dataset nor the scene has recorded cameras", state.now);
+    state.messages.note("There are no recorded cameras: open a dataset, or a scene with cameras",
+                        state.now);
     return;
   }
   const int from = state.recorded < 0 && step < 0 ? 0 : state.recorded;
@@ -51,19 +52,19 @@ void next_comparison(State& state) {
 }
 
 // clang-format off
-constexpr const char *looking = "Looking around", *views = "Views", *images = "Images",
+constexpr const char *looking = "Navigation", *views = "Views", *images = "Images",
                      *window = "Window";
 const std::array table = {
-    Shortcut{Key::tab, false, looking, "orbit or fly: what a drag does",
+    Shortcut{Key::tab, false, looking, "change between orbit and fly",
              [](State& s) { s.controls.set_mode(s.controls.mode() == NavigationMode::orbit
                                                     ? NavigationMode::fly : NavigationMode::orbit); }},
-    Shortcut{Key::f, false, looking, "all of the scene in the image",
+    Shortcut{Key::f, false, looking, "show the whole scene",
              [](State& s) { s.controls.set_mode(NavigationMode::orbit); s.controls.frame(); }},
-    Shortcut{Key::r, false, looking, "back to the first view",
+    Shortcut{Key::r, false, looking, "return to the first view",
              [](State& s) { s.controls.set_mode(NavigationMode::orbit); s.controls.reset(); }},
-    Shortcut{Key::home, false, looking, "home: three sides of the scene",
+    Shortcut{Key::home, false, looking, "show the scene from three sides",
              [](State& s) { s.controls.set_mode(NavigationMode::orbit); s.controls.home(); }},
-    Shortcut{Key::u, false, looking, "another axis is up", next_up},
+    Shortcut{Key::u, false, looking, "change the up axis", next_up},
     Shortcut{Key::digit_1, false, views, "front", look_from<NamedView::front>},
     Shortcut{Key::digit_2, false, views, "back", look_from<NamedView::back>},
     Shortcut{Key::digit_3, false, views, "left", look_from<NamedView::left>},
@@ -75,32 +76,32 @@ const std::array table = {
              look_from<NamedView::three_quarter_left>},
     Shortcut{Key::digit_9, false, views, "three-quarter from behind",
              look_from<NamedView::three_quarter_back>},
-    Shortcut{Key::left_bracket, false, views, "the recorded camera before",
+    Shortcut{Key::left_bracket, false, views, "previous recorded camera",
              [](State& s) { step_recorded(s, -1); }},
-    Shortcut{Key::right_bracket, false, views, "the next recorded camera",
+    Shortcut{Key::right_bracket, false, views, "next recorded camera",
              [](State& s) { step_recorded(s, 1); }},
     Shortcut{Key::c, false, views, "photograph: off, split, alone, difference", next_comparison},
-    Shortcut{Key::v, false, views, "the next debug view", next_debug_view},
+    Shortcut{Key::v, false, views, "next debug view", next_debug_view},
     Shortcut{Key::k, false, images, "add this view to the camera path",
              [](State& s) { s.ask(AddKeyframe{}); }},
-    Shortcut{Key::space, false, images, "play the camera path, or stop it",
+    Shortcut{Key::space, false, images, "play or stop the camera path",
              [](State& s) {
                if (s.animation.path.empty())
-                 s.messages.note("There is no camera path yet: K adds the view to one", s.now);
+                 s.messages.note("There is no camera path: press K to add the view to one", s.now);
                s.animation.toggle();
              }},
     Shortcut{Key::s, true, images, "save the image",
              [](State& s) { s.ask(TakeImage{s.image.window_size ? glm::ivec2(0) : s.image.size,
                                               s.image.transparent}); }},
-    Shortcut{Key::c, true, images, "copy the command that draws it without a window",
+    Shortcut{Key::c, true, images, "copy the tureen render command for the image",
              [](State& s) { s.ask(CopyCommand{}); }},
     Shortcut{Key::o, true, window, "open a file", [](State& s) { s.show_files = !s.show_files; }},
     Shortcut{Key::h, false, window, "hide or show the panels",
              [](State& s) { s.show_interface = !s.show_interface; }},
-    Shortcut{Key::f1, false, window, "this list", [](State& s) { s.show_keys = !s.show_keys; }},
+    Shortcut{Key::f1, false, window, "list of keys", [](State& s) { s.show_keys = !s.show_keys; }},
     Shortcut{Key::f5, false, window, "read the file again", [](State& s) { s.ask(ReloadScene{}); }},
-    Shortcut{Key::f11, false, window, "the whole screen", [](State& s) { s.ask(ToggleFullscreen{}); }},
-    Shortcut{Key::escape, false, window, "close what lies over the image",
+    Shortcut{Key::f11, false, window, "full screen", [](State& s) { s.ask(ToggleFullscreen{}); }},
+    Shortcut{Key::escape, false, window, "close lists over the image",
              [](State& s) { s.show_keys = s.show_files = false; }},
     Shortcut{Key::q, true, window, "quit", [](State& s) { s.ask(Quit{}); }},
 };

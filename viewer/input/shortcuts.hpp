@@ -1,4 +1,4 @@
-// The keys, in one table: what each does, and how the list of keys calls it.
+// The table of keys: the action of each and its text in the list of keys.
 #pragma once
 
 #include <span>
@@ -18,7 +18,7 @@ struct Shortcut {
 
 std::span<const Shortcut> shortcuts();
 
-/// Runs what the key means; whether it means anything.
+/// Runs the action of the key. Returns whether it has one.
 bool run_shortcut(Key key, bool control, State& state);
 
 }  // namespace tureen::viewer

@@ -1,4 +1,4 @@
-// The image against the photograph of the same camera.
+// Compares the image with the photograph of the same camera.
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
 
@@ -7,8 +7,8 @@ namespace tureen::viewer {
 void comparison_panel(State& state) {
   if (!state.photographs) {
     aside(
-        "Drop a dataset on the window (COLMAP, transforms.json) to look through its cameras and "
-        "compare with its photographs.");
+        "Drop a dataset on the window (COLMAP, transforms.json) to use its cameras and to compare "
+        "with its photographs.");
     return;
   }
   Comparison& comparison = state.comparison;
@@ -24,11 +24,11 @@ void comparison_panel(State& state) {
 
   const Photograph* photograph = state.photograph();
   if (!photograph) {
-    aside("Go to a recorded camera with [ and ]: photographs are compared from there alone.");
+    aside("Select a recorded camera with [ and ] to compare with its photograph.");
     return;
   }
   const bool training = std::size_t(state.recorded) < state.photographs->train_count;
-  aside(photograph->camera.name + (training ? ", which it was trained on" : ", held out"));
+  aside(photograph->camera.name + (training ? ", used for training" : ", held out"));
   if (comparison.result) {
     const Metrics& metrics = comparison.result->metrics;
     text("PSNR {:.2f} dB, SSIM {:.4f}", metrics.psnr_db, metrics.ssim);

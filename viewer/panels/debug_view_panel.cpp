@@ -1,4 +1,4 @@
-// What of the soup is shown: its colours, or what is behind them.
+// Selects the final colour or a debug view.
 #include <algorithm>
 
 #include "viewer/panels.hpp"
@@ -14,7 +14,7 @@ void feature_choice(FeatureChoice& choice, int count) {
   ImGui::SameLine();
   ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
   ImGui::SliderInt("at once", &choice.count, 1, 3, "%d", ImGuiSliderFlags_AlwaysClamp);
-  tip("One as grey, two or three as red, green and blue");
+  tip("One feature as grey, two or three as red, green and blue");
   choice.count = std::min(choice.count, count - choice.first);
 }
 
@@ -38,7 +38,7 @@ void debug_view_panel(State& state) {
     }
     ImGui::EndCombo();
   }
-  tip("V goes on to the next");
+  tip("V selects the next one");
   aside(current.meaning);
   if (debug_view.what == DebugView::features)
     feature_choice(debug_view.features, feature_count(soup));

@@ -1,4 +1,4 @@
-// How it is drawn: the plan in words, and what can be switched to see what it costs.
+// The plan in words, and switches for its parts, to see their cost.
 #include "runtime/plan/plan_description.hpp"
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
@@ -15,14 +15,14 @@ bool sampling(DrawingChoice& choice, const Scene& scene) {
     int supersampling;
   } samplings[] = {{"a quarter of the resolution", 0.25, 1},
                    {"half the resolution", 0.5, 1},
-                   {"three quarters of it", 0.75, 1},
+                   {"three quarters of the resolution", 0.75, 1},
                    {"once a pixel", 1, 1},
                    {"2 x 2 a pixel", 1, 2},
                    {"3 x 3 a pixel", 1, 3},
                    {"4 x 4 a pixel", 1, 4},
                    {"8 x 8 a pixel", 1, 8}};
   const Quality quality = quality_of(choice, scene);
-  const char* current = "as asked for";
+  const char* current = "as requested";
   for (const auto& each : samplings)
     if (Quality{each.scale, each.supersampling} == quality) current = each.name;
   bool changed = false;
@@ -37,13 +37,13 @@ bool sampling(DrawingChoice& choice, const Scene& scene) {
   return changed;
 }
 
-/// The specialisations of this plan, each to be turned off: to see what it costs, or to look for a
-/// fault.
+/// Switches for the specialisations of this plan: to see the gain of each, or to locate a fault.
+/// Returns whether the choice changed.
 bool specialisations(DrawingChoice& choice, const RenderPlan& plan) {
   bool changed = false;
   for (const SpecialisationName& entry : specialisation_names()) {
     const bool allowed = choice.plan.specialisations.has(entry.what);
-    if (allowed && !plan.applies(entry.what)) continue;  // nothing of it in this scene
+    if (allowed && !plan.applies(entry.what)) continue;  // does not apply to this scene
     bool out = allowed;
     if (!ImGui::Checkbox(entry.title, &out)) continue;
     if (out)
@@ -62,11 +62,11 @@ void drawing_panel(State& state) {
   DrawingChoice choice = state.wanted;
   bool changed = sampling(choice, *stage.scene);
   bool baseline = choice.pipeline == PipelineKind::baseline;
-  if (ImGui::Checkbox("the baseline", &baseline)) {
+  if (ImGui::Checkbox("baseline", &baseline)) {
     choice.pipeline = baseline ? PipelineKind::baseline : PipelineKind::tureen;
     changed = true;
   }
-  tip("A likeness of the viewer that was published with DiffSoup: the baseline");
+  tip("A reimplementation of the published DiffSoup viewer");
   if (!baseline) {
     changed |= ImGui::Checkbox("specialise for the scene", &choice.plan.specialise);
     if (choice.plan.specialise) {

@@ -1,5 +1,5 @@
-// A window to pick a file or a folder in; typed paths count as well.
-// clang-format off: the second header wants the first
+// A window to select a file or a folder, or to type a path.
+// clang-format off: the second header needs the first
 #include <imgui/imgui.h>
 #include <imgui/imgui_stdlib.h>
 // clang-format on
@@ -21,14 +21,14 @@ void open(State& state, const fs::path& path) {
   state.show_files = false;
 }
 
-/// Beside the scene, or where the program was started.
+/// The folder of the scene, otherwise the working folder.
 fs::path first_folder(const State& state) {
   std::error_code ignored;
   return state.stage ? fs::absolute(state.stage->path, ignored).parent_path()
                      : fs::current_path(ignored);
 }
 
-/// The folder that was asked for; empty where none was.
+/// Returns the selected folder, empty if none.
 fs::path folder_buttons(State& state) {
   fs::path next;
   if (ImGui::Button("Up")) next = state.files.folder.parent_path();
@@ -38,14 +38,14 @@ fs::path folder_buttons(State& state) {
   return next;
 }
 
-/// Likewise.
+/// Returns the selected folder, empty if none.
 fs::path entries(State& state) {
   fs::path next;
   const FileList& files = state.files;
   ImGui::BeginChild("list", {0, -2 * ImGui::GetFrameHeightWithSpacing()}, true);
   if (!files.trouble.empty()) aside(files.trouble);
   if (files.entries.empty() && files.trouble.empty())
-    aside("No folder here, and no file that can be shown.");
+    aside("This folder has no scenes, datasets or folders.");
   for (const FileEntry& entry : files.entries) {
     const std::string name = entry.path.filename().string() + (entry.is_folder ? "/" : "");
     if (!ImGui::Selectable(name.c_str())) continue;
@@ -54,7 +54,7 @@ fs::path entries(State& state) {
     else
       open(state, entry.path);
   }
-  if (files.cut) aside("There is more; type the path.");
+  if (files.cut) aside("The list is incomplete: type the path.");
   ImGui::EndChild();
   return next;
 }

@@ -1,5 +1,5 @@
-// Images to keep, and the command that makes the same without a window.
-// clang-format off: the second header wants the first
+// Saves images, and copies the command that draws the same image without a window.
+// clang-format off: the second header needs the first
 #include <imgui/imgui.h>
 #include <imgui/imgui_stdlib.h>
 // clang-format on
@@ -18,19 +18,19 @@ void image_panel(State& state) {
   if (!wish.window_size) {
     ImGui::SetNextItemWidth(10 * ImGui::GetFontSize());
     ImGui::InputInt2("pixels", &wish.size.x);
-    // What readers of images take (image/png.hpp).
+    // The limit of image readers (image/png.hpp).
     wish.size = glm::clamp(wish.size, 1, max_image_side);
-    tip("Any size, beyond the window's and the device's: it is drawn in tiles");
+    tip("Any size: larger images than the device's limit are drawn in tiles");
   }
   ImGui::Checkbox("transparent background", &wish.transparent);
   ImGui::SetNextItemWidth(14 * ImGui::GetFontSize());
   ImGui::InputTextWithHint("folder", images_folder().string().c_str(), &state.settings.images);
   if (ImGui::Button("Save the image"))
     state.ask(TakeImage{wish.window_size ? glm::ivec2(0) : wish.size, wish.transparent});
-  tip("Ctrl+S; a new name each time");
+  tip("Ctrl+S; each image gets a new name");
   ImGui::SameLine();
   if (ImGui::Button("Copy the command")) state.ask(CopyCommand{});
-  tip("Ctrl+C: tureen render .. that draws this image without a window");
+  tip("Ctrl+C: the tureen render command that draws this image without a window");
 }
 
 }  // namespace tureen::viewer

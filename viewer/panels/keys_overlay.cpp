@@ -34,9 +34,9 @@ void keys_overlay(State& state) {
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoMove);
   if (ImGui::BeginTable("keys", 2)) {
     title("Pointer");
-    row("left drag", "turn the scene; flying, turn the head");
-    row("right, middle, Shift+left", "move the scene along");
-    row("wheel", "nearer and farther; flying, the speed");
+    row("left drag", "turn the scene; in fly mode, the camera");
+    row("right, middle, Shift+left", "move the scene");
+    row("wheel", "distance; in fly mode, speed");
     title("Flying");
     row("W A S D, Q E", "forward, left, back, right, down, up");
     row("with Shift, with Alt", "fast, slow");

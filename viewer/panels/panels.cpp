@@ -9,7 +9,7 @@ namespace tureen::viewer {
 
 namespace {
 
-/// In letters' heights, so that it grows with the font: wide enough for a line of plan.
+/// In font heights, so that it scales with the font. Wide enough for a line of the plan.
 constexpr float column_width = 25;
 
 template <class Draw>
@@ -27,7 +27,7 @@ void section(const char* title, bool open, Draw draw) {
 
 double panels_width(const State& state, double window_width) {
   if (!state.stage || !state.show_interface) return 0;
-  // A window too narrow for both keeps half of it for the image.
+  // In a narrow window, half of the width remains for the image.
   return std::floor(std::min(double(column_width) * ImGui::GetFontSize(), 0.5 * window_width));
 }
 

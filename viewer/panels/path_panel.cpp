@@ -1,5 +1,5 @@
 // Camera paths: keyframes, playing, turntables, files, animations.
-// clang-format off: the second header wants the first
+// clang-format off: the second header needs the first
 #include <imgui/imgui.h>
 #include <imgui/imgui_stdlib.h>
 // clang-format on
@@ -16,7 +16,7 @@ namespace tureen::viewer {
 
 namespace {
 
-/// A path of hours is a mistake.
+/// Longest path, in seconds.
 constexpr double longest = 3600;
 
 void play_row(Animation& animation) {
@@ -40,7 +40,7 @@ void loop_row(Animation& animation) {
   ImGui::SameLine();
   auto seconds = static_cast<float>(animation.path.data().loop_seconds);
   ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
-  if (ImGui::DragFloat("seconds around", &seconds, 0.05f, 0.1f, float(longest), "%.2f",
+  if (ImGui::DragFloat("seconds a loop", &seconds, 0.05f, 0.1f, float(longest), "%.2f",
                        ImGuiSliderFlags_AlwaysClamp))
     animation.path.set_loop_seconds(seconds);
 }
@@ -59,7 +59,7 @@ void keyframe_row(State& state, std::size_t index) {
   ImGui::SameLine();
   auto seconds = static_cast<float>(keyframe.seconds);
   ImGui::SetNextItemWidth(5 * ImGui::GetFontSize());
-  // Between its neighbours: past them the row would become another's.
+  // Between its neighbours, so that the rows keep their order.
   const auto& all = animation.path.data().keyframes;
   const double earliest = index > 0 ? all[index - 1].seconds : 0;
   const double latest = index + 1 < all.size() ? all[index + 1].seconds : longest;
@@ -69,7 +69,7 @@ void keyframe_row(State& state, std::size_t index) {
     moved_to = std::clamp(double(seconds), earliest, latest);
   ImGui::SameLine();
   const bool replaced = ImGui::SmallButton("this view");
-  tip("The keyframe becomes the view of now");
+  tip("Replaces the keyframe by the current view");
   ImGui::SameLine();
   const bool removed = ImGui::SmallButton("remove");
   ImGui::PopID();
@@ -94,7 +94,7 @@ void file_row(State& state) {
   ImGui::SameLine();
   if (ImGui::Button("Load"))
     state.ask(LoadPath{animation.file.empty() ? "path.json" : animation.file});
-  tip("Every tool that takes cameras takes this file: tureen render SCENE --path path.json");
+  tip("All commands with cameras read this file: tureen render SCENE --path path.json");
 }
 
 void animation_rows(State& state) {
@@ -117,7 +117,7 @@ void animation_rows(State& state) {
   ImGui::SameLine();
   auto rate = static_cast<float>(animation.frames_per_second);
   ImGui::SetNextItemWidth(4 * ImGui::GetFontSize());
-  if (ImGui::DragFloat("a second", &rate, 0.1f, 1, 240, "%.0f", ImGuiSliderFlags_AlwaysClamp))
+  if (ImGui::DragFloat("frames/s", &rate, 0.1f, 1, 240, "%.0f", ImGuiSliderFlags_AlwaysClamp))
     animation.frames_per_second = rate;
   if (ImGui::Button("Write the animation")) state.ask(WriteAnimation{});
   if (state.writing) {
@@ -134,14 +134,14 @@ void path_panel(State& state) {
   tip("K");
   ImGui::SameLine();
   if (ImGui::Button("Turntable")) state.ask(MakeTurntable{});
-  tip("Once around the target from here, in so many seconds; replaces the path");
+  tip("One turn around the target from this view, in this number of seconds; replaces the path");
   ImGui::SameLine();
   auto seconds = static_cast<float>(animation.turn_seconds);
   ImGui::SetNextItemWidth(5 * ImGui::GetFontSize());
   if (ImGui::DragFloat("s##turn", &seconds, 0.05f, 0.5f, 600, "%.1f", ImGuiSliderFlags_AlwaysClamp))
     animation.turn_seconds = seconds;
   if (animation.path.empty()) {
-    aside("Views in a row become a smooth path: look from somewhere, add, go on.");
+    aside("Add views: they become a smooth camera path.");
   } else {
     play_row(animation);
     loop_row(animation);

@@ -1,4 +1,4 @@
-// The photograph, or the map of differences, over the part of the image that it shows.
+// Draws the photograph or the map of differences over its part of the image.
 #include <algorithm>
 
 #include "viewer/panels.hpp"
@@ -8,10 +8,10 @@ namespace tureen::viewer {
 
 namespace {
 
-/// The divider can be taken within so many points.
+/// Distance from the divider within which a drag moves it, in points.
 constexpr float grip = 6;
 
-/// A drag of the divider over an image of this size; where it is, in points.
+/// Moves the divider by a drag. Returns its position in points. `window`: size of the image.
 float divider(Comparison& comparison, ImVec2 window) {
   const auto x = static_cast<float>(comparison.divider) * window.x;
   ImGui::SetNextWindowPos({x - grip, 0});
@@ -55,7 +55,7 @@ void photograph_overlay(State& state) {
   if (!*texture) return;
   const float edge = split ? divider(comparison, window) : window.x;
   list.PushClipRect({0, 0}, {edge, window.y});
-  // What is transparent in the photograph lies over the scene's background.
+  // Transparent parts of the photograph show the scene's background.
   const glm::vec3 back = state.stage->scene->info.background;
   list.AddRectFilled(low, high, ImGui::GetColorU32(ImVec4(back.r, back.g, back.b, 1)));
   list.AddImage(texture->id(), low, high);

@@ -1,5 +1,4 @@
-// What is shown: where it comes from, what it is made of, what it takes; and the ways to other
-// scenes.
+// The scene: path, contents, memory and notes; buttons to open others.
 #include <filesystem>
 
 #include "viewer/panels.hpp"
@@ -12,7 +11,7 @@ namespace {
 void recent_menu(State& state) {
   if (ImGui::Button("Recent")) ImGui::OpenPopup("recent");
   if (!ImGui::BeginPopup("recent")) return;
-  if (state.settings.recent.empty()) aside("nothing yet");
+  if (state.settings.recent.empty()) aside("none");
   for (const std::string& path : state.settings.recent)
     if (ImGui::MenuItem(path.c_str())) state.ask(OpenPath{path});
   ImGui::EndPopup();
@@ -38,7 +37,7 @@ void scene_panel(State& state) {
   recent_menu(state);
   ImGui::SameLine();
   if (ImGui::Button("Read again")) state.ask(ReloadScene{});
-  tip("F5; a file that changes on the disk is read again by itself");
+  tip("F5; a file that changes on disk is read again automatically");
 }
 
 }  // namespace tureen::viewer

@@ -1,4 +1,4 @@
-// A line at the lower left: what a drag does, and what is going on.
+// A line at the lower left: the navigation mode, and the progress of jobs.
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
 

@@ -1,4 +1,4 @@
-// How long frames take.
+// Frame times.
 #include <algorithm>
 #include <vector>
 
@@ -45,7 +45,7 @@ void graph(const std::vector<FrameParts>& frames) {
 void times_panel(State& state, const FrameClock& clock) {
   const std::vector<FrameParts>& frames = clock.frames();
   if (frames.empty()) {
-    aside("Nothing has been drawn.");
+    aside("No frame has been drawn.");
   } else {
     std::vector<double> device, processor;
     for (const FrameParts& frame : frames) {
@@ -53,7 +53,7 @@ void times_panel(State& state, const FrameClock& clock) {
       processor.push_back(frame.processor_ms);
     }
     graph(frames);
-    paragraph(fmt::format("drawing {:.2f} ms (blue), asking for it {:.2f} ms", median(device),
+    paragraph(fmt::format("device {:.2f} ms (blue), processor {:.2f} ms", median(device),
                           median(processor)));
     aside(fmt::format("medians of the last {} frames; a frame is drawn when something changes",
                       frames.size()));
@@ -61,10 +61,10 @@ void times_panel(State& state, const FrameClock& clock) {
       aside(fmt::format("{}: {:.3f} ms", pass.pass, pass.ms));
     if (clock.why_no_passes()) aside(*clock.why_no_passes());
   }
-  ImGui::Checkbox("draw all the time", &state.draw_continuously);
-  tip("To watch times; otherwise the window rests when nothing moves");
+  ImGui::Checkbox("draw continuously", &state.draw_continuously);
+  tip("To measure times; otherwise the window draws only when something changes");
   ImGui::SameLine();
-  ImGui::Checkbox("wait for the screen", &state.settings.vsync);
+  ImGui::Checkbox("vsync", &state.settings.vsync);
 }
 
 }  // namespace tureen::viewer

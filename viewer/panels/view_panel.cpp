@@ -1,4 +1,4 @@
-// Where the eye is and how it moves.
+// The camera's position and navigation.
 #include <algorithm>
 
 #include "viewer/axes.hpp"
@@ -13,10 +13,10 @@ namespace {
 void mode_buttons(CameraControls& controls) {
   int mode = static_cast<int>(controls.mode());
   ImGui::RadioButton("orbit", &mode, static_cast<int>(NavigationMode::orbit));
-  tip("A drag turns the scene, the wheel comes nearer. Tab changes");
+  tip("A drag turns the scene, the wheel changes the distance. Tab changes the mode");
   ImGui::SameLine();
   ImGui::RadioButton("fly", &mode, static_cast<int>(NavigationMode::fly));
-  tip("A drag turns the head, W A S D Q E fly, the wheel sets the speed. Tab changes");
+  tip("A drag turns the camera, W A S D Q E fly, the wheel sets the speed. Tab changes the mode");
   controls.set_mode(static_cast<NavigationMode>(mode));
   ImGui::SameLine();
   aside(fmt::format("{:.3g} units a second", controls.speed()));
@@ -31,12 +31,12 @@ void up_menu(State& state) {
         controls.set_up(axis);
     ImGui::EndCombo();
   }
-  tip(describe(state.stage->up) + ". U changes");
+  tip(describe(state.stage->up) + ". U changes it");
 }
 
 void view_menu(CameraControls& controls) {
   ImGui::SetNextItemWidth(10 * ImGui::GetFontSize());
-  if (!ImGui::BeginCombo("##views", "look from ..")) return;
+  if (!ImGui::BeginCombo("##views", "view from ..")) return;
   for (const NamedView view : named_views)
     if (ImGui::Selectable(name_of(view))) {
       controls.set_mode(NavigationMode::orbit);
@@ -49,7 +49,7 @@ void recorded_slider(State& state) {
   const auto cameras = state.recorded_cameras();
   if (cameras.empty()) return;
   int index = std::min(state.recorded, int(cameras.size()) - 1);
-  // The slider takes a printf format, and names come from files.
+  // The slider needs a printf format, but names come from files, so "%" is escaped.
   std::string name = index < 0 ? "none" : fmt::format("{}: ", index);
   if (index >= 0)
     for (const char letter : cameras[std::size_t(index)]->name)
@@ -58,7 +58,7 @@ void recorded_slider(State& state) {
   if (ImGui::SliderInt("recorded", &index, 0, int(cameras.size()) - 1, name.c_str(),
                        ImGuiSliderFlags_AlwaysClamp))
     state.ask(ShowRecorded{index});
-  tip("The cameras of the dataset, or of the scene. [ and ] go through them");
+  tip("The cameras of the dataset, or of the scene. [ and ] select them");
 }
 
 }  // namespace
@@ -70,7 +70,7 @@ void view_panel(State& state) {
   ImGui::SameLine();
   up_menu(state);
   if (ImGui::Button("Frame")) run_shortcut(Key::f, false, state);
-  tip("F: all of the scene in the image");
+  tip("F: show the whole scene");
   ImGui::SameLine();
   if (ImGui::Button("Reset")) run_shortcut(Key::r, false, state);
   tip("R: the first view");

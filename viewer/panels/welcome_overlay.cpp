@@ -1,4 +1,4 @@
-// What a window without a scene says.
+// The text in a window without a scene.
 #include "viewer/panels.hpp"
 #include "viewer/panels/widgets.hpp"
 
@@ -15,15 +15,15 @@ void welcome_overlay(State& state) {
     text("{} ..", state.busy->what);
     ImGui::ProgressBar(float(state.busy->fraction), {-1, 0});
   } else {
-    paragraph("Drop a scene on the window, or a folder.");
+    paragraph("Drop a scene or a folder on the window.");
     aside(
-        ".glb, .gltf, .off, .ply, .obj, .pt, a DiffSoup export, a MobileNeRF scene; a dataset of "
-        "photographs (COLMAP, transforms.json) beside it.");
+        "Formats: .glb, .gltf, .off, .ply, .obj, .pt, DiffSoup exports, MobileNeRF scenes. "
+        "Datasets of photographs: COLMAP, transforms.json.");
     ImGui::Spacing();
     if (ImGui::Button("Open ..")) state.show_files = true;
     if (!state.settings.recent.empty()) {
       ImGui::Spacing();
-      aside("Opened lately:");
+      aside("Recent scenes:");
       for (const std::string& path : state.settings.recent)
         if (ImGui::Selectable(path.c_str())) state.ask(OpenPath{path});
     }

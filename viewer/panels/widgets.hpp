@@ -1,4 +1,4 @@
-// Small things that several panels are made of.
+// Widgets that several panels use.
 #pragma once
 
 #include <fmt/format.h>
@@ -18,21 +18,21 @@ void text(fmt::format_string<Args...> format, Args&&... args) {
   ImGui::TextUnformatted(line.data(), line.data() + line.size());
 }
 
-/// Broken between words at the panel's edge.
+/// Text that wraps between words at the panel's edge.
 inline void paragraph(const std::string& words) {
   ImGui::PushTextWrapPos(0);
   ImGui::TextUnformatted(words.data(), words.data() + words.size());
   ImGui::PopTextWrapPos();
 }
 
-/// Dimmed: what explains, and what is not there.
+/// Dimmed text, for explanations and missing data.
 inline void aside(const std::string& words) {
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   paragraph(words);
   ImGui::PopStyleColor();
 }
 
-/// Shown while the pointer rests on the last thing drawn.
+/// A tooltip of the previous item.
 inline void tip(const std::string& words) {
   if (!ImGui::IsItemHovered()) return;
   ImGui::BeginTooltip();
@@ -42,7 +42,7 @@ inline void tip(const std::string& words) {
   ImGui::EndTooltip();
 }
 
-/// What colours mean, a row each.
+/// The legend of colours, one row each.
 inline void legend_rows(const Legend& legend) {
   for (const LegendEntry& entry : legend) {
     const glm::vec4 color = glm::vec4(entry.color) / 255.0f;
@@ -54,7 +54,7 @@ inline void legend_rows(const Legend& legend) {
   }
 }
 
-/// Greys what is drawn until its end.
+/// Disables and greys the items drawn in its scope.
 class Disabled {
  public:
   explicit Disabled(bool disabled) { ImGui::BeginDisabled(disabled); }

@@ -1,0 +1,178 @@
+#include "cli/files/images.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/output.hpp"
+#include "cli/files/contact_sheet.hpp"
+#include "cli/files/image_file.hpp"
+#include "cli/progress.hpp"
+#include "image/png_rows.hpp"
+#include "image/video_file.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+double timed_draw(const Drawer& drawer, const Camera& camera) {
+  const auto start = std::chrono::steady_clock::now();
+  drawer.draw(camera);
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
+}
+
+/// Whether an image is beyond what the device draws, or so large that its targets would fill
+/// memory. Never with a resolution scale, which tiles do not have.
+bool needs_tiles(const Drawer& drawer, const gl::Capabilities& device, const Camera& camera) {
+  if (drawer.resolution_scale < 1) return false;
+  constexpr std::int64_t max_samples = std::int64_t(1) << 26;  // a gibibyte of targets
+  const std::int64_t columns = std::int64_t(camera.width) * drawer.supersampling;
+  const std::int64_t rows = std::int64_t(camera.height) * drawer.supersampling;
+  return std::max(columns, rows) > device.max_image_side || columns * rows > max_samples;
+}
+
+/// The same view no larger than a thumbnail.
+Camera small_view(const Camera& camera) {
+  constexpr int cell = 320;  // as contact_sheet has it
+  const double scale = std::min(1.0, double(cell) / std::max(camera.width, camera.height));
+  const auto side = [&](int s) { return std::max(1, int(std::lround(s * scale))); };
+  return resampled(camera, side(camera.width), side(camera.height));
+}
+
+/// An image that the device draws at once; returns its thumbnail.
+Image8 draw_whole(const Drawer& drawer, const Camera& camera, const std::filesystem::path& path,
+                  FrameTimes& times) {
+  times.ms.push_back(timed_draw(drawer, camera));
+  const Image8 image = drawer.read();
+  write_image(image, path);
+  return thumbnail(image);
+}
+
+/// An image beyond that: written row by row, in some 400 MiB whatever its size.
+Image8 draw_large(const Drawer& drawer, const Camera& camera, const std::filesystem::path& path,
+                  FrameTimes& times, const std::function<void(double)>& progress) {
+  times.ms.push_back(0);
+  ImageTiles tiles = drawer.tiles();
+  tiles.draw = [&](const Camera& part) {
+    times.ms.back() += timed_draw(drawer, part);
+    return drawer.read();
+  };
+  tiles.progress = progress;
+  Output output(path);
+  PngRows rows(output, camera.width, camera.height);
+  draw_in_bands(camera, tiles, [&](const Image8& band) { rows.append(band); });
+  rows.finish();
+  output.commit();
+  drawer.draw(small_view(camera));
+  return drawer.read();
+}
+
+}  // namespace
+
+double FrameTimes::median() const {
+  std::vector<double> sorted = ms;
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t half = sorted.size() / 2;
+  return sorted.size() % 2 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
+}
+
+double FrameTimes::p95() const {
+  std::vector<double> sorted = ms;
+  std::sort(sorted.begin(), sorted.end());
+  return sorted[(sorted.size() * 95 + 99) / 100 - 1];
+}
+
+Drawer drawer_of(Renderer& renderer, const gl::Capabilities& device) {
+  return {.draw =
+              [&renderer](const Camera& camera) {
+                renderer.draw(camera);
+                renderer.finish();
+              },
+          .read = [&renderer] { return renderer.read_color(); },
+          .tiles = [&renderer, &device] { return tiles_of(renderer, device); },
+          .supersampling = renderer.plan().quality.supersampling,
+          .resolution_scale = renderer.plan().quality.resolution_scale};
+}
+
+Drawer drawer_of(DebugViewRenderer& debug_renderer, const gl::Capabilities& device) {
+  return {.draw =
+              [&debug_renderer](const Camera& camera) {
+                debug_renderer.draw(camera);
+                debug_renderer.finish();
+              },
+          .read = [&debug_renderer] { return debug_renderer.read_color(); },
+          .tiles = [&debug_renderer, &device] { return tiles_of(debug_renderer, device); }};
+}
+
+WrittenImages draw_images(const Drawer& drawer, const gl::Capabilities& device,
+                          const std::vector<Camera>& cameras, const ImageNames& names) {
+  const bool with_sheet = cameras.size() > 1 && names.sheet == Sheet::of_several;
+  const int count = int(cameras.size());
+  WrittenImages result;
+  std::vector<Image8> thumbnails;
+  Progress progress("drawing");
+  // Compiles shaders and, where it is drawn whole, makes the targets; not counted.
+  const Camera& first = cameras.front();
+  drawer.draw(needs_tiles(drawer, device, first) ? small_view(first) : first);
+  for (int i = 0; i < count; ++i) {
+    const auto update = [&](double done) { progress.update((i + done) / count); };
+    update(0);
+    const Camera& camera = cameras[std::size_t(i)];
+    const std::filesystem::path path = image_name(names.pattern, i, count);
+    Image8 small = needs_tiles(drawer, device, camera)
+                       ? draw_large(drawer, camera, path, result.times, update)
+                       : draw_whole(drawer, camera, path, result.times);
+    if (with_sheet) thumbnails.push_back(std::move(small));
+    result.paths.push_back(path.string());
+  }
+  if (with_sheet) {
+    const std::filesystem::path sheet =
+        image_name(names.pattern, 0, count).replace_filename("contact_sheet.png");
+    write_image(contact_sheet(thumbnails), sheet);
+    result.paths.push_back(sheet.string());
+  }
+  return result;
+}
+
+WrittenImages draw_video(const Drawer& drawer, const std::vector<Camera>& cameras,
+                         double frames_per_second, const std::string& path) {
+  const Camera& first = cameras.front();
+  WrittenImages result{{path}, {}};
+  VideoFile video(path, {first.width, first.height, frames_per_second});
+  Progress progress("drawing");
+  drawer.draw(first);  // compiles shaders; not counted
+  for (const Camera& camera : cameras) {
+    progress.update(double(result.times.ms.size()) / double(cameras.size()));
+    result.times.ms.push_back(timed_draw(drawer, camera));
+    video.add(drawer.read());
+  }
+  video.commit();
+  return result;
+}
+
+FrameTimes benchmark(const Drawer& drawer, const gl::Capabilities& device,
+                     const std::vector<Camera>& cameras, int frames) {
+  for (const Camera& camera : cameras)
+    if (needs_tiles(drawer, device, camera))
+      throw UsageError(
+          fmt::format("--frames cannot measure {} x {}: images of this size are drawn in tiles; "
+                      "use a smaller --size",
+                      camera.width, camera.height));
+  const int warm_up = std::clamp(frames, 3, 10);
+  Progress progress("timing");
+  FrameTimes times;
+  for (int i = -warm_up; i < frames; ++i) {
+    const double ms = timed_draw(drawer, cameras[std::size_t(i + warm_up) % cameras.size()]);
+    if (i >= 0) times.ms.push_back(ms);
+    progress.update(double(i + warm_up + 1) / (frames + warm_up));
+  }
+  return times;
+}
+
+}  // namespace tureen::cli

@@ -1,0 +1,12 @@
+#include "cli/files/program_folder.hpp"
+
+namespace tureen::cli {
+
+std::optional<std::filesystem::path> program_folder() {
+  std::error_code failed;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", failed);
+  if (failed) return std::nullopt;
+  return program.parent_path();
+}
+
+}  // namespace tureen::cli

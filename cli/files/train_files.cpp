@@ -1,0 +1,68 @@
+#include "cli/files/train_files.hpp"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/error.hpp"
+#include "base/extension.hpp"
+#include "base/input.hpp"
+#include "cli/options/output_argument.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What is there under the name of a file that is written without being named has to be one of its
+/// kind, or nothing: not a scene, not a dataset, nobody's drawing. One that was cut short is.
+void check_kind(const fs::path& file, std::string_view beginning, const char* kind) {
+  std::error_code error;
+  if (!fs::exists(file, error)) return;
+  Input input = Input::open(file);
+  std::string found(beginning.size(), '\0');
+  found.resize(input.read_some(std::as_writable_bytes(std::span(found))));
+  if (found != beginning.substr(0, found.size()))
+    throw UsageError(file.string() + " exists and is not a " + kind, "choose another name");
+}
+
+void check_log(const TrainingFiles& files) {
+  for (const fs::path& other : {files.scene, files.checkpoint, files.previews, files.lock})
+    if (files.log.lexically_normal() == other.lexically_normal())
+      throw UsageError("--log cannot be " + other.string() + ", which is another output file");
+  // All lines of a log begin so, also one that was cut short.
+  check_kind(files.log, "{\"step\":", "training log");
+}
+
+}  // namespace
+
+TrainingFiles training_files(const fs::path& scene) {
+  if (extension_of(scene) != ".glb")
+    throw UsageError("'" + scene.string() + "' does not end in .glb");
+  const auto beside = [&](const char* extension) {
+    return fs::path(scene).replace_extension(extension);
+  };
+  return {.scene = scene,
+          .checkpoint = beside(".checkpoint"),
+          .log = beside(".jsonl"),
+          .previews = beside(".previews"),
+          .lock = beside(".lock"),
+          .diffsoup_export = {}};
+}
+
+void check_writable(const TrainingFiles& files) {
+  for (const fs::path& file : {files.scene, files.checkpoint, files.log})
+    require_writable_file(file);
+  check_log(files);
+  const fs::path& folder = files.diffsoup_export;
+  if (folder.empty()) return;
+  for (const fs::path& other :
+       {files.scene, files.checkpoint, files.log, files.previews, files.lock})
+    if (folder.lexically_normal() == other.lexically_normal())
+      throw UsageError("--export-diffsoup cannot be " + other.string() +
+                       ", which is another output file");
+  require_writable_export(folder);
+}
+
+}  // namespace tureen::cli

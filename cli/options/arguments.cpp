@@ -1,0 +1,334 @@
+#include "cli/options/arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <system_error>
+#include <type_traits>
+
+#include "base/suggestion.hpp"
+#include "cli/options/retired.hpp"
+#include "cli/report.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+template <class T>
+Check check_between(T least, T most) {
+  return [least, most](const std::string& text) -> std::string {
+    T value{};
+    // Stricter than CLI11, which also accepts hexadecimal numbers such as 0x10.
+    const char* end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, value);
+    // A comparison with what is not a number is false.
+    if (error == std::errc() && rest == end && value >= least && value <= most) return {};
+    return fmt::format("'{}' is not a {}number from {} to {}", text,
+                       std::is_integral_v<T> ? "whole " : "", least, most);
+  };
+}
+
+/// Positional arguments show no type in --help; their names are enough.
+CLI::Option* shown(CLI::Option* option) {
+  if (option->get_positional()) option->type_name("");
+  return option;
+}
+
+/// The text in lines of at most `width` letters, broken between words.
+std::string wrapped(const std::string& text, std::size_t width) {
+  std::string result;
+  std::size_t column = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    if (column > 0 && column + 1 + (end - begin) > width) {
+      result += '\n';
+      column = 0;
+    } else if (column > 0) {
+      result += ' ';
+      ++column;
+    }
+    result.append(text, begin, end - begin);
+    column += end - begin;
+    begin = end + 1;
+  }
+  return result;
+}
+
+/// Help in lines that fit a terminal.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  HelpFormatter() { column_width(26); }
+  std::string make_option_desc(const CLI::Option* option) const override {
+    return wrapped(option->get_description(), 60);
+  }
+};
+
+std::vector<std::string> command_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+/// The command that was named, or the program itself.
+const CLI::App& named_command(const CLI::App& program) {
+  const std::vector<const CLI::App*> commands =
+      program.get_subcommands([](const CLI::App* command) { return command->parsed(); });
+  return commands.empty() ? program : *commands.front();
+}
+
+/// CLI11 would take a mistyped command for an argument too many.
+void require_known_command(const CLI::App& program, const std::vector<std::string>& arguments) {
+  const std::vector<std::string> names = command_names(program);
+  if (names.empty() || arguments.empty() || arguments.front().starts_with('-')) return;
+  const std::string& word = arguments.front();
+  if (std::find(names.begin(), names.end(), word) != names.end()) return;
+  if (const std::string instead = replacement_of(word); !instead.empty())
+    throw UsageError("this version has no command " + word, instead);
+  throw UsageError("there is no command " + word, did_you_mean(word, names));
+}
+
+/// What CLI11 refuses, as an error of ours.
+UsageError explain(const CLI::App& command, const CLI::ParseError& error) {
+  const std::vector<std::string> extras = command.remaining(true);
+  const auto option_of = [](const std::string& extra) { return extra.substr(0, extra.find('=')); };
+  // First the options of earlier versions: the new command line may need other arguments, too.
+  for (const std::string& extra : extras) {
+    const std::string word = option_of(extra);
+    if (const std::string instead = replacement_of(command.get_name(), word); !instead.empty())
+      return UsageError(command.get_name() + " no longer has " + word, instead);
+  }
+  if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
+    for (const std::string& extra : extras) {
+      if (extra.size() < 2 || extra[0] != '-') continue;
+      const std::string word = option_of(extra);
+      std::vector<std::string> known;
+      for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+      return UsageError(command.get_name() + " has no option " + word, did_you_mean(word, known));
+    }
+    if (!extras.empty()) return UsageError("'" + extras.front() + "' is an unexpected argument");
+  }
+  return UsageError(error.what());
+}
+
+/// Throws for the first argument that is there and empty.
+void require_no_empty_argument(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options())
+    // An option with an optional value has an empty one where it is not given.
+    if (const std::vector<std::string>& values = option->results();
+        option->get_items_expected_min() > 0 &&
+        std::find(values.begin(), values.end(), "") != values.end())
+      throw UsageError(option->get_name() + " is empty");
+}
+
+}  // namespace
+
+Check between(int least, int most) { return check_between(least, most); }
+Check between(double least, double most) { return check_between(least, most); }
+
+std::optional<double> number_from(const std::string& text) {
+  double value = 0;
+  if (!CLI::detail::lexical_cast(text, value)) return std::nullopt;
+  return value;
+}
+
+UsageError unknown_word(const std::string& option, const std::string& word,
+                        std::span<const std::string> known) {
+  std::string list;
+  for (const std::string& each : known) list += (list.empty() ? "" : ", ") + each;
+  return UsageError(option + " takes " + list + ", not '" + word + "'", did_you_mean(word, known));
+}
+
+Option Option::required(bool is_required) {
+  option_->required(is_required);
+  return *this;
+}
+
+Option Option::value_name(const std::string& name) {
+  option_->option_text(name);
+  return *this;
+}
+
+Option Option::check(const Check& refusal) {
+  option_->check(refusal);
+  return *this;
+}
+
+Option Option::needs(const Option& other) {
+  option_->needs(other.option_);
+  return *this;
+}
+
+Option Option::excludes(const Option& other) {
+  option_->excludes(other.option_);
+  return *this;
+}
+
+Option Option::split_at_commas() {
+  option_->delimiter(',');
+  return *this;
+}
+
+Option Option::single_argument() {
+  option_->allow_extra_args(false);
+  return *this;
+}
+
+Command Command::add_command(const std::string& name, const std::string& description) {
+  app_->require_subcommand(1);
+  return {app_->add_subcommand(name, description), chosen_};
+}
+
+void Command::footer(const std::string& text) { app_->footer(text); }
+
+Option Command::add_option(const std::string& name, std::string& value, const std::string& help) {
+  return Option(shown(app_->add_option(name, value, help)));
+}
+
+Option Command::add_option(const std::string& name, std::vector<std::string>& values,
+                           const std::string& help) {
+  return Option(shown(app_->add_option(name, values, help)));
+}
+
+Option Command::add_option(const std::string& name, int& value, const std::string& help) {
+  return Option(shown(app_->add_option(name, value, help)));
+}
+
+Option Command::add_option(const std::string& name, std::optional<int>& value,
+                           const std::string& help) {
+  return Option(shown(app_->add_option(name, value, help)));
+}
+
+Option Command::add_option(const std::string& name, std::optional<std::int64_t>& value,
+                           const std::string& help) {
+  return Option(shown(app_->add_option(name, value, help)));
+}
+
+Option Command::add_option(const std::string& name, std::optional<std::uint64_t>& value,
+                           const std::string& help) {
+  return Option(shown(app_->add_option(name, value, help)));
+}
+
+namespace {
+
+CLI::Option* add_finite(CLI::App& app, const std::string& name, std::function<void(double)> store,
+                        const std::string& help) {
+  const auto refuse_others = [name, store = std::move(store)](double value) {
+    if (!std::isfinite(value)) throw UsageError(name + " is not a finite number");
+    store(value);
+  };
+  return shown(app.add_option_function<double>(name, refuse_others, help));
+}
+
+}  // namespace
+
+Option Command::add_option(const std::string& name, double& value, const std::string& help) {
+  return Option(add_finite(
+      *app_, name, [&value](double number) { value = number; }, help));
+}
+
+Option Command::add_option(const std::string& name, std::optional<double>& value,
+                           const std::string& help) {
+  return Option(add_finite(
+      *app_, name, [&value](double number) { value = number; }, help));
+}
+
+Option Command::add_option(const std::string& name, std::function<void(const std::string&)> store,
+                           const std::string& help) {
+  return Option(shown(app_->add_option_function<std::string>(name, store, help)));
+}
+
+Option Command::add_option(const std::string& name,
+                           std::function<void(const std::vector<std::string>&)> store,
+                           const std::string& help) {
+  return Option(shown(app_->add_option_function<std::vector<std::string>>(name, store, help)));
+}
+
+Option Command::add_flag(const std::string& name, bool& value, const std::string& help) {
+  return Option(app_->add_flag(name, value, help));
+}
+
+Option Command::add_flag(const std::string& name, std::function<void()> set,
+                         const std::string& help) {
+  return Option(app_->add_flag_callback(name, std::move(set), help));
+}
+
+void Command::add_text_flag(const std::string& name, std::function<std::string()> text,
+                            const std::string& help) {
+  app_->set_version_flag(name, std::move(text), help);
+}
+
+Option Command::option(const std::string& name) const { return Option(app_->get_option(name)); }
+
+void Command::does(Action action) {
+  app_->callback([chosen = chosen_, action = std::move(action)] { *chosen = action; });
+}
+
+void Command::does_with_rest(std::function<ExitCode(const std::vector<std::string>&)> action) {
+  app_->set_help_flag();
+  app_->prefix_command();
+  app_->callback([app = app_, chosen = chosen_, action = std::move(action)] {
+    *chosen = [action, rest = app->remaining()] { return action(rest); };
+  });
+}
+
+Option add_word_option(Command& command, const std::string& name, std::vector<std::string> words,
+                       std::function<void(std::size_t)> choose, const std::string& help,
+                       RemovedWords removed) {
+  const auto find = [=](const std::string& word) {
+    for (const auto& [known, hint] : removed)
+      if (known == word) throw UsageError(name + " no longer takes '" + word + "'", hint);
+    const auto found = std::find(words.begin(), words.end(), word);
+    if (found == words.end()) throw unknown_word(name, word, words);
+    choose(std::size_t(found - words.begin()));
+  };
+  return command.add_option(name, find, help);
+}
+
+struct CommandLine::State {
+  CLI::App app;
+  Action chosen;
+};
+
+CommandLine::CommandLine(const std::string& name, const std::string& description)
+    : state_(new State{CLI::App(description, name), {}}) {
+  state_->app.formatter(std::make_shared<HelpFormatter>());  // commands inherit it
+}
+
+CommandLine::~CommandLine() = default;
+
+Command CommandLine::program() { return {&state_->app, &state_->chosen}; }
+
+std::string CommandLine::help() const { return state_->app.help(); }
+
+Action CommandLine::parse(std::vector<std::string> arguments) {
+  CLI::App& app = state_->app;
+  require_known_command(app, arguments);
+  std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
+  try {
+    app.parse(std::move(arguments));
+  } catch (const CLI::Success& help_or_text) {
+    std::ostringstream text;
+    app.exit(help_or_text, text);
+    return [text = text.str()] {
+      print_text(text);
+      return ExitCode::done;
+    };
+  } catch (const CLI::ParseError& error) {
+    throw explain(named_command(app), error);
+  }
+  require_no_empty_argument(named_command(app));
+  return state_->chosen;
+}
+
+std::string CommandLine::chosen_command() const {
+  const CLI::App& command = named_command(state_->app);
+  return &command == &state_->app ? "" : command.get_name();
+}
+
+}  // namespace tureen::cli

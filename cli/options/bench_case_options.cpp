@@ -1,0 +1,45 @@
+#include "cli/options/bench_case_options.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include "base/error.hpp"
+#include "base/suggestion.hpp"
+#include "jobs/bench/bench_cases.hpp"
+
+namespace tureen::cli {
+
+void add_case_options(Command& command, BenchCaseArguments& options) {
+  add_drawing_options(command, options.drawing);
+  add_drawing_scale(command, options.drawing);
+  command
+      .add_option(
+          "--only", options.only,
+          "cases to measure, separated by commas: tureen (the plan), tureen-fragment and "
+          "tureen-compute (the plan with --shading), generic (no specialisation), baseline, "
+          "triangles and copy (the ceilings); ratios are relative to the first")
+      .split_at_commas()
+      .single_argument()
+      .value_name("NAME,..");
+  command.add_flag("--ceilings", options.ceilings,
+                   "also measure two ceilings: drawing the triangles with an empty fragment "
+                   "shader, and copying the same number of pixels");
+}
+
+void check(const BenchCaseArguments& options) {
+  const std::span<const std::string> all_names = bench_case_names();
+  for (std::size_t i = 0; i < options.only.size(); ++i) {
+    const std::string& name = options.only[i];
+    if (std::find(all_names.begin(), all_names.end(), name) == all_names.end())
+      throw UsageError(
+          "--only takes tureen, tureen-fragment, tureen-compute, generic, baseline, triangles and "
+          "copy, not '" +
+              name + "'",
+          did_you_mean(name, all_names));
+    if (std::find(options.only.begin(), options.only.begin() + std::ptrdiff_t(i), name) !=
+        options.only.begin() + std::ptrdiff_t(i))
+      throw UsageError("--only names " + name + " twice");
+  }
+}
+
+}  // namespace tureen::cli

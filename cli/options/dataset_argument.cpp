@@ -1,0 +1,79 @@
+#include "cli/options/dataset_argument.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "cli/progress.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+/// A number in (0, 1], which between(), closed at both ends, cannot say.
+std::string refuse_scale(const std::string& text) {
+  if (const auto scale = number_from(text); scale && *scale > 0 && *scale <= 1) return {};
+  return "a scale must be above 0 and at most 1, not " + text;
+}
+
+}  // namespace
+
+Option add_scale_option(Command& command, DatasetArgument& argument) {
+  return command
+      .add_option("--scale", argument.options.scale,
+                  "size of the photographs as a fraction of the original, above 0, 1 by default: "
+                  "0.5 halves both sides, and each pixel is the mean of the pixels it covers")
+      .check(refuse_scale)
+      .value_name("FRACTION");
+}
+
+Option add_dataset_argument(Command& command, DatasetArgument& argument) {
+  const Option dataset =
+      command
+          .add_option("DATASET", argument.path,
+                      "posed photographs: a folder with transforms.json, with "
+                      "transforms_train.json and transforms_test.json, or with a COLMAP model and "
+                      "images")
+          .required();
+  add_scale_option(command, argument);
+  command
+      .add_option("--images", argument.options.images_folder,
+                  "read photographs from the folder images_N, where some datasets have copies N "
+                  "times smaller")
+      .check(between(1, 64))
+      .value_name("N");
+  command
+      .add_option("--test-every", argument.options.test_every,
+                  "use every N-th photograph in name order as a test view, starting with the "
+                  "first, if the dataset has no split; 8 by default")
+      .check(between(2, 1000000))
+      .value_name("N");
+  return dataset;
+}
+
+void require_sides(const DatasetArgument& argument, const Dataset& dataset, SideLimits limits) {
+  for (const auto* views : {&dataset.train, &dataset.test})
+    for (const Photograph& view : *views) {
+      const auto [shorter, longer] = std::minmax(view.camera.width, view.camera.height);
+      if (shorter >= limits.least && longer <= limits.most) continue;
+      const std::string bound = shorter < limits.least ? fmt::format("at least {}", limits.least)
+                                                       : fmt::format("at most {}", limits.most);
+      throw InputError({argument.path, {}, {}},
+                       fmt::format("{} is {} x {} pixels; each side must have {}", view.camera.name,
+                                   view.camera.width, view.camera.height, bound),
+                       longer > limits.most ? "--scale makes it smaller" : "");
+    }
+}
+
+Dataset read(const DatasetArgument& argument, DatasetPart part) {
+  const std::filesystem::path path = argument.path;
+  const std::filesystem::path name = path.has_filename() ? path : path.parent_path();
+  Progress progress("reading photographs of " + name.filename().string());
+  DatasetOptions options = argument.options;
+  options.part = part;
+  options.progress = [&](double fraction) { progress.update(fraction); };
+  return read_dataset(path, options);
+}
+
+}  // namespace tureen::cli

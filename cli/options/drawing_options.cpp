@@ -1,0 +1,92 @@
+#include "cli/options/drawing_options.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace tureen::cli {
+
+namespace {
+
+Specialisation specialisation_of(const std::string& name) {
+  if (const auto known = specialisation_named(name)) return *known;
+  constexpr std::array removed{"transparent-rims", "base-color", "texel-table"};
+  if (std::find(removed.begin(), removed.end(), name) != removed.end())
+    throw UsageError("--keep no longer takes '" + name + "', a specialisation that was removed",
+                     "delete the name");
+  std::vector<std::string> names;
+  for (const SpecialisationName& known : specialisation_names()) names.emplace_back(known.name);
+  throw unknown_word("--keep", name, names);
+}
+
+}  // namespace
+
+void add_context_option(Command& command, gl::Backend& backend) {
+  add_choice<gl::Backend>(command, "--context", backend,
+                          {{"auto", gl::Backend::automatic},
+                           {"egl", gl::Backend::egl},
+                           {"osmesa", gl::Backend::osmesa}},
+                          "source of OpenGL: auto (default: EGL, else OSMesa), egl or osmesa")
+      .value_name("NAME");
+}
+
+void add_drawing_options(Command& command, DrawingOptions& options) {
+  add_context_option(command, options.backend);
+  add_choice<PipelineKind>(
+      command, "--pipeline", options.pipeline,
+      {{"auto", PipelineKind::tureen},
+       {"baseline", PipelineKind::baseline},
+       {"published", PipelineKind::baseline}},
+      "pipeline: auto (default, Tureen's own) or baseline (as in DiffSoup's viewer)")
+      .value_name("NAME");
+  const Option no_specialise = command.add_flag(
+      "--no-specialise", [&options] { options.plan.specialise = false; },
+      "apply no specialisation: also draw and compute the parts that the scene does not need");
+  command
+      .add_option(
+          "--keep",
+          [&options](const std::vector<std::string>& names) {
+            for (const std::string& name : names)
+              options.plan.specialisations =
+                  options.plan.specialisations.without(specialisation_of(name));
+          },
+          "do not apply these specialisations: names from docs/specialisations.md, separated by "
+          "commas, such as alpha-test,background")
+      .value_name("NAMES")
+      .split_at_commas()
+      .single_argument()
+      .excludes(no_specialise);
+  add_choice<ShadingStage>(
+      command, "--shading", options.plan.shading_stage,
+      {{"fragment", ShadingStage::fragment}, {"compute", ShadingStage::compute}},
+      "shader for scenes with one shading per pixel: fragment (default) or compute",
+      {{"measured", "use fragment, the default, or compute"}})
+      .value_name("NAME");
+  command
+      .add_option("--supersample", options.supersampling,
+                  "N x N samples a pixel for smooth edges, 1 to 8; draws N x N times the pixels; "
+                  "the scene's own number by default")
+      .check(between(1, 8))
+      .value_name("N");
+}
+
+void add_drawing_scale(Command& command, DrawingOptions& options) {
+  command
+      .add_option("--scale", options.resolution_scale,
+                  "fraction of the rows and columns to draw before enlarging, 0.25 to 1; below 1 "
+                  "is faster but blurred")
+      .check(between(0.25, 1.0))
+      .excludes(command.option("--supersample"))
+      .value_name("S");
+}
+
+PlanPreferences preferences_for(const Scene& scene, const DrawingOptions& options) {
+  PlanPreferences preferences = options.plan;
+  preferences.quality = scene.quality;
+  // Either replaces the scene's quality as a whole; they exclude each other.
+  if (options.supersampling) preferences.quality = {.supersampling = *options.supersampling};
+  if (options.resolution_scale)
+    preferences.quality = {.resolution_scale = *options.resolution_scale};
+  return preferences;
+}
+
+}  // namespace tureen::cli

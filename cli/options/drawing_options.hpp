@@ -1,0 +1,36 @@
+// How the runtime draws, on the command line: the options that all commands share which draw.
+#pragma once
+
+#include <optional>
+
+#include "cli/options/arguments.hpp"
+#include "jobs/baseline/baseline.hpp"
+#include "runtime/gl/context.hpp"
+#include "runtime/plan/plan.hpp"
+#include "scene/scene.hpp"
+
+namespace tureen::cli {
+
+struct DrawingOptions {
+  gl::Backend backend = gl::Backend::automatic;
+  PipelineKind pipeline = PipelineKind::tureen;
+  PlanPreferences plan = {};
+  std::optional<int> supersampling = {};  // without either, the scene's own quality
+  std::optional<double> resolution_scale = {};
+};
+
+/// The plan's preferences for a scene: with its quality, where none was asked for.
+PlanPreferences preferences_for(const Scene& scene, const DrawingOptions& options);
+
+/// --context. `backend` must live until the arguments are parsed.
+void add_context_option(Command& command, gl::Backend& backend);
+
+/// --context, --pipeline, --no-specialise, --keep, --shading and --supersample. `options` must live
+/// until the arguments are parsed.
+void add_drawing_options(Command& command, DrawingOptions& options);
+
+/// --scale, after add_drawing_options. Not where a dataset's photographs have a --scale of their
+/// own.
+void add_drawing_scale(Command& command, DrawingOptions& options);
+
+}  // namespace tureen::cli

@@ -1,0 +1,28 @@
+// A scene named on the command line: read with progress, refused with a suggestion.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "cli/options/arguments.hpp"
+#include "formats/scene_file.hpp"
+
+namespace tureen::cli {
+
+struct SceneArgument {
+  std::string path;
+  VertexColorSpace vertex_colors = VertexColorSpace::automatic;
+  std::string up;  // empty: the scene's own
+};
+
+/// Adds SCENE (under the name given), which is required, --vertex-colors and --up. `argument` must
+/// live until the arguments are parsed.
+void add_scene_argument(Command& command, SceneArgument& argument, const char* name = "SCENE");
+
+/// Throws InputError, with a suggestion where the path does not exist.
+Scene read(const SceneArgument& argument);
+
+/// Bytes of a file, or of all files of a folder, as far as they can be read.
+std::uint64_t bytes_on_disk(const std::filesystem::path& path);
+
+}  // namespace tureen::cli

@@ -1,0 +1,82 @@
+#include "cli/options/values.hpp"
+
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <glm/common.hpp>
+#include <optional>
+
+#include "base/error.hpp"
+#include "image/png.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+/// Three numbers between commas and nothing else.
+std::optional<glm::dvec3> three_numbers(const std::string& text) {
+  glm::dvec3 result;
+  const char* at = text.c_str();
+  for (int i = 0; i < 3; ++i) {
+    char* end = nullptr;
+    result[i] = std::strtod(at, &end);
+    if (end == at || !std::isfinite(result[i]) || *end != (i < 2 ? ',' : '\0')) return {};
+    at = end + 1;
+  }
+  return result;
+}
+
+std::optional<int> whole_number(const std::string& text, int low, int high) {
+  char* end = nullptr;
+  errno = 0;
+  const long value = std::strtol(text.c_str(), &end, 10);
+  if (text.empty() || *end || errno || value < low || value > high) return {};
+  return int(value);
+}
+
+}  // namespace
+
+ImageSize parse_any_size(const std::string& text) {
+  const std::size_t times = text.find('x');
+  std::optional<int> width, height;
+  if (times != std::string::npos) {
+    width = whole_number(text.substr(0, times), 1, max_image_side);
+    height = whole_number(text.substr(times + 1), 1, max_image_side);
+  }
+  if (!width || !height)
+    throw UsageError("'" + text + "' is not a size",
+                     "write it as 1280x720, each side from 1 to " + std::to_string(max_image_side));
+  return {*width, *height};
+}
+
+ImageSize parse_size(const std::string& text) {
+  const ImageSize size = parse_any_size(text);
+  if (std::size_t(size.width) * std::size_t(size.height) > max_image_pixels)
+    throw UsageError("an image of " + text + " has more than " + std::to_string(max_image_pixels) +
+                     " pixels");
+  return size;
+}
+
+glm::dvec3 parse_vector(const std::string& text) {
+  if (const auto vector = three_numbers(text)) return *vector;
+  throw UsageError("'" + text + "' is not a vector", "write it as 1,-2.5,3");
+}
+
+glm::vec4 parse_background(const std::string& text) {
+  if (text == "white") return glm::vec4(1);
+  if (text == "black") return {0, 0, 0, 1};
+  if (text == "transparent") return glm::vec4(0);
+  const auto color = three_numbers(text);
+  if (!color || *color != glm::clamp(*color, 0.0, 1.0))
+    throw UsageError("'" + text + "' is not a background",
+                     "write white, black, transparent or 0.2,0.4,1");
+  return {glm::vec3(*color), 1};
+}
+
+int parse_integer(const std::string& text, int low, int high) {
+  if (const auto value = whole_number(text, low, high)) return *value;
+  throw UsageError("'" + text + "' is not a whole number from " + std::to_string(low) + " to " +
+                   std::to_string(high));
+}
+
+}  // namespace tureen::cli

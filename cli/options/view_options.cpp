@@ -1,0 +1,224 @@
+#include "cli/options/view_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <glm/geometric.hpp>
+
+#include "base/error.hpp"
+#include "base/existing_path.hpp"
+#include "camera/camera_path.hpp"
+#include "camera/navigation.hpp"
+#include "cli/options/values.hpp"
+#include "formats/dataset/camera_file.hpp"
+#include "formats/scene_file.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double radians_per_degree = 0.017453292519943295;
+constexpr int max_orbit_views = 1000;
+constexpr double default_frames_per_second = 30;
+constexpr double max_frames = 100000;  // an hour of animation; beyond it somebody mistook a unit
+
+/// "FILE:N" split where N is a number or "all"; the whole text is the file where one of that name
+/// exists, colon and all.
+struct CameraArgument {
+  fs::path file;
+  std::string which;
+
+  CameraArgument(const std::string& text, std::string which_without)
+      : file(text), which(std::move(which_without)) {
+    const std::size_t colon = text.rfind(':');
+    if (!is_missing(file) || colon == std::string::npos) return;
+    const std::string suffix = text.substr(colon + 1);
+    const bool digits = !suffix.empty() && std::all_of(suffix.begin(), suffix.end(), [](char c) {
+      return std::isdigit(static_cast<unsigned char>(c)) != 0;
+    });
+    if (!digits && suffix != "all") return;
+    file = text.substr(0, colon);
+    which = suffix;
+  }
+};
+
+CameraFile cameras_in(const fs::path& file, const Scene& scene, const std::string& scene_path) {
+  require_there(file);
+  std::error_code error;
+  if (fs::equivalent(file, scene_path, error)) return {scene.cameras, {}};
+  if (is_camera_file(file)) return read_cameras(file);
+  return {read_scene(file).cameras, {}};
+}
+
+/// The frames of an animation. Throws UsageError where they are too many.
+Views animation(CameraPathData data, const FrameRate& rate) {
+  const CameraPath path(std::move(data));
+  const double count = frame_count(path, rate.frames_per_second);
+  if (count > max_frames)
+    throw UsageError(
+        fmt::format("{:.0f} seconds at {} frames a second are {:.0f} frames, more than "
+                    "{:.0f}",
+                    path.duration(), rate.frames_per_second, count, max_frames));
+  return {frames(path, rate), {}, rate.frames_per_second};
+}
+
+Views animation_along(const fs::path& file, FrameRate rate, const std::optional<ImageSize>& size) {
+  require_there(file);
+  CameraPathData path = read_path(file);
+  const Camera& first = path.keyframes.front().camera;
+  rate.width = size ? size->width : first.width;
+  rate.height = size ? size->height : first.height;
+  return animation(std::move(path), rate);
+}
+
+}  // namespace
+
+Views recorded_views(const std::string& argument, const std::string& which_without,
+                     const Scene& scene, const std::string& scene_path) {
+  const CameraArgument wanted(argument, which_without);
+  CameraFile found = cameras_in(wanted.file, scene, scene_path);
+  if (found.cameras.empty())
+    throw InputError({wanted.file.string(), {}, {}}, "the file has no cameras");
+  if (wanted.which == "all") return {std::move(found.cameras), described(found.remarks)};
+  const int last = int(found.cameras.size()) - 1;
+  // As text first: a number of forty digits is out of range, not malformed.
+  if (wanted.which.size() > 9 || std::stol(wanted.which) > last)
+    throw UsageError(argument + ": cameras are numbered from 0 to " + std::to_string(last));
+  return {{found.cameras[std::size_t(std::stol(wanted.which))]}, described(found.remarks)};
+}
+
+namespace {
+
+void add_animation_options(Command& command, ViewOptions& options) {
+  Option path =
+      command
+          .add_option("--path", options.path,
+                      "draw the frames along a camera path: a JSON file with \"cameras\" and their "
+                      "\"seconds\" (docs/camera-paths.md)")
+          .value_name("FILE.json");
+  for (const char* other : {"--camera", "--eye", "--fov", "--orbit"})
+    path.excludes(command.option(other));
+  Option turntable =
+      command
+          .add_option("--turntable", options.turntable,
+                      "draw the frames of one turn around the up axis, with this duration, like "
+                      "--orbit, or from --eye around --target")
+          .value_name("SECONDS")
+          .check(between(0.001, 36000.0));
+  for (const Option& other : {command.option("--camera"), command.option("--orbit"), path})
+    turntable.excludes(other);
+  command
+      .add_option("--fps", options.frames_per_second,
+                  "frames per second for --path and --turntable, 30 by default")
+      .value_name("N")
+      .check(between(0.01, 1000.0));
+}
+
+}  // namespace
+
+void check(const ViewOptions& options) {
+  if (!options.size.empty()) parse_any_size(options.size);
+  if (options.frames_per_second && !options.is_animation())
+    throw UsageError("--fps needs --path or --turntable");
+}
+
+void add_view_options(Command& command, ViewOptions& options) {
+  command
+      .add_option(
+          "--size", options.size,
+          "width and height in pixels, 1280x720 by default; recorded cameras keep their own size "
+          "by default")
+      .value_name("WxH");
+  const Option camera =
+      command
+          .add_option("--camera", options.camera,
+                      "camera N of a file, counted from 0, or all cameras: a JSON file written by "
+                      "Tureen, NeRF's transforms.json, cameras.json from 3D Gaussian Splatting, "
+                      "the folder of a COLMAP model, or a scene with cameras, such as SCENE")
+          .value_name("FILE[:N|:all]");
+  const Option eye = command
+                         .add_option("--eye", options.eye,
+                                     "eye position in world coordinates; the view direction is "
+                                     "towards --target")
+                         .value_name("X,Y,Z")
+                         .excludes(camera);
+  command
+      .add_option("--target", options.target,
+                  "point in the centre of the image, in world coordinates; the centre of the scene "
+                  "by default")
+      .value_name("X,Y,Z")
+      .needs(eye);
+  command
+      .add_option("--fov", options.fov_degrees,
+                  "full vertical field of view in degrees, 40 by default")
+      .value_name("DEGREES")
+      .check(between(0.1, 179.0))
+      .excludes(camera);
+  command
+      .add_option(
+          "--orbit", options.orbit,
+          "draw N views around the up axis, slightly from above; each shows the whole scene")
+      .value_name("N")
+      .check(between(1, max_orbit_views))
+      .excludes(camera)
+      .excludes(eye);
+  add_animation_options(command, options);
+}
+
+Views resolve_views(const ViewOptions& options, const Scene& scene, const std::string& scene_path) {
+  std::optional<ImageSize> size;
+  if (!options.size.empty()) size = parse_any_size(options.size);
+
+  FrameRate rate;
+  rate.frames_per_second = options.frames_per_second.value_or(default_frames_per_second);
+  if (!options.path.empty()) return animation_along(options.path, rate, size);
+
+  Views views;
+  if (!options.camera.empty()) {
+    views = recorded_views(options.camera, "0", scene, scene_path);
+  } else if (options.eye.empty() && options.orbit == 0 && !options.is_animation() &&
+             !options.fov_degrees && !scene.cameras.empty()) {
+    views.cameras = {scene.cameras.front()};
+  }
+  if (!views.cameras.empty()) {
+    if (size)
+      for (Camera& camera : views.cameras) camera = resized(camera, size->width, size->height);
+    return views;
+  }
+
+  Lens lens;
+  if (size) {
+    lens.width = size->width;
+    lens.height = size->height;
+  }
+  rate.width = lens.width;
+  rate.height = lens.height;
+  if (options.fov_degrees) lens.fov_y = *options.fov_degrees * radians_per_degree;
+  const Subject subject = subject_of(scene);
+  if (!options.eye.empty()) {
+    const glm::dvec3 eye = parse_vector(options.eye);
+    const glm::dvec3 target =
+        options.target.empty() ? subject.centre() : parse_vector(options.target);
+    if (!(glm::length(eye - target) > 0)) throw UsageError("--eye and --target are the same point");
+    views.cameras = {look_at(eye, target, subject.up, lens.fov_y, lens.width, lens.height)};
+    if (options.turntable > 0)
+      return animation(turntable({.first = views.cameras.front(),
+                                  .distance = glm::length(eye - target),
+                                  .up = subject.up,
+                                  .seconds = options.turntable}),
+                       rate);
+  } else if (options.turntable > 0) {
+    return animation(turntable(subject, {0.0, orbit_elevation}, lens, options.turntable), rate);
+  } else if (options.orbit > 0) {
+    views.cameras = orbit(subject, options.orbit, {0.0, orbit_elevation}, lens);
+  } else {
+    views.cameras = {frame(subject, three_quarter_view, lens)};
+  }
+  return views;
+}
+
+}  // namespace tureen::cli

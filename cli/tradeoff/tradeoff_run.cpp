@@ -1,0 +1,166 @@
+#include "cli/tradeoff/tradeoff_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "base/error.hpp"
+#include "cli/bench/bench_device.hpp"
+#include "cli/progress.hpp"
+#include "cli/tradeoff/tradeoff_views.hpp"
+#include "cli/version.hpp"
+#include "jobs/tradeoff/model_errors.hpp"
+#include "jobs/tradeoff/study.hpp"
+
+namespace tureen::cli {
+
+namespace {
+
+/// The defaults of an effort.
+struct Defaults {
+  std::string size;
+  DefaultViews views;
+  int rounds;
+  int combinations;
+  int samples;      // an axis
+  int photographs;  // 0: all
+};
+
+Defaults defaults_of(Effort effort) {
+  switch (effort) {
+    case Effort::quick:
+      return {"96x64", {.count = 2}, 1, 4, 2, 2};
+    case Effort::normal:
+      return {"480x270", {.count = 4}, 3, 48, 4, 8};
+    case Effort::full:
+      return {"1280x720", {.count = 8, .adversarial = true}, 5, 256, 8, 0};
+  }
+  return {};
+}
+
+BenchViewOptions view_options(const TradeoffOptions& options) {
+  BenchViewOptions views;
+  views.cameras = options.cameras;
+  if (std::count(views.cameras.begin(), views.cameras.end(), "dataset") > 0)
+    views.dataset = options.dataset.path;
+  views.sizes = {options.size.empty() ? defaults_of(options.effort).size : options.size};
+  return views;
+}
+
+/// The photographs to compare the model with; none without a dataset. Read before anything is
+/// measured: minutes of work must not end in a refusal.
+std::vector<Photograph> test_photographs(const TradeoffOptions& options, TradeoffReport& report) {
+  if (options.dataset.path.empty()) return {};
+  const int most =
+      options.photographs > 0 ? options.photographs : defaults_of(options.effort).photographs;
+  Dataset dataset = read(options.dataset, DatasetPart::test);
+  std::vector<Photograph> photographs =
+      tradeoff::spread_out(std::move(dataset.test), std::size_t(most));
+  if (photographs.empty())
+    throw InputError({options.dataset.path, {}, {}}, "the dataset has no test photographs");
+  for (std::string& note : described(dataset.remarks)) report.notes.push_back(std::move(note));
+  return photographs;
+}
+
+void measure_models(const TradeoffOptions& options, const Scene& scene,
+                    const std::vector<Photograph>& photographs, TradeoffReport& report) {
+  if (photographs.empty()) return;
+  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  report.model = {options.dataset.path, "test", int(photographs.size()), name(SsimBorder::valid)};
+  Progress progress("photographs");
+  tradeoff::ModelOptions model{.backend = options.backend,
+                               .background = scene.info.background,
+                               .with_flip = options.with_flip};
+  model.progress = [&](double fraction) { progress.update(0.8 * fraction); };
+  report.drawing_model =
+      tradeoff::model_errors(report.study.drawing, soup, scene.origin, photographs, model);
+  model.progress = [&](double fraction) { progress.update(0.8 + 0.2 * fraction); };
+  report.antialiasing_model =
+      tradeoff::model_errors(report.study.antialiasing, soup, scene.origin, photographs, model);
+}
+
+/// The part of the report that is known before measuring.
+TradeoffReport head_of(const TradeoffOptions& options, const Scene& scene) {
+  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  TradeoffReport report;
+  report.notes = all_notes(scene.info);
+  if (scene.quality != Quality{})
+    report.notes.push_back(
+        "measured with one sample a pixel instead of the scene's quality setting: " +
+        describe(scene.quality));
+  report.date = utc_now();
+  report.program = {program_version(), program_commit(), options.arguments};
+  report.scene = {scene.info.name, options.scene.path, soup.triangles.size(),
+                  appearance_name(soup.appearance)};
+  report.machine = this_machine();
+  report.with_flip = options.with_flip;
+  report.samples = options.samples == tradeoff::Samples::device ? "device" : "exact";
+  report.limits = options.limits;
+  return report;
+}
+
+tradeoff::Study study_of(const TradeoffOptions& options, const Scene& scene,
+                         TradeoffReport& report) {
+  const Defaults defaults = defaults_of(options.effort);
+  const auto& soup = std::get<TriangleSoup>(scene.primitives);
+  report.rounds = options.rounds > 0 ? options.rounds : defaults.rounds;
+  const TradeoffViews views =
+      tradeoff_views(view_options(options), defaults.views, scene, options.scene.path);
+  report.notes.insert(report.notes.end(), views.notes.begin(), views.notes.end());
+  report.camera_set = views.camera_set;
+  report.views = int(views.judges.size());
+  report.width = views.judges.front().width;
+  report.height = views.judges.front().height;
+
+  const gl::Context context = gl::Context::create({.backend = options.backend});
+  report.device = device_of(context);
+  const BenchClock clock = clock_for(report.device, options.processor_time);
+  report.clock = clock.text;
+  report.processor_time = options.processor_time;
+  tradeoff::StudyOptions study{.subpixel_bits = tradeoff::device_subpixel_bits()};
+  if (study.subpixel_bits != 8)
+    report.notes.push_back(fmt::format(
+        "this device, and the oracle at its sample points, round vertices to 1/{} pixel; E_render "
+        "differs on devices with the usual 1/256",
+        1 << study.subpixel_bits));
+  study.clock = clock.now;
+  study.background = scene.info.background;
+  study.samples = options.samples;
+  study.rounds = report.rounds;
+  study.factorial.max_configurations =
+      std::size_t(options.combinations >= 0 ? options.combinations : defaults.combinations);
+  study.max_samples = defaults.samples;
+  study.with_flip = options.with_flip;
+  std::optional<Progress> progress;
+  std::optional<tradeoff::StudyStage> stage;
+  study.progress = [&](tradeoff::StudyStage now, double fraction) {
+    if (now != stage) {
+      progress.reset();
+      progress.emplace(name_of(now));
+      stage = now;
+    }
+    progress->update(fraction);
+  };
+  tradeoff::Study found =
+      tradeoff::run_study({context, soup, scene.origin, views.judges, views.counting}, study);
+  progress.reset();
+  const tradeoff::Candidates left = tradeoff::candidates(found.drawing);
+  if (const auto cheapest = tradeoff::cheapest_within(left.points, report.limits))
+    found.choice = left.index[*cheapest];
+  return found;
+}
+
+}  // namespace
+
+void check(const TradeoffOptions& options) { check(view_options(options)); }
+
+TradeoffReport measure_tradeoff(const TradeoffOptions& options, const Scene& scene) {
+  TradeoffReport report = head_of(options, scene);
+  const std::vector<Photograph> photographs = test_photographs(options, report);
+  report.study = study_of(options, scene, report);
+  measure_models(options, scene, photographs, report);
+  return report;
+}
+
+}  // namespace tureen::cli

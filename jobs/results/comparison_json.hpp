@@ -1,0 +1,21 @@
+// A comparison of two benchmark results as JSON, and its sentences.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "jobs/bench/bench_comparison.hpp"
+#include "jobs/results/json_text.hpp"
+
+namespace tureen::results {
+
+/// The member `comparison` of docs/json.md; `against` is the file of the earlier result.
+Json to_json(const BenchComparison& comparison, const std::string& against);
+
+/// Why the two are not compared, and what differs besides the program.
+std::vector<std::string> circumstances(const BenchComparison& comparison);
+
+/// A line for each measurement that only one of the results has.
+std::vector<std::string> unmatched_lines(const BenchComparison& comparison);
+
+}  // namespace tureen::results

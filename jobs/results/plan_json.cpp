@@ -1,0 +1,31 @@
+#include "jobs/results/plan_json.hpp"
+
+#include "jobs/results/json_reading.hpp"
+
+namespace tureen::results {
+
+Json specialisations_json(std::span<const AppliedSpecialisation> specialisations) {
+  Json list = Json::array();
+  for (const AppliedSpecialisation& each : specialisations)
+    list.push_back({{"name", name_of(each.what)},
+                    {"count", each.count},
+                    {"total", each.total},
+                    {"margin", each.margin}});
+  return list;
+}
+
+std::vector<AppliedSpecialisation> specialisations_of(const JsonView& configuration) {
+  const auto applied = configuration.find("specialisations");
+  if (!applied) return {};
+  std::vector<AppliedSpecialisation> known;
+  list(*applied, [&](const JsonView& each) {
+    const auto count = [&](const char* key) { return std::size_t(integer(each[key])); };
+    // Names of other versions are left out: a result stays readable.
+    if (const auto what = specialisation_named(each["name"].text()))
+      known.push_back({*what, count("count"), count("total"), each["margin"].number()});
+    return 0;
+  });
+  return known;
+}
+
+}  // namespace tureen::results

@@ -1,0 +1,21 @@
+// The specialisations of a plan in JSON, beside the plan's English.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/json/json_view.hpp"
+#include "jobs/results/json_text.hpp"
+#include "runtime/plan/specialisation.hpp"
+
+namespace tureen::results {
+
+/// [{"name": "alpha-test", "count": 7, "total": 9, "margin": 0}, ..]: "margin" in steps of 8 bits,
+/// "count" of "total" faces, bands or neurons, or 0 of 0.
+Json specialisations_json(std::span<const AppliedSpecialisation> specialisations);
+
+/// The list back from the object that holds it as "specialisations"; empty where it has none, as in
+/// files of earlier versions. Throws InputError.
+std::vector<AppliedSpecialisation> specialisations_of(const JsonView& configuration);
+
+}  // namespace tureen::results

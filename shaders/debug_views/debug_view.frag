@@ -1,0 +1,57 @@
+// Colours the covered pixels of the visibility pass by a debug view. SHOWN is one of the SHOW_..
+// constants, DebugView in C++.
+#include "appearance.glsl"
+#include "face_corners.glsl"
+#include "heat_ramp.glsl"
+#include "debug_view_appearance.glsl"
+#include "stored_fragment.glsl"
+#include "triangle_color.glsl"
+#include "view_direction.glsl"
+
+uniform usampler2D visible;           // written by visibility.frag
+uniform usampler2DArray soup_faces;   // the soup's index of a slot
+uniform vec4 background;
+uniform vec2 depth_scale;             // ln(near), 1 / ln(far / near)
+uniform int first_feature, features_shown;
+
+layout(location = 0) out vec4 color;
+
+float feature(vec4 first, vec4 second, int index) {
+  return index < 4 ? first[index] : second[index - 4];
+}
+
+vec3 shown(uint face, vec2 b) {
+#if SHOWN == SHOW_DEPTH
+  vec3 ray = ray_through(gl_FragCoord.xy);
+  float z = depth_on(face, face_normal(face), ray);
+  return heat_ramp(1.0 - (log(z) - depth_scale.x) * depth_scale.y);
+#elif SHOWN == SHOW_NORMALS
+  vec3 normal = face_normal(face);
+  if (dot(normal, ray_through(gl_FragCoord.xy)) > 0.0) normal = -normal;
+  return 0.5 * normal + 0.5;
+#elif SHOWN == SHOW_TRIANGLE_ID
+  return triangle_color(texelFetch(soup_faces, texel_position(face), 0).r);
+#elif SHOWN == SHOW_TEXELS
+  return debug_view_texel(face, b);
+#elif SHOWN == SHOW_ALPHA
+  float alpha = debug_view_alpha(face, b);
+  float threshold = debug_view_threshold(face);
+  if (alpha >= threshold) return vec3(alpha);
+  // cut_out_color() of runtime/debug_views/debug_view.cpp.
+  return mix(vec3(0.22, 0.08, 0.36), vec3(0.78, 0.42, 0.70), max(alpha, 0.0) / threshold);
+#elif SHOWN == SHOW_MLP_WEIGHT || SHOWN == SHOW_FEATURES
+  vec4 first, second;
+  debug_view_features(face, b, first, second);
+  if (features_shown == 1) return vec3(feature(first, second, first_feature));
+  return vec3(feature(first, second, first_feature), feature(first, second, first_feature + 1),
+              features_shown > 2 ? feature(first, second, first_feature + 2) : 0.0);
+#else
+  return fragment_color(face, b, -normalize(ray_through(gl_FragCoord.xy))) * COLOR_SCALE;
+#endif
+}
+
+void main() {
+  uvec2 fragment = texelFetch(visible, ivec2(gl_FragCoord.xy), 0).xy;
+  color = fragment.x == NO_FACE ? background
+                                : vec4(shown(fragment.x, stored_barycentrics(fragment)), 1.0);
+}

@@ -1,0 +1,97 @@
+#include "trainer/diffsoup/training.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "scene/edit/lattice_bytes.hpp"
+#include "trainer/common/training_views.hpp"
+#include "trainer/diffsoup/held_out.hpp"
+#include "trainer/diffsoup/initialise.hpp"
+#include "trainer/diffsoup/near_zone.hpp"
+
+namespace tureen::trainer {
+
+namespace {
+
+TrainingState first_state(const Dataset& dataset, const Config& config, const Scene* mesh) {
+  TrainingState state;
+  state.model = initial_model(dataset, config, mesh);
+  state.moments.reset_faces(state.model);
+  return state;
+}
+
+std::vector<Camera> cameras_of(const std::vector<Photograph>& photographs) {
+  std::vector<Camera> cameras;
+  for (const Photograph& photograph : photographs) cameras.push_back(photograph.camera);
+  return cameras;
+}
+
+double opacity_binary_fraction(const Model& model) {
+  std::uint64_t binary = 0, texels = 0;
+  std::vector<float> values;
+  for (std::size_t face = 0; face < model.faces(); ++face) {
+    fine_texture(model, face, values);
+    for (std::size_t i = alpha_channel; i < values.size(); i += channels) {
+      binary += values[i] <= 0.05f || values[i] >= 0.95f;
+      ++texels;
+    }
+  }
+  return texels > 0 ? double(binary) / double(texels) : 1.0;
+}
+
+Scene scene_of(const std::string& name, const Dataset& dataset, const Config& config,
+               const TrainingState& state) {
+  Scene scene = to_scene(state.model);
+  round_to_bytes(std::get<LatticeTexture>(std::get<TriangleSoup>(scene.primitives).appearance));
+  scene.cameras = cameras_of(dataset.train);
+  scene.info.name = name;
+  scene.info.up = dataset.up;
+  scene.info.background = {config.background[0], config.background[1], config.background[2]};
+  scene.info.source = fmt::format("Tureen trainer, {} steps", state.step);
+  return scene;
+}
+
+bool shows_something(Backend& backend, std::span<const TrainingView> views) {
+  return std::any_of(views.begin(), views.end(), [&](const TrainingView& view) {
+    const std::vector<std::uint64_t> pixels = backend.visible_pixels({&view.camera, 1});
+    return std::any_of(pixels.begin(), pixels.end(), [](auto count) { return count > 0; });
+  });
+}
+
+}  // namespace
+
+TrainingResult train(Dataset& dataset, TrainingRequest request) {
+  const Config& config = request.config;
+  Checkpoint run{.config = config,
+                 .views = fingerprint(dataset.train),
+                 .seconds = request.checkpoint ? request.checkpoint->seconds : 0.0,
+                 .state = {}};
+  const Region region = region_of_interest(dataset);
+  const Config scaled = with_empty_near_zone(scaled_to(config, region.half_side), dataset, region);
+  run.state = request.checkpoint ? std::move(request.checkpoint->state)
+                                 : first_state(dataset, scaled, request.mesh);
+  const std::vector<TrainingView> views = take_training_views(dataset.train, scaled.background);
+  Trainer trainer(scaled, views, make_backend(views, scaled, request.device, request.threads),
+                  run.state);
+  TrainingResult result;
+  result.visible_at_start = shows_something(trainer.backend(), views);
+  if (request.begun) request.begun(trainer.backend(), result.visible_at_start);
+
+  request.session.test_views = dataset.test;
+  request.session.seconds_before = run.seconds;
+  TrainingSession session(trainer, std::move(request.session), std::move(run));
+  session.run();
+  result.seconds = session.seconds();
+  result.state = trainer.state();
+  result.opacity_binary_fraction = opacity_binary_fraction(result.state.model);
+  const Scene scene = scene_of(request.name, dataset, config, result.state);
+  if (request.finished) session.keep_if_it_fails([&] { request.finished(scene); });
+  result.test_psnr_db = mean_psnr_db(trainer.backend(), dataset.test, config, request.measuring);
+  if (request.evaluate) request.evaluate(scene);
+  return result;
+}
+
+}  // namespace tureen::trainer

@@ -1,0 +1,50 @@
+// A whole training run, from photographs to a scene, for any program.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "scene/photographs.hpp"
+#include "scene/scene.hpp"
+#include "trainer/diffsoup/checkpoint.hpp"
+#include "trainer/diffsoup/device.hpp"
+#include "trainer/diffsoup/session.hpp"
+
+namespace tureen::trainer {
+
+struct TrainingRequest {
+  Config config;
+  std::string name;                      // of the scene
+  const Scene* mesh = nullptr;           // initial triangles, for Initialisation::mesh
+  std::optional<Checkpoint> checkpoint;  // to continue from; same configuration and views
+  Device device = Device::automatic;
+  int threads = 0;         // 0: one per core
+  SessionOptions session;  // `test_views` and `seconds_before` are set by train()
+
+  // Each may be empty, and may throw to end the run.
+
+  /// Before the first step. `visible`: some training image shows a triangle.
+  std::function<void(const Backend&, bool visible)> begun = {};
+  /// Stores the finished scene. If it throws, a checkpoint is written first.
+  std::function<void(const Scene&)> finished = {};
+  /// Fraction done of drawing the test views with the trainer's own renderer.
+  std::function<void(double fraction)> measuring = {};
+  /// Judges the finished scene, for example with the runtime (jobs/eval).
+  std::function<void(const Scene&)> evaluate = {};
+};
+
+struct TrainingResult {
+  TrainingState state;
+  bool visible_at_start = false;
+  double seconds = 0;                  // all sessions of this run
+  double test_psnr_db = 0;             // drawn by the trainer
+  double opacity_binary_fraction = 0;  // fraction of texels with an alpha within 0.05 of 0 or 1
+};
+
+/// Trains on dataset.train, whose images are released, and tests on dataset.test. Throws
+/// OutputError if a file of `session` cannot be written, DeviceLimitError if the device lacks
+/// memory, and any error from a callback.
+TrainingResult train(Dataset& dataset, TrainingRequest request);
+
+}  // namespace tureen::trainer
