@@ -1,6 +1,5 @@
-// The report page: the data is in it as it was, whatever it holds, and what is no result is
-// refused.
-#include "jobs/results/report_page.hpp"
+// The report page contains its data unchanged, and rejects files that are not results.
+#include "cli/report_page.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,7 +25,7 @@ using test::ErrorIn;
 using ::testing::SizeIs;
 using tureen::test::TemporaryFolder;
 
-/// Ends a script element, opens a comment, and is no ASCII.
+/// Ends a script element, opens a comment, and has a non-ASCII character.
 const std::string hostile = "</script><!-- \xc3\xa9 \\ \" &lt;";
 
 json measurements() {
@@ -93,7 +92,7 @@ TEST_F(ReportPage, HoldsTheDataOfEveryKindAsItWas) {
       ASSERT_THAT(data, SizeIs(1)) << kind;
       EXPECT_EQ(data[0]["kind"], kind);
       EXPECT_EQ(data[0]["data"], document) << kind;
-      EXPECT_EQ(data[0]["folder"], "") << "beside the page";
+      EXPECT_EQ(data[0]["folder"], "") << "the file is beside the page";
     }
   }
 }
