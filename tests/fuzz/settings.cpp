@@ -1,4 +1,4 @@
-// What the window remembers between runs.
+// The settings that the window stores between runs.
 #include "viewer/files/settings.hpp"
 
 #include <cstdio>
