@@ -127,8 +127,8 @@ TEST(BenchTable, ShowsThePassesThatTheDeviceTimed) {
   const std::vector<std::string> lines = bench_table(result);
   EXPECT_THAT(lines, Contains(HasSubstr("visibility 0.123 ms, shading 7.89 ms")));
   result.measurements[0].passes_gap = PassTimesGap::partial;
-  result.measurements[0].passes_reason = "they miss something";
-  EXPECT_THAT(bench_table(result), Contains(MatchesRegex(" +they miss something")));
+  result.measurements[0].passes_reason = "one pass has no timer";
+  EXPECT_THAT(bench_table(result), Contains(MatchesRegex(" +one pass has no timer")));
   EXPECT_EQ(bench_table(result).size(), lines.size() + 1) << "once, beside its row";
 }
 

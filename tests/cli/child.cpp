@@ -39,7 +39,7 @@ Child::Child(const std::vector<std::string>& arguments, std::filesystem::path fo
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   pid_ = ::fork();
-  if (pid_ < 0) throw std::runtime_error("no process can be made");
+  if (pid_ < 0) throw std::runtime_error("cannot create a process");
   if (pid_ > 0) return;
   // From here on, only system calls are safe: the test may have other threads.
   if (::chdir(folder_.c_str()) != 0) ::_exit(126);

@@ -18,7 +18,7 @@ class Nobody {
   Nobody() : was_root_(::geteuid() == 0) {
     // The saved user stays root, so that the destructor can restore it.
     if (was_root_ && (::setreuid(nobody, 0) != 0 || ::seteuid(nobody) != 0))
-      throw std::runtime_error("root cannot be nobody");
+      throw std::runtime_error("cannot change the user from root");
   }
   Nobody(const Nobody&) = delete;
   Nobody& operator=(const Nobody&) = delete;

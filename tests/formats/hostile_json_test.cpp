@@ -213,7 +213,7 @@ TEST(HostileJson, X2_ListsOfWrongLengthsAreRefused) {
     ADD_FAILURE() << "no " << name;
     return std::string();
   };
-  std::vector<std::pair<std::string, std::string>> documents;  // a reader and what it reads
+  std::vector<std::pair<std::string, std::string>> documents;  // name and input of a reader
   const std::map<std::string, std::string> readers{{"cameras", "cameras"},
                                                    {"camera_path", "path"},
                                                    {"session", "session"},

@@ -170,7 +170,7 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
 template <class T>
 bool same_bits(const T& a, const T& b) {
   static_assert(std::is_trivially_copyable_v<T>);
-  // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): the bits are what is compared
+  // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): it compares bits on purpose
   return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 

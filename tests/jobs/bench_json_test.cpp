@@ -1,5 +1,5 @@
-// The file of `tureen bench`: written, read back, and refused when bad.
-#include "jobs/results/bench_json.hpp"
+// The file of `tureen bench`: written, read back, and rejected if invalid.
+#include "cli/bench_result.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

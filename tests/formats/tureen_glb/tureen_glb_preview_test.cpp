@@ -101,7 +101,7 @@ std::vector<test::GlbKind> mesh_kinds() {
            name != "vertex_bytes_shared";
   };
   kinds.erase(std::remove_if(kinds.begin(), kinds.end(), is_other), kinds.end());
-  if (kinds.size() != 3) throw std::logic_error("a kind of scene has another name");
+  if (kinds.size() != 3) throw std::logic_error("glb_kinds() lacks one of the three kinds");
   return kinds;
 }
 
