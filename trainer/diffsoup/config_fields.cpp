@@ -142,7 +142,7 @@ const ConfigField fields[] = {
     {"beta2", &Config::beta2, memory, {}, "Adam's decay rate for the mean squared gradient"},
     {"epsilon",
      &Config::epsilon,
-     {0, 1, Range::Ends::low_open, "Adam would divide by zero"},
+     {0, 1, Range::Ends::low_open, "it prevents a division by zero"},
      {},
      "Constant added to Adam's denominator"},
     {"dense_updates",

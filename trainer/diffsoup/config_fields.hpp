@@ -53,8 +53,8 @@ std::span<const ConfigField> config_fields();
 /// The names of the presets: "object", "scene".
 std::span<const char* const> preset_words();
 
-/// The first error of the configuration, for example "steps: 0 is out of range (from 1 to
-/// 10000000): a run needs at least one step"; nothing if it is valid.
+/// The first error of the configuration, for example "steps: 0 is out of range; allowed: from 1 to
+/// 10000000 (a run needs at least one step)"; nothing if it is valid.
 std::optional<std::string> defect(const Config& config);
 
 /// The value in the form of a --config file: 0.8, true, "random", [1, 1, 1].
