@@ -70,7 +70,7 @@ bool PageView::moving() { return controls().moving() || flight_.direction != glm
 
 bool PageView::focus(glm::dvec2 place, glm::dvec2 viewport) {
   if (!shows_scene()) return false;
-  // A small image would do, but this one's depth is what the person sees.
+  // A smaller image would suffice, but only this size has exactly the visible depth.
   Stage& stage = *current();
   const glm::ivec2 size(viewport);
   stage.renderer.draw(stage.controls.camera(size.x, size.y));
