@@ -1,4 +1,4 @@
-// What is shown instead of the final colours, and what its colours mean.
+// The debug view instead of the final colours, and its legend.
 
 import type { Viewer } from '../../viewer/types.js';
 import { block, fillSentences, input, make, select } from '../dom.js';
@@ -30,7 +30,7 @@ export class LookSection {
     this.shown();
   }
 
-  /** The next one that the scene has. */
+  /** Selects the next debug view that the scene supports. */
   next(): void {
     const there = (this.viewer.scene?.lookChoices ?? []).filter((choice) => choice.missing === null);
     if (there.length === 0) return;
