@@ -5,7 +5,8 @@ namespace tureen::cli {
 
 enum class ExitCode {
   done = 0,
-  check_failed = 1,  // the comparison is past its tolerance, lint found something under --strict
+  check_failed =
+      1,  // beyond --tolerance, slower than --fail-slower, or lint findings with --strict
   usage = 2,
   bad_input = 3,
   no_context = 4,
