@@ -217,8 +217,8 @@ Exit codes: 0 done, 2 wrong usage, 3 the scene cannot be read, 4 no OpenGL conte
   command
       .add_option(
           "-o,--output", options->output,
-          "image to write, out.png by default; with several views, %d is replaced by "
-          "their number; with --path or --turntable, .mp4 or .webm writes a video with ffmpeg")
+          "image to write, out.png by default; with several views, %d is the "
+          "index of the view; with --path or --turntable, .mp4 or .webm writes a video with ffmpeg")
       .value_name("OUT.png");
   add_view_options(command, options->views);
   command

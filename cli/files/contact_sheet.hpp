@@ -1,4 +1,4 @@
-// Many images small on one, to look at a whole orbit at once.
+// A contact sheet: thumbnails of several images in one image.
 #pragma once
 
 #include <span>
@@ -7,11 +7,11 @@
 
 namespace tureen::cli {
 
-/// Thumbnails no wider and no higher than `cell` pixels, left to right and top to bottom, in as
-/// many columns as make the sheet about square, on transparent ground with a margin.
+/// Thumbnails with sides of at most `cell` pixels, left to right and top to bottom, on a
+/// transparent background with margins. The number of columns makes the sheet about square.
 Image8 contact_sheet(std::span<const Image8> images, int cell = 320);
 
-/// The thumbnail of one image, so that not all need be kept at full size.
+/// The thumbnail of one image. A caller that keeps thumbnails needs no full images.
 Image8 thumbnail(const Image8& image, int cell = 320);
 
 }  // namespace tureen::cli
