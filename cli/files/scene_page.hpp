@@ -40,7 +40,7 @@ class ScenePageTemplate {
 
  private:
   std::string text_;
-  std::size_t element_ = 0;  // where it begins
+  std::size_t element_ = 0;  // offset of the scene element
 };
 
 /// Whether the file is a Tureen GLB. A page contains its bytes unchanged.
