@@ -367,11 +367,11 @@ constexpr char session_text[] = R"({ "tureen_session": 1, "window": [640, 480], 
   { "at": 0.2, "wheel": [0, -1] }, { "at": 0.3, "key": "A", "down": false },
   { "at": 0.4, "code_point": 228 }, { "at": 0.4, "drop": ["soup.glb"] },
   { "at": 0.5, "resize": [800, 600] }, { "at": 0.6, "focus": true }, { "at": 0.7, "await": true },
-  { "at": 0.8, "image": "end" }, { "at": 1, "close": true } ] })";
+  { "at": 0.8, "picture": "end" }, { "at": 1, "close": true } ] })";
 
 constexpr char settings_text[] =
     R"({ "window": [1280, 800], "vsync": true, "smooth_motion": false,
-  "recent": ["/scenes/soup.glb", "/scenes/\u00e4.ply"], "images": "/images" })";
+  "recent": ["/scenes/soup.glb", "/scenes/\u00e4.ply"], "pictures": "/images" })";
 
 // ---- Benchmarks
 

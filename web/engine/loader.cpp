@@ -33,16 +33,16 @@ Loader& loader() {
   return one;
 }
 
-Json looks_of(const TriangleSoup& soup) {
-  Json looks = Json::array();
+Json debug_views_of(const TriangleSoup& soup) {
+  Json list = Json::array();
   for (const DebugViewName& name : debug_view_names()) {
     const auto reason = why_not(name.what, soup);
-    looks.push_back({{"look", name.name},
+    list.push_back({{"name", name.name},
                      {"title", name.title},
                      {"meaning", name.meaning},
                      {"missing", reason ? Json(*reason) : Json()}});
   }
-  return looks;
+  return list;
 }
 
 /// The remarks without the program's options: a page has no options.
@@ -68,7 +68,7 @@ Json describe(const Scene& scene) {
           {"background", to_json(glm::dvec3(scene.info.background))},
           {"subject", to_json(subject)},
           {"up_reason", describe(up)},
-          {"looks", looks_of(soup)},
+          {"debug_views", debug_views_of(soup)},
           {"feature_count", feature_count(soup)}};
 }
 

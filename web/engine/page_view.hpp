@@ -38,7 +38,7 @@ class PageView {
   const Renderer& renderer() const { return current()->renderer; }
 
   /// Selects a debug view. Throws UsageError with the sentence of why_not().
-  void look(DebugView what, const FeatureChoice& features);
+  void show(DebugView what, const FeatureChoice& features);
   bool has_debug_view_renderer() const { return debug_renderer_.has_value(); }
   void set_debug_view_renderer(DebugViewRenderer debug_renderer);
   Legend legend() const;
@@ -78,13 +78,13 @@ class PageView {
   Stage make_stage(Renderer renderer, ShownScene scene) const;
   const Stage* current() const { return preview_ ? &*preview_ : stage_ ? &*stage_ : nullptr; }
   Stage* current() { return preview_ ? &*preview_ : stage_ ? &*stage_ : nullptr; }
-  bool looks_into() const { return look_ != DebugView::color && !preview_; }
+  bool shows_debug_view() const { return debug_view_ != DebugView::color && !preview_; }
   void draw_frame(const Camera& camera);
 
   gl::Context context_;
   std::optional<Stage> stage_, preview_;
   std::optional<DebugViewRenderer> debug_renderer_;  // for stage_
-  DebugView look_ = DebugView::color;
+  DebugView debug_view_ = DebugView::color;
   CameraControls idle_;
   std::optional<glm::ivec2> viewport_;
   Flight flight_;

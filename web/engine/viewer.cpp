@@ -224,12 +224,12 @@ Json open_debug_view_renderer(const Json& arguments) {
   return nullptr;
 }
 
-/// {"look", "first"?, "count"?}
-Json look(const Json& arguments) {
-  const auto name = arguments.at("look").get<std::string>();
+/// {"name", "first"?, "count"?}
+Json show(const Json& arguments) {
+  const auto name = arguments.at("name").get<std::string>();
   const auto what = debug_view_named(name);
   if (!what) throw UsageError("there is no debug view \"" + name + "\"");
-  view().look(*what, {.first = arguments.value("first", 0), .count = arguments.value("count", 3)});
+  view().show(*what, {.first = arguments.value("first", 0), .count = arguments.value("count", 3)});
   return nullptr;
 }
 
@@ -255,7 +255,7 @@ Commands viewer_commands() {
                    {"has_debug_view_renderer",
                     [](const Json&) { return Json(view().has_debug_view_renderer()); }},
                    {"open_debug_view_renderer", open_debug_view_renderer},
-                   {"look", look},
+                   {"show", show},
                    {"legend", legend}});
   return commands;
 }

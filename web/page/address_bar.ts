@@ -22,17 +22,17 @@ export class AddressBar {
     this.change(() => history.pushState(null, '', this.link(scene, null, null)));
   }
 
-  showView(pose: ViewPose, look: string): void {
-    const link = this.link(this.scene(), pose, look);
+  showView(pose: ViewPose, debugView: string): void {
+    const link = this.link(this.scene(), pose, debugView);
     if (link !== location.href) this.change(() => history.replaceState(null, '', link));
   }
 
   /** A link to this page with a scene and a camera. */
-  link(scene: string | null, pose: ViewPose | null, look: string | null): string {
+  link(scene: string | null, pose: ViewPose | null, debugView: string | null): string {
     const others = [...new URLSearchParams(location.search)].filter(([name]) => name !== 'scene');
     if (scene) others.push(['scene', scene]);
     const query = others.map(([name, value]) => queryText(name) + (value ? `=${queryText(value)}` : '')).join('&');
-    return location.href.replace(/[?#].*$/s, '') + (query ? `?${query}` : '') + writeFragment(pose, look);
+    return location.href.replace(/[?#].*$/s, '') + (query ? `?${query}` : '') + writeFragment(pose, debugView);
   }
 
   /** Calls `listener` after the user goes back or forward, or edits the address. */

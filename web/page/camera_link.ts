@@ -14,7 +14,7 @@ export type LinkedPose = Omit<ViewPose, 'up'> & { readonly up: Vec3 | null };
 export interface LinkedView {
   readonly pose: LinkedPose | null;
   /** The debug view; null for the final colours. */
-  readonly look: string | null;
+  readonly debugView: string | null;
   /** The error in the link's camera, as a sentence; null without an error or a camera. */
   readonly defect: string | null;
 }
@@ -25,7 +25,7 @@ function decimalsFor(pose: ViewPose): number {
   return distance > 0 ? Math.ceil(5 - Math.log10(distance)) : 6;
 }
 
-export function writeFragment(pose: ViewPose | null, look: string | null): string {
+export function writeFragment(pose: ViewPose | null, debugView: string | null): string {
   const parts: string[] = [];
   if (pose) {
     const decimals = decimalsFor(pose);
@@ -35,7 +35,7 @@ export function writeFragment(pose: ViewPose | null, look: string | null): strin
     const roll = plainNumber(pose.roll * degreesPerRadian, 3);
     if (roll !== '0') parts.push(`roll=${roll}`);
   }
-  if (look && look !== 'color') parts.push(`look=${encodeURIComponent(look)}`);
+  if (debugView && debugView !== 'color') parts.push(`look=${encodeURIComponent(debugView)}`);
   return parts.length ? '#' + parts.join('&') : '';
 }
 
@@ -47,10 +47,10 @@ function readVector(text: string | null): Vec3 | null {
 
 export function readFragment(fragment: string): LinkedView {
   const parts = new URLSearchParams(fragment.replace(/^#/, ''));
-  const look = parts.get('look') || null;
-  if (!parts.has('eye') && !parts.has('target')) return { pose: null, look, defect: null };
+  const debugView = parts.get('look') || null;
+  if (!parts.has('eye') && !parts.has('target')) return { pose: null, debugView, defect: null };
 
-  const without = (defect: string): LinkedView => ({ pose: null, look, defect });
+  const without = (defect: string): LinkedView => ({ pose: null, debugView, defect });
   const eye = readVector(parts.get('eye')), target = readVector(parts.get('target'));
   if (!eye || !target)
     return without('The link\'s camera needs eye and target, three numbers each: #eye=4,-6,3&target=0,0,0.');
@@ -61,5 +61,5 @@ export function readFragment(fragment: string): LinkedView {
   const fov = Number(parts.get('fov') ?? 40), roll = Number(parts.get('roll') ?? 0);
   if (!(fov > 0 && fov < 180)) return without('The link\'s fov is not an angle between 0 and 180 degrees.');
   if (!Number.isFinite(roll)) return without('The link\'s roll is not a number of degrees.');
-  return { pose: { eye, target, up, fov: fov / degreesPerRadian, roll: roll / degreesPerRadian }, look, defect: null };
+  return { pose: { eye, target, up, fov: fov / degreesPerRadian, roll: roll / degreesPerRadian }, debugView, defect: null };
 }

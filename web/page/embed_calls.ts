@@ -90,10 +90,10 @@ export function embedCalls(viewer: Viewer, loading: Loading, subscribe: (event: 
     ['setFov', ([fov]) => { viewer.fov = number(fov, 'fov'); }],
     ['setBackground', ([color]) => { viewer.background = vector(color, 'The colour'); }],
     ['setResolution', ([value]) => { viewer.resolution = resolution(value); }],
-    ['show', ([look, features]) => {
-      if (features === undefined) return viewer.show(text(look, 'look'));
+    ['show', ([name, features]) => {
+      if (features === undefined) return viewer.show(text(name, 'name'));
       const { first, count } = object(features);
-      return viewer.show(text(look, 'look'), { first: whole(first, 'first'), count: whole(count, 'count') });
+      return viewer.show(text(name, 'name'), { first: whole(first, 'first'), count: whole(count, 'count') });
     }],
     ['screenshot', ([size]) => {
       if (size === undefined) return viewer.screenshot();

@@ -1,6 +1,6 @@
 // The gallery: the models in models.json, next to the page. Addresses are relative to that file.
 //
-//   [{"name": "Tureen", "url": "soup.glb", "image": "soup.jpg", "triangles": 7000, "bytes": 2227760}]
+//   [{"name": "Tureen", "url": "soup.glb", "picture": "soup.jpg", "triangles": 7000, "bytes": 2227760}]
 
 import { block, make } from './dom.js';
 import { bytesText, trianglesText } from './numbers.js';
@@ -17,7 +17,7 @@ const count = (value: unknown) => (typeof value === 'number' && Number.isFinite(
 
 /** Null if the entry has no name or no address. */
 function readModel(entry: unknown): Model | null {
-  const { name, url, image, triangles, bytes } = (entry ?? {}) as Record<string, unknown>;
+  const { name, url, picture: image, triangles, bytes } = (entry ?? {}) as Record<string, unknown>;
   if (typeof name !== 'string' || typeof url !== 'string' || !url) return null;
   return {
     name, url, image: typeof image === 'string' ? image : null,

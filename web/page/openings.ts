@@ -15,7 +15,7 @@ export type Origin =
   /** The scene is part of the page. */
   | { readonly kind: 'page' };
 
-const noView: LinkedView = { pose: null, look: null, defect: null };
+const noView: LinkedView = { pose: null, debugView: null, defect: null };
 
 export class Openings {
   private origin_: Origin | null = null;
@@ -58,7 +58,7 @@ export class Openings {
     if (view.defect) this.messages.notice(view.defect);
     this.lookFrom(view);
     try {
-      if ((view.look ?? 'color') !== this.viewer.shownLook) await this.viewer.show(view.look ?? 'color');
+      if ((view.debugView ?? 'color') !== this.viewer.debugView) await this.viewer.show(view.debugView ?? 'color');
     } catch (error) {
       this.messages.thrown(error);
     }

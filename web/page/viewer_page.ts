@@ -15,7 +15,7 @@ import { Panel } from './panel.js';
 import { CamerasSection } from './sections/cameras.js';
 import { DrawingSection } from './sections/drawing.js';
 import { LinkSection } from './sections/link.js';
-import { LookSection } from './sections/look.js';
+import { DebugViewSection } from './sections/debug_view.js';
 import { ImageSection } from './sections/image.js';
 import { SavedSection } from './sections/saved.js';
 import { SceneSection } from './sections/scene.js';
@@ -101,16 +101,16 @@ function addControls(viewer: Viewer, messages: Messages, loading: Loading, openi
     // During another load, or after it failed, the address belongs to that scene.
     const origin = openings.origin;
     if (origin && bar.scene() === (origin.kind === 'address' ? origin.address : null))
-      bar.showView(viewer.getView(), viewer.shownLook);
+      bar.showView(viewer.getView(), viewer.debugView);
     link.update();
   };
-  const look = new LookSection(viewer, failed, follow);
+  const debugViews = new DebugViewSection(viewer, failed, follow);
   new TimesSection(viewer);
   viewer.on('view', follow);
-  viewer.on('context', () => look.update());
+  viewer.on('context', () => debugViews.update());
   openings.onOpened(() => {
     saved.follow(sceneKey());
-    look.update();
+    debugViews.update();
     follow();
   });
 
@@ -122,7 +122,7 @@ function addControls(viewer: Viewer, messages: Messages, loading: Loading, openi
     { key: '[', meaning: 'previous recorded camera', run: () => cameras.step(-1) },
     { key: ']', meaning: 'next recorded camera', run: () => cameras.step(1) },
     { key: 'k', meaning: 'save this view', run: () => saved.save() },
-    { key: 'v', meaning: 'next debug view', run: () => look.next() },
+    { key: 'v', meaning: 'next debug view', run: () => debugViews.next() },
     { key: 'p', meaning: 'save the image', run: () => void image.save() },
     { key: 'l', meaning: 'copy a link to this view', run: () => void link.copy() },
     { key: 'o', meaning: 'open a scene', run: () => start.toggle() },

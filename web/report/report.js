@@ -203,7 +203,7 @@ function showBench(entry) {
     table('Times of passes (device clock)', [['configuration', (r) => r.m.configuration], ['cameras', (r) => r.m.camera_set], ['size', (r) => r.m.size],
       ['pass', (r) => r.pass], ['time (ms)', (r) => r.ms, ms]], all.flatMap((m) => (m.passes_ms ?? []).map((pass) => ({ m, ...pass })))),
     list(firstOfEach(all.filter((m) => m.passes_gap !== 'one_pass' && m.passes_reason), (m) => m.passes_gap).map((m) => `Times of passes are incomplete or missing: ${m.passes_reason}`)),
-    images(all.filter((m) => m.image).map((m) => [imageAddress(entry, m.image), `${m.configuration}, ${place(m)}: last timed frame`]), 'small'),
+    images(all.filter((m) => m.picture).map((m) => [imageAddress(entry, m.picture), `${m.configuration}, ${place(m)}: last timed frame`]), 'small'),
     fold('Configurations', (data.configurations ?? []).map(({ name, options, plan, plan_ms, upload_ms, device_mib }) => [element('h3', {}, name),
       paragraph(`${options?.length ? `tureen render ${options.join(' ')}: ` : ''}plan ${ms(plan_ms)} ms, upload ${ms(upload_ms)} ms, ${fixed(1)(device_mib)} MiB on the device`), list(plan)]).flat()),
     provenance(data),

@@ -1,7 +1,7 @@
 // Messages between the page and the worker that loads a scene.
 
 import type { Parcel } from './engine.js';
-import type { LoadProgress, LookChoice, SceneFile, Vec3, ViewerError } from './types.js';
+import type { LoadProgress, DebugViewChoice, SceneFile, Vec3, ViewerError } from './types.js';
 
 export interface FilesToLoad {
   readonly files: readonly SceneFile[];
@@ -21,7 +21,7 @@ export interface SceneDescription {
   readonly background: Vec3;
   readonly subject: { readonly low: Vec3; readonly high: Vec3; readonly up: Vec3 };
   readonly up_reason: string;
-  readonly looks: readonly LookChoice[];
+  readonly debug_views: readonly DebugViewChoice[];
   readonly feature_count: number;
 }
 

@@ -17,7 +17,7 @@ export const lowerLevelSentence = (level: number) =>
 export const nothingDrawn = 'The scene cannot be drawn: it has no triangles with finite corners and an area.';
 
 export function sceneSummary({ description }: PreparedScene, facts: ShownFacts): SceneSummary {
-  const { name, source, notes, triangles, appearance, cameras, background, subject, looks } = description;
+  const { name, source, notes, triangles, appearance, cameras, background, subject, debug_views } = description;
   return {
     name, source, triangles, appearance, background,
     notes: [...notes, ...(facts.drawn ? [] : [nothingDrawn])],
@@ -25,7 +25,7 @@ export function sceneSummary({ description }: PreparedScene, facts: ShownFacts):
     cameras: cameras.map(({ name, width, height }) => ({ name, width, height })),
     up: subject.up,
     upReason: description.up_reason,
-    lookChoices: looks,
+    debugViews: debug_views,
     featureCount: description.feature_count,
     deviceBytes: facts.device_bytes,
   };

@@ -43,7 +43,7 @@ export interface SceneSummary {
   readonly up: Vec3;
   /** The reason for the choice of the up axis: a sentence. */
   readonly upReason: string;
-  readonly lookChoices: readonly LookChoice[];
+  readonly debugViews: readonly DebugViewChoice[];
   /** Number of features for the debug view "features"; 0 without features. */
   readonly featureCount: number;
   /** Size of its buffers and textures on the device, in bytes. */
@@ -51,9 +51,9 @@ export interface SceneSummary {
 }
 
 /** A debug view, or the final colours. */
-export interface LookChoice {
+export interface DebugViewChoice {
   /** "color", "depth", "normals", "triangle-id", .. */
-  readonly look: string;
+  readonly name: string;
   readonly title: string;
   /** A short description. */
   readonly meaning: string;
@@ -202,8 +202,8 @@ export interface Viewer {
    *  take time; a later call overrides an earlier one. `features`: the features that "features" draws as
    *  red, green and blue, `count` 1 to 3 from `first` below SceneSummary.featureCount. Rejects with
    *  ViewerError if the scene does not support the debug view. */
-  show(look: string, features?: { readonly first: number; readonly count: number }): Promise<void>;
-  readonly shownLook: string;
+  show(name: string, features?: { readonly first: number; readonly count: number }): Promise<void>;
+  readonly debugView: string;
   readonly legend: readonly LegendEntry[];
   /** A PNG of the current view, with the given size or the canvas's size, up to the device's largest image.
    *  Rejects with ViewerError. */

@@ -60,8 +60,8 @@ class CanvasViewer implements Viewer {
   private source: SceneSource | null = null;
   private shown: SceneSummary | null = null;
   private previewed = false;
-  private look_ = { look: 'color', features: { first: 0, count: 3 } };
-  private looksAsked = 0;
+  private debugView_ = { name: 'color', features: { first: 0, count: 3 } };
+  private debugViewsAsked = 0;
   private opening: { readonly source: SceneSource | null; readonly done: Promise<void> } | null = null;
   private navigation: NavigationMode = 'orbit';
   private background_: Vec3 = [0, 0, 0];
@@ -113,14 +113,14 @@ class CanvasViewer implements Viewer {
 
   /** Starts a new engine and loads the scene again: the old context and the old engine's memory are lost. */
   private async restore(): Promise<void> {
-    const view = this.shown ? this.getView() : null, source = this.source, look = this.look_;
+    const view = this.shown ? this.getView() : null, source = this.source, shown = this.debugView_;
     try {
       await (this.started = this.startEngine());
       if (this.ending.signal.aborted) return;
       if (source) {
         await this.load(source);
         if (view) this.setView(view);
-        if (look.look !== 'color') await this.show(look.look, look.features);
+        if (shown.name !== 'color') await this.show(shown.name, shown.features);
       }
     } catch (error) {
       // A load of another scene may have cancelled this one.
@@ -217,7 +217,7 @@ class CanvasViewer implements Viewer {
     }
     this.previewed = false;
     this.source = source;
-    this.look_ = { ...this.look_, look: 'color' };
+    this.debugView_ = { ...this.debugView_, name: 'color' };
     this.shown = sceneSummary(scene, facts);
     this.emit('scene', this.shown);
     if (facts.drawn === 0) this.emit('notice', nothingDrawn);
@@ -248,7 +248,7 @@ class CanvasViewer implements Viewer {
     if (!this.lost) this.engine.call('clear');
     this.previewed = false;
     this.source = this.shown = null;
-    this.look_ = { ...this.look_, look: 'color' };
+    this.debugView_ = { ...this.debugView_, name: 'color' };
     this.emit('scene', null);
     this.ask();
   }
@@ -326,12 +326,12 @@ class CanvasViewer implements Viewer {
   get resolution(): Resolution { return this.resolutionKeeper.resolution; }
   set resolution(resolution: Resolution) { this.resolutionKeeper.resolution = resolution; this.ask(); }
 
-  get shownLook(): string { return this.look_.look; }
+  get debugView(): string { return this.debugView_.name; }
   get legend(): readonly LegendEntry[] { return this.engine.call<LegendEntry[]>('legend'); }
 
-  async show(look: string, features = { first: 0, count: 3 }): Promise<void> {
-    const mine = ++this.looksAsked;
-    if (look !== 'color' && !this.engine.call<boolean>('has_debug_view_renderer')) {
+  async show(name: string, features = { first: 0, count: 3 }): Promise<void> {
+    const mine = ++this.debugViewsAsked;
+    if (name !== 'color' && !this.engine.call<boolean>('has_debug_view_renderer')) {
       if (!this.opening || this.opening.source !== this.source)
         this.opening = { source: this.source, done: this.openDebugViewRenderer() };
       const { opening } = this;
@@ -340,10 +340,10 @@ class CanvasViewer implements Viewer {
       } finally {
         if (this.opening === opening) this.opening = null;  // keep one for another scene that began later
       }
-      if (mine !== this.looksAsked) return;  // a later call overrides this one
+      if (mine !== this.debugViewsAsked) return;  // a later call overrides this one
     }
-    this.engine.call('look', { look, ...features });
-    this.look_ = { look, features };
+    this.engine.call('show', { name, ...features });
+    this.debugView_ = { name, features };
     this.drawFrame(performance.now());
   }
 

@@ -10,9 +10,9 @@ const sizes: readonly (readonly [string, number, number])[] = [
 ];
 
 /** A valid name for all file systems: the scene's name without its extension, and the debug view. */
-export function imageName(scene: string, look: string): string {
+export function imageName(scene: string, debugView: string): string {
   const stem = scene.replace(/\.[a-z0-9]{1,5}$/i, '').replace(/[^\p{L}\p{N}._-]+/gu, '-').replace(/^[-.]+|[-.]+$/g, '');
-  return `${stem || 'tureen'}${look === 'color' ? '' : `-${look}`}.png`;
+  return `${stem || 'tureen'}${debugView === 'color' ? '' : `-${debugView}`}.png`;
 }
 
 export class ImageSection {
@@ -31,7 +31,7 @@ export class ImageSection {
     const [width = 0, height = 0] = this.size.value.split('x').map(Number);
     try {
       const png = await (width > 0 ? viewer.screenshot({ width, height }) : viewer.screenshot());
-      const name = imageName(viewer.scene.name, viewer.shownLook);
+      const name = imageName(viewer.scene.name, viewer.debugView);
       const url = URL.createObjectURL(png);
       make('a', { href: url, download: name }).click();
       setTimeout(() => URL.revokeObjectURL(url), 60_000);  // some browsers start the download late

@@ -24,7 +24,7 @@ export class LinkSection {
     const { viewer, bar, openings } = this;
     const origin = openings.origin;
     const scene = origin?.kind === 'address' ? origin.address : null;
-    this.field.value = bar.link(scene, viewer.scene ? viewer.getView() : null, viewer.shownLook);
+    this.field.value = bar.link(scene, viewer.scene ? viewer.getView() : null, viewer.debugView);
     block('link-hint').textContent = this.hint();
   }
 
