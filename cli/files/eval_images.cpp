@@ -6,8 +6,8 @@
 #include "base/error.hpp"
 #include "base/existing_path.hpp"
 #include "base/output.hpp"
-#include "cli/files/contact_sheet.hpp"
 #include "cli/files/image_file.hpp"
+#include "image/contact_sheet.hpp"
 #include "image/heat_map.hpp"
 
 namespace tureen::cli {

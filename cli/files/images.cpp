@@ -10,9 +10,9 @@
 
 #include "base/error.hpp"
 #include "base/output.hpp"
-#include "cli/files/contact_sheet.hpp"
 #include "cli/files/image_file.hpp"
 #include "cli/progress.hpp"
+#include "image/contact_sheet.hpp"
 #include "image/png_rows.hpp"
 #include "image/video_file.hpp"
 

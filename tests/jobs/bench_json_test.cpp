@@ -1,6 +1,4 @@
 // The file of `tureen bench`: written, read back, and rejected if invalid.
-#include "cli/bench_result.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +6,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "cli/bench_result.hpp"
 #include "tests/support/errors.hpp"
 
 namespace tureen::results {

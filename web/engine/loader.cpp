@@ -38,9 +38,9 @@ Json debug_views_of(const TriangleSoup& soup) {
   for (const DebugViewName& name : debug_view_names()) {
     const auto reason = why_not(name.what, soup);
     list.push_back({{"name", name.name},
-                     {"title", name.title},
-                     {"meaning", name.meaning},
-                     {"missing", reason ? Json(*reason) : Json()}});
+                    {"title", name.title},
+                    {"meaning", name.meaning},
+                    {"missing", reason ? Json(*reason) : Json()}});
   }
   return list;
 }

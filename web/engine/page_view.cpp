@@ -64,7 +64,9 @@ void PageView::set_debug_view_renderer(DebugViewRenderer debug_renderer) {
   debug_renderer_->set_background(glm::vec4(background_, 1.0f));
 }
 
-Legend PageView::legend() const { return shows_debug_view() ? debug_renderer_->legend() : Legend{}; }
+Legend PageView::legend() const {
+  return shows_debug_view() ? debug_renderer_->legend() : Legend{};
+}
 
 bool PageView::moving() { return controls().moving() || flight_.direction != glm::dvec3(0.0); }
 

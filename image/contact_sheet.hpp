@@ -5,7 +5,7 @@
 
 #include "image/image.hpp"
 
-namespace tureen::cli {
+namespace tureen {
 
 /// Thumbnails with sides of at most `cell` pixels, left to right and top to bottom, on a
 /// transparent background with margins. The number of columns makes the sheet about square.
@@ -14,4 +14,4 @@ Image8 contact_sheet(std::span<const Image8> images, int cell = 320);
 /// The thumbnail of one image. A caller that keeps thumbnails needs no full images.
 Image8 thumbnail(const Image8& image, int cell = 320);
 
-}  // namespace tureen::cli
+}  // namespace tureen
